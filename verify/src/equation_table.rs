@@ -195,7 +195,7 @@ equations! {
     70 "thphinertial" "basis normal to the line of sight" ["observables::Observer::at"] []
     71 "hpluscross" "h_+ and h_x"
         ["observables::gravitational_wave::polarizations" "observables::gravitational_wave::wave_of_state" "observables::gravitational_wave::Polarizations"
-         "observables::gravitational_wave::strain_unit"] ["spectral_lines" "figure_waves" "figure_wave_spectra"]
+         "observables::gravitational_wave::strain_unit"] ["spectral_lines" "figure_waves" "figure_wave_spectra" "figure_line_atlas"]
     72 "ecc" "eccentricity" ["star::spheroid_shape::SpheroidShape"] []
     73 "" "interior potential of a uniform ellipsoid"
         ["star::ellipsoid::UniformEllipsoid" "star::potential_coefficients::PotentialCoefficients"] []

@@ -41,7 +41,7 @@ fn names(panel: &Panel, lines: &[SpectralLine], highest: f64) -> Vec<([f64; 2], 
     for line in lines.iter().filter(|line| line.amplitude > NAMED && line.frequency < highest) {
         let [x, y] = panel.at(line.frequency, line.amplitude);
         if names.iter().all(|([other, _], _)| (x - other).abs() > 8.4) {
-            names.push(([x, y], spectrum::name(line)));
+            names.push(([x, y], spectrum::name(&line.combination)));
         }
     }
     names
@@ -71,13 +71,13 @@ fn caption(subjects: &[&Subject], spectra: &[Vec<SpectralLine>], highest: f64) -
     let text = |part, words: &[_]| sentences("beam-alignment-spectra", part, words);
     let counts = subjects.iter().zip(spectra).map(|(subject, lines)| match &lines[..] {
         [] => format!("{} has no line", subject.name),
-        [only] => format!("the only line of {} is {}", subject.name, spectrum::name(only)),
+        [only] => format!("the only line of {} is {}", subject.name, spectrum::name(&only.combination)),
         [first, second, ..] => {
             format!(
                 "the strongest lines of {} are {} and {}",
                 subject.name,
-                spectrum::name(first),
-                spectrum::name(second)
+                spectrum::name(&first.combination),
+                spectrum::name(&second.combination)
             )
         }
     });

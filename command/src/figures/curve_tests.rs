@@ -160,7 +160,8 @@ fn assert_lines(figure: &Figure, frame: &Frame) -> usize {
 #[test]
 fn every_curve_of_every_figure_is_the_column_that_its_axes_and_legend_name() {
     let (mut count, mut spectra) = (0, 0);
-    for figure in FIGURES.iter().filter(|figure| !figure.name.ends_with("-regimes")) {
+    let has_own_test = |figure: &&Figure| figure.name.ends_with("-regimes") || figure.name == "line-atlas";
+    for figure in FIGURES.iter().filter(|figure| !has_own_test(figure)) {
         let elements = elements(&figure.svg);
         let (lines, marks) = legend(&elements);
         let mut drawn = BTreeSet::new();
@@ -243,4 +244,46 @@ fn every_curve_of_every_figure_is_the_column_that_its_axes_and_legend_name() {
         }
     }
     assert!(count > 110 && spectra > 150, "{count} curves, {spectra} lines");
+}
+
+/// Curves stand in the order of the columns, with their names to the right; what free precession lacks falls with `s`, the rest does not.
+#[test]
+fn the_atlas_of_lines_is_its_tables() {
+    let figure = FIGURES.iter().find(|figure| figure.name == "line-atlas").expect("a figure");
+    let elements = elements(&figure.svg);
+    let frames = frames(&elements);
+    assert_eq!((frames.len(), figure.tables.len()), (6, 9));
+    let (mut count, mut lacking) = (0, 0);
+    for (place, frame) in frames.iter().enumerate() {
+        let table = &figure.tables[3 * (place / 2) + place % 2];
+        let variable = [("s_max − s_min", "s_max - s_min [1]"), ("wobble [rad]", "wobble [rad]")];
+        assert_eq!(table.columns[0], entry(&variable, &frame.x.label));
+        let pieces: Vec<_> = frame.curves.iter().flat_map(|(_, pieces)| pieces).collect();
+        assert_eq!(pieces.len(), table.columns.len() - 1, "{}", table.name);
+        for (column, piece) in (1..).zip(pieces) {
+            let (name, _) = table.columns[column].split_once(" [").expect("a unit");
+            let found = table.rows.iter().filter(|row| row[column] > 0.0);
+            let rows: Vec<_> = found.map(|row| [frame.x.place(row[0]), frame.y.place(row[column])]).collect();
+            assert_same(&format!("{} {name}", table.name), &rows, std::slice::from_ref(piece), &frame.corners);
+            let symbols = [("nu'", "ν"), ("psi'", "ψ"), ("l'", "l"), (" - ", " − ")];
+            let drawn = symbols.iter().fold(name.to_owned(), |name, (plain, symbol)| name.replace(plain, symbol));
+            assert!(frame.remarks.contains(&drawn), "{}: no {drawn} in {:?}", table.name, frame.remarks);
+            count += 1;
+        }
+    }
+    for list in figure.tables.iter().skip(2).step_by(3) {
+        for row in &list.rows {
+            let [nutation, rotation, slow, kind, power] = row[..] else { panic!("{row:?}") };
+            // Free precession has no slow rate; the waves have no constant whose satellites those at multiples of it would be.
+            let expected = match kind {
+                2.0 if nutation == 0.0 && rotation == 0.0 => 2.0,
+                2.0 => 1.0,
+                _ => 0.0,
+            };
+            assert_eq!(kind == 0.0, kind < 2.0 && slow == 0.0, "{row:?}");
+            assert!((power - expected).abs() < 0.01, "{}: {row:?}", list.name);
+            lacking += usize::from(kind == 2.0);
+        }
+    }
+    assert!(count == 48 && lacking == 9, "{count} curves, {lacking} lines that free precession lacks");
 }

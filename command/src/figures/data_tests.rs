@@ -4,10 +4,12 @@ use std::f64::consts::{PI, TAU};
 
 use super::drawn::{elements, frames};
 use super::layout_tests::{FIGURES, made_up_runs, scenes};
+use super::line_atlas;
 use super::{Figure, OF_A_SCENE, RECIPES, Table};
 use crate::bench::work_precision::Row;
+use twofold_scene::columns::Column;
 use twofold_scene::scene_file::{Scene, Times};
-use twofold_scene::trajectory::{write_csv, write_pulses};
+use twofold_scene::trajectory::{LinesWanted, write_csv, write_lines, write_pulses};
 
 /// The figures of the paper's examples and of the scenes, each with the scene and its name in the tables.
 fn drawn() -> Vec<(String, Scene, Vec<&'static Figure>)> {
@@ -399,4 +401,48 @@ fn parts_of_the_time_in_captions_are_those_of_the_columns() {
         }
     }
     assert!(compared >= 4, "{compared}");
+}
+
+/// Where both columns of the atlas meet, its amplitudes are those of `spectrum` for the same star, which names the lines by other rates; and so is the strongest.
+#[test]
+fn the_atlas_has_the_lines_of_spectrum() {
+    let figure = FIGURES.iter().find(|figure| figure.name == "line-atlas").unwrap();
+    let problem = line_atlas::star(line_atlas::SCALE, line_atlas::WOBBLE).unwrap();
+    let (state, spheroid) = (problem.initial(), problem.spheroid());
+    let (angles, rates) = (state.angles().unwrap(), state.rates(spheroid).unwrap());
+    let s = problem.coefficients().diagonal();
+    let text = format!(
+        "star = {{ inertia_ratio = 1.1, spin = {:?} }}\nlorentz_violation.eigenvalues = [{:?}, {:?}, {:?}]\ninitial = {{ alpha = {:?}, beta = {:?}, \
+         gamma = {:?}, alpha_rate = {:?}, beta_rate = {:?} }}\nobserver = {{ theta_o = 0.8, phi_o = 0.0 }}\npulsar = {{ chi = 0.5, rho = 0.6 }}\n\
+         time = {{ span = 1.0, samples = 2 }}\n",
+        state.momentum.dot(&state.axis) / spheroid.inertia_zz,
+        s.x,
+        s.y,
+        s.z,
+        angles.alpha,
+        angles.beta,
+        angles.gamma,
+        rates.alpha,
+        rates.beta,
+    );
+    let scene = Scene::from_toml("atlas", &text).unwrap();
+    for (place, name) in ["m.n", "h_plus", "h_cross"].into_iter().enumerate() {
+        let table = &figure.tables[3 * place];
+        assert_eq!(table.name, format!("{name}-size"));
+        let here =
+            table.rows.iter().find(|row| (row[0] / 0.006 - 1.0).abs() < 1e-9).expect("the size of the other column");
+        let column = Column::oscillating(name, &scene).unwrap();
+        let wanted = LinesWanted { least: 1e-8, most: 10_000, in_turns: false };
+        let mut csv = Vec::new();
+        write_lines(&scene, &column, &wanted, &mut csv).unwrap();
+        let lines = Columns::of(csv);
+        let head = lines.0.iter().find(|head| head.starts_with("amplitude")).expect("amplitudes").clone();
+        let amplitudes = lines.column(&head);
+        for (amplitude, line) in here[1..].iter().zip(&table.columns[1..]) {
+            let off = amplitudes.iter().map(|known| (known / amplitude - 1.0).abs()).fold(f64::INFINITY, f64::min);
+            assert!(off < 1e-6, "{name}: no line of `spectrum` is as strong as {line}, {amplitude}");
+        }
+        let strongest = here[1..].iter().fold(0.0_f64, |most, x| most.max(*x));
+        assert!((amplitudes[0] / strongest - 1.0).abs() < 1e-9, "{name}: {} and {strongest}", amplitudes[0]);
+    }
 }

@@ -12,7 +12,7 @@ use twofold_verify::paper_examples::{COEFFICIENTS, PaperExample, SPIN, paper_exa
 
 pub(super) const OBSERVER: Viewer = Viewer { theta_o: 0.8, phi_o: 0.0, distance: None };
 
-const PULSAR: Pulsar = Pulsar { chi: 0.5, delta: 0.0, rho: 0.6, second_beam: false };
+pub(super) const PULSAR: Pulsar = Pulsar { chi: 0.5, delta: 0.0, rho: 0.6, second_beam: false };
 
 /// The paper's four examples, in its order.
 pub fn examples() -> Result<[Subject; 4], String> {

@@ -34,7 +34,7 @@ fn numbers(figure: &Figure, line: &str) -> Option<Vec<GoldenLine>> {
     // Errors of approximations to three digits, as in the tables of regimes; lines, which are fitted, to six.
     let digits = match figure.name.as_str() {
         "perturbation-regimes" | "method-regimes" => 3,
-        "beam-alignment-spectra" | "wave-spectra" => 6,
+        "beam-alignment-spectra" | "wave-spectra" | "line-atlas" => 6,
         _ => 9,
     };
     let mut words = line.split(' ').skip(1);

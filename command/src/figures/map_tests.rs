@@ -138,6 +138,7 @@ fn the_map_of_the_methods_is_its_tables() {
         ("near the separatrix", "near-separatrix"),
     ];
     let methods = [
+        ("exact motion", "torus: error of n [rad]"),
         ("averaged motion, order 2", "mean second: error of n [rad]"),
         ("averaged motion, order 1", "mean first: error of n [rad]"),
         ("perturbation, corrected", "corrected: error of n [rad]"),
@@ -197,11 +198,16 @@ fn the_map_of_the_methods_is_its_tables() {
                 lowest >= 2 && edge.iter().all(|p| points.contains(p)),
                 "{title} {name}: the area is not below its edge"
             );
+            // The exact motion meets every error: nothing is left white.
+            if name == "exact motion" {
+                assert!(edge.iter().all(|p| (p[1] - top).abs() < 0.02), "{title}: white above {edge:?}");
+                assert!(table.rows.iter().all(|row| row[column] < 1e-11), "{title}: the caption says less than 1e-11");
+            }
             shown.push(name.clone());
             areas += 1;
         }
         let columns = table.columns.iter().filter(|column| column.ends_with(": error of n [rad]")).count();
         assert_eq!(shown.len(), columns, "{title}: {shown:?}");
     }
-    assert_eq!((frames.len(), areas), (8, 28));
+    assert_eq!((frames.len(), areas), (8, 36));
 }

@@ -1,4 +1,4 @@
-//! Which approximate motion meets a given error, over strength of the torque and time.
+//! Which solution meets a given error, over strength of the torque and time.
 
 use super::drawing::*;
 use twofold_verify::checks::regimes::method_errors::{Errors, Geometry, errors};
@@ -14,22 +14,23 @@ const ASKED: [(f64, &str); 2] = [(1e-3, "10^{−3}"), (1e-6, "10^{−6}")];
 
 /// Methods from the last choice to the first, with their colours: viridis, so that they read in grey.
 const METHODS: [(&str, &str); 5] = [
-    ("numerical motion", "#ffffff"),
-    ("averaged motion, order 2", "#fde725"),
-    ("averaged motion, order 1", "#5ec962"),
-    ("perturbation, corrected", "#21918c"),
-    ("perturbation, printed", "#3b528b"),
+    ("exact motion", "#fde725"),
+    ("averaged motion, order 2", "#5ec962"),
+    ("averaged motion, order 1", "#21918c"),
+    ("perturbation, corrected", "#3b528b"),
+    ("perturbation, printed", "#440154"),
 ];
 
-/// Columns of the tables with the errors of these methods, in the same order.
+/// Columns of the tables with the errors of these methods but the first, in the same order; that of the first is the last.
 const COLUMNS: [&str; 4] = ["mean second", "mean first", "corrected", "printed"];
 
 pub(super) fn sheet() -> Result<Sheet, String> {
     let maps: Vec<Map> = Geometry::ALL.into_iter().map(map).collect::<Result<_, _>>()?;
     let svg = draw(&maps);
+    let counts = [("points", maps.iter().map(|map| map.table.rows.len()).sum()), ("motions", maps.len() * STRENGTHS.2)];
     Ok(Sheet {
         svg,
-        caption: Caption::of("method-regimes", &[]),
+        caption: Caption::of("method-regimes", &counts.map(written)),
         tables: maps.into_iter().map(|map| map.table).collect(),
     })
 }
@@ -62,17 +63,19 @@ fn map(geometry: Geometry) -> Result<Map, String> {
     let sample = rows[0].1[0];
     let present = [true, true, sample.corrected.is_some(), sample.printed.is_some()];
     let shown = (0..4).filter(|&i| present[i]);
-    let methods: Vec<_> = shown.clone().enumerate().map(|(column, i)| (i + 1, column + 2)).collect();
+    let mut methods: Vec<_> = shown.clone().enumerate().map(|(column, i)| (i + 1, column + 2)).collect();
     let mut columns = vec!["x [1]".to_owned(), "t [t_c]".to_owned()];
     columns.extend(shown.map(|i| format!("{}: error of n [rad]", COLUMNS[i])));
     columns.extend(["second", "first"].map(|order| format!("mean {order}: error of n; L/G or e_x [1]")));
+    methods.insert(0, (0, columns.len()));
+    columns.push("torus: error of n [rad]".to_owned());
     let mut table = Table::new(names(geometry).0, columns);
     for (strength, errors) in &rows {
-        for Errors { time, printed, corrected, averaged, averaged_state } in errors {
+        for Errors { time, printed, corrected, averaged, averaged_state, torus } in errors {
             let mut row = vec![*strength, *time, averaged[1], averaged[0]];
             row.extend(*corrected);
             row.extend(*printed);
-            row.extend([averaged_state[1], averaged_state[0]]);
+            row.extend([averaged_state[1], averaged_state[0], *torus]);
             table.push(row);
         }
     }
@@ -100,7 +103,7 @@ fn draw(maps: &[Map]) -> String {
         page.turned_text([PAGE - 14.0, middle], 90.0, Anchor::Middle, SMALL, BLACK, &format!("error {power} rad"));
     }
     legend(&mut page, bottom + 8.0);
-    page.finish("Which approximate motion meets a given error")
+    page.finish("Which solution meets a given error")
 }
 
 /// Where each method of the map meets the error, the first choice on top.
@@ -131,7 +134,7 @@ fn height(map: &Map, time: usize, column: usize, asked: f64) -> f64 {
 }
 
 fn legend(page: &mut Page, top: f64) {
-    let widths = [100.0, 109.0, 103.0, 103.0, 80.0];
+    let widths = [96.0, 105.0, 114.0, 114.0, 62.0];
     let mut left = 6.0;
     for ((name, colour), width) in METHODS.iter().rev().zip(widths) {
         let r = Rectangle { left, top, width: 12.0, height: 8.0 };

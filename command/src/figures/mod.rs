@@ -23,6 +23,7 @@ mod golden;
 #[cfg(test)]
 mod layout_tests;
 mod legend;
+mod line_atlas;
 #[cfg(test)]
 mod map_tests;
 mod markup;

@@ -3,8 +3,8 @@
 use std::sync::LazyLock;
 
 use super::{
-    Caption, Figure, Subject, Table, alignment, alignment_spectra, beam_cone, bound_factor, euler_angles, method_map,
-    momentum_sphere, motion, pulse_series, regime_map, wave_spectra, waves,
+    Caption, Figure, Subject, Table, alignment, alignment_spectra, beam_cone, bound_factor, euler_angles, line_atlas,
+    method_map, momentum_sphere, motion, pulse_series, regime_map, wave_spectra, waves,
 };
 
 type OfMotions = fn(&str, &[&Subject]) -> Result<Sheet, String>;
@@ -66,6 +66,7 @@ fn maker(name: &str, places: &'static [usize]) -> Maker {
         "beam-cone" => Maker::Alone(beam_cone::sheet),
         "bound-factor" => Maker::Alone(bound_factor::sheet),
         "perturbation-regimes" => Maker::Alone(regime_map::sheet),
+        "line-atlas" => Maker::Alone(line_atlas::sheet),
         "method-regimes" => Maker::Alone(method_map::sheet),
         "motion" | "motion-tp-1" => Maker::Motions(Needs::Nothing, &[0], motion::sheet),
         "motion-tp-2" => Maker::Motions(Needs::Nothing, &[1], motion::sheet),

@@ -1,7 +1,7 @@
 //! What the two figures of spectra share: the lines of an observable, their table and their names.
 
 use twofold::dynamics::BodyState;
-use twofold::observables::spectrum::SpectralLine;
+use twofold::observables::spectrum::{Combination, SpectralLine};
 
 use super::drawing::*;
 use super::number::significant;
@@ -33,8 +33,8 @@ pub(super) fn draw_lines(page: &mut Page, panel: &Panel, lines: &[SpectralLine],
 }
 
 /// The name of a line with markup: `*α* − *l*`.
-pub(super) fn name(line: &SpectralLine) -> String {
-    let mut name = line.combination.to_string().replace(" - ", " \u{2212} ");
+pub(super) fn name(combination: &Combination) -> String {
+    let mut name = combination.to_string().replace(" - ", " \u{2212} ");
     if let Some(rest) = name.strip_prefix('-') {
         name = format!("\u{2212}{rest}");
     }

@@ -165,7 +165,12 @@ fn findings(subject: &Subject, both: &Both) -> String {
     };
     let symbol = if std::ptr::eq(strongest, &both[0]) { "*h*_{+}" } else { "*h*_{×}" };
     let name = |line: &SpectralLine| {
-        format!("{}, at {} {}", spectrum::name(line), number(line.frequency), subject.scale.frequency_unit())
+        format!(
+            "{}, at {} {}",
+            spectrum::name(&line.combination),
+            number(line.frequency),
+            subject.scale.frequency_unit()
+        )
     };
     let multiple = |line: &SpectralLine, symbol: &str| line.combination.multiple(symbol).abs();
     let part = |line: &SpectralLine| significant(line.amplitude / first.amplitude, 2);

@@ -1,9 +1,10 @@
-//! Errors of the approximate motions against the numerical one, by strength of the torque and by time.
+//! Errors of the closed motions against the numerical one, by strength of the torque and by time.
 
 use super::perturbation_error::{Case, axis_at};
 use crate::prelude::*;
+use twofold::propagation::TorusMotion;
 
-/// Tolerance of the numerical motion.
+/// Tolerance of the numerical motion and of the series on the torus.
 const TOLERANCE: f64 = 1e-13;
 
 /// `s_max - s_min` of the examples.
@@ -81,6 +82,8 @@ pub struct Errors {
     pub averaged: [f64; 2],
     /// And the largest distance of `n`, `L / |L|` or `e_x`.
     pub averaged_state: [f64; 2],
+    /// By the series on the torus: of the axis.
+    pub torus: f64,
 }
 
 /// Errors up to given times, for the examples' `s` scaled so that the strength of the torque, `C (s_max - s_min) I^xx / L.L`, is the given one.
@@ -101,17 +104,19 @@ pub fn errors(geometry: Geometry, strength: f64, times: &[f64]) -> Result<Vec<Er
     let averaged = [AveragingOrder::First, AveragingOrder::Second].map(|order| AveragedSolution::new(&problem, order));
     let [first, second] = averaged;
     let averaged = [first?, second?];
+    let torus = TorusMotion::new(&problem, span, TOLERANCE)?;
     // Each perturbation solution against the motion from its own initial values.
     let mut solutions = Vec::new();
     for case in geometry.cases(k).into_iter().flatten() {
         solutions.push((case.solution()?, case.problem()?.taylor(span, TOLERANCE)?, 0.0));
     }
     let (mut rows, mut from) = (Vec::new(), 0.0);
-    let (mut axis_errors, mut state_errors) = ([0.0; 2], [0.0; 2]);
+    let (mut axis_errors, mut state_errors, mut torus_error) = ([0.0; 2], [0.0; 2], 0.0);
     for &time in times {
         for sample in 1..=SAMPLES {
             let t = (from + (time - from) * f64::from(sample) / f64::from(SAMPLES)).min(span.1);
             let state = exact.state(t)?;
+            torus_error = largest([torus_error, (torus.state(t)?.axis - state.axis).norm()]);
             for (i, solution) in averaged.iter().enumerate() {
                 let BodyState { axis, momentum, equatorial_axis } = solution.state(t);
                 let off = (axis - state.axis).norm();
@@ -131,6 +136,7 @@ pub fn errors(geometry: Geometry, strength: f64, times: &[f64]) -> Result<Vec<Er
             corrected: of(1),
             averaged: axis_errors,
             averaged_state: state_errors,
+            torus: torus_error,
         });
         from = time;
     }

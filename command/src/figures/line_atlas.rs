@@ -1,0 +1,255 @@
+//! Amplitudes of the lines of `m.n`, `h_+` and `h_x` by their combinations, against the size of `s` and against the wobble.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Vector3;
+use twofold::dynamics::{AxisState, BodyState, Problem};
+use twofold::observables::gravitational_wave::wave_of_state;
+use twofold::observables::spectrum::{Combination, QuasiPeriodicMotion};
+
+use super::drawing::*;
+use super::examples::{OBSERVER, PULSAR};
+use super::spectrum;
+use twofold_verify::paper_examples::{COEFFICIENTS, spheroid};
+
+/// `|L|`, and its angles to Z and from X.
+const MOMENTUM: f64 = 1.5;
+const TILT: f64 = 0.5;
+const AZIMUTH: f64 = 0.3;
+
+/// Scale of the examples' `s`, and angle between `n` and `L` at the start: each is that of the column where the other is varied.
+pub(super) const SCALE: f64 = 0.1;
+pub(super) const WOBBLE: f64 = 0.5;
+
+/// Powers of ten of the scale and of the wobble (rad), and how many.
+const SCALES: (f64, f64, usize) = (-6.0, 0.0, 25);
+const WOBBLES: (f64, f64, usize) = (-2.5, 0.08, 44);
+
+/// `s_max - s_min` of the examples.
+const SPREAD: f64 = COEFFICIENTS.xx - COEFFICIENTS.zz;
+
+/// Lines weaker than this, relative to the strongest, are not looked for.
+const WEAKEST: f64 = 1e-11;
+
+/// Lines of free precession, those that differ from them or from its constant by multiples of the slow rate, and all others: how they are drawn, what
+/// they are called, their room in the legend, and how many are drawn of an observable at most.
+const KINDS: [(Line, &str, f64, usize); 3] = [
+    (solid(BLACK, 1.3), "free precession has it", 130.0, 4),
+    (dashed(BLUE, 1.1), "satellite of such a line or of the constant", 200.0, 3),
+    (dash_dotted(VERMILION, 1.1), "free precession lacks it", 100.0, 3),
+];
+
+/// Observables: their names in tables and on axes.
+const OBSERVABLES: [(&str, &str); 3] =
+    [("m.n", "**m** · **n**"), ("h_plus", "*h*_{+} *r* / *I*^{*xx*}"), ("h_cross", "*h*_{×} *r* / *I*^{*xx*}")];
+
+/// Amplitudes that are shown.
+const SHOWN: (f64, f64) = (1e-10, 2.0);
+
+/// The power of `s` is measured above this amplitude, a hundred times what is wrong with the weakest.
+const MEASURED: f64 = 1e-10;
+
+/// How often the nutation, the rotation about the symmetry axis and the slow precession are in a line.
+type Multiples = [i32; 3];
+
+/// The lines of an observable, with their amplitudes; the constant is the line of no angle.
+type Amplitudes = BTreeMap<Multiples, f64>;
+
+pub(super) fn sheet() -> Result<Sheet, String> {
+    let powers = |(low, high, count): (f64, f64, usize)| {
+        (0..count).map(move |i| 10f64.powf(low + (high - low) * i as f64 / (count - 1) as f64))
+    };
+    let of_sizes = powers(SCALES).map(|scale| Ok((scale * SPREAD, amplitudes(scale, WOBBLE)?)));
+    let of_wobbles = powers(WOBBLES).map(|wobble| Ok((wobble, amplitudes(SCALE, wobble)?)));
+    let sweeps = [of_sizes.collect::<Result<Vec<_>, String>>()?, of_wobbles.collect::<Result<Vec<_>, String>>()?];
+    let (free, here) = (amplitudes(0.0, WOBBLE)?, amplitudes(SCALE, WOBBLE)?);
+    let (mut tables, mut chosen) = (Vec::new(), Vec::new());
+    for (i, (name, _)) in OBSERVABLES.iter().enumerate() {
+        let lines = strongest(&here[i], &free[i]);
+        let variables = [("size", "s_max - s_min [1]"), ("wobble", "wobble [rad]")];
+        for ((variable, head), sweep) in variables.into_iter().zip(&sweeps) {
+            let unit = if i == 0 { "1" } else { "G I^xx / (c^4 t_c^2 r)" };
+            let columns = lines.iter().map(|(line, _)| format!("{} [{unit}]", combination(line)));
+            let mut table = Table::new(format!("{name}-{variable}"), [head.to_owned()].into_iter().chain(columns));
+            for (value, all) in sweep {
+                // A line below the weakest that is looked for is none.
+                let amplitude = |(line, _): &(Multiples, usize)| all[i].get(line).copied().unwrap_or(0.0);
+                table.push([*value].into_iter().chain(lines.iter().map(amplitude)).collect::<Vec<_>>());
+            }
+            tables.push(table);
+        }
+        tables.push(list(name, &lines, &tables[3 * i]));
+        chosen.push(lines);
+    }
+    Ok(Sheet { svg: draw(&chosen, &tables), caption: caption(&chosen, &tables), tables })
+}
+
+/// The lines by their multiples, with their kinds and the power of `s` that they fall as.
+fn list(name: &str, lines: &[(Multiples, usize)], of_size: &Table) -> Table {
+    let columns = ["multiple of nu' [1]", "multiple of psi' [1]", "multiple of l' [1]", "kind [1]", "power of s [1]"];
+    let mut table = Table::new(format!("{name}-lines"), columns);
+    for (k, (line, kind)) in lines.iter().enumerate() {
+        // Over a decade.
+        let found: Vec<_> = of_size.points(0, k + 1).into_iter().filter(|(_, size)| *size > MEASURED).collect();
+        let [(from, weak), (to, strong)] = [found[0], found[4]];
+        let power = (strong / weak).ln() / (to / from).ln();
+        table.push(line.map(f64::from).into_iter().chain([*kind as f64, power]).collect::<Vec<_>>());
+    }
+    table
+}
+
+/// The star of the examples with `s` scaled, `n` at the angle `wobble` from `L`, beside the plane of `L` and Z.
+pub(super) fn star(scale: f64, wobble: f64) -> Result<Problem<f64>, twofold::Error> {
+    let l = Vector3::new(TILT.sin() * AZIMUTH.cos(), TILT.sin() * AZIMUTH.sin(), TILT.cos());
+    let across = Vector3::z().cross(&l).normalize();
+    let axis = l * wobble.cos() + across * wobble.sin();
+    let equatorial_axis = across * wobble.cos() - l * wobble.sin();
+    let start = BodyState { axis, momentum: l * MOMENTUM, equatorial_axis };
+    Problem::new(spheroid(), COEFFICIENTS.scaled(scale).tensor(), start)
+}
+
+/// The lines of all observables.
+fn amplitudes(scale: f64, wobble: f64) -> Result<[Amplitudes; 3], String> {
+    let problem = star(scale, wobble)?;
+    let motion = QuasiPeriodicMotion::new(&problem)?;
+    let (observer, beam) = (OBSERVER.basis(), PULSAR.beam());
+    let wave = |state: &BodyState<f64>| {
+        wave_of_state(problem.spheroid(), problem.coefficients(), &AxisState::from(state), &observer)
+    };
+    let lines = |function: &dyn Fn(&BodyState<f64>) -> f64| {
+        let list = motion.lines(WEAKEST, |state| Ok::<_, twofold::Error>([function(state), 1.0]))?;
+        let named = list.lines.iter().map(|line| (multiples(&motion, &line.combination), line.amplitude));
+        let constant = Some(([0; 3], list.constant.abs())).filter(|(_, size)| *size > list.least);
+        Ok::<_, twofold::Error>(named.chain(constant).collect::<Amplitudes>())
+    };
+    Ok([
+        lines(&|state| beam.direction(state).dot(&observer.direction))?,
+        lines(&|state| wave(state).plus)?,
+        lines(&|state| wave(state).cross)?,
+    ])
+}
+
+/// A line by nutation, rotation about the symmetry axis and slow precession, which name it whatever the Euler angles do; the first that is not zero is above it.
+fn multiples(motion: &QuasiPeriodicMotion, combination: &Combination) -> Multiples {
+    let frequencies = motion.frequencies();
+    let mut left = [0; 3];
+    let mut add = |k: i32, turns: [i32; 3]| (0..3).for_each(|i| left[i] += k * turns[i]);
+    frequencies.basis.iter().for_each(|of| add(combination.multiple(of.symbol), of.turns));
+    // psi' alone goes with the third angle of the torus, and of the others nu' alone with the first.
+    let mut found = [0; 3];
+    for (place, symbol, angle) in [(1, "psi'", 2), (0, "nu'", 0), (2, "l'", 1)] {
+        let of = frequencies.all.iter().find(|of| of.symbol == symbol);
+        if let Some(turns) = of.map(|of| of.turns) {
+            let k = left[angle] * turns[angle];
+            found[place] = k;
+            (0..3).for_each(|i| left[i] -= k * turns[i]);
+        }
+    }
+    let sign = found.iter().find(|k| **k != 0).map_or(1, |k| k.signum());
+    found.map(|k| k * sign)
+}
+
+/// Place in [`KINDS`].
+fn kind([nutation, rotation, slow]: &Multiples, free: &Amplitudes) -> usize {
+    match free.contains_key(&[*nutation, *rotation, 0]) {
+        true => usize::from(*slow != 0),
+        false => 2,
+    }
+}
+
+/// The strongest lines of each kind, with their kinds; of those that differ by the slow rate alone the strongest.
+fn strongest(all: &Amplitudes, free: &Amplitudes) -> Vec<(Multiples, usize)> {
+    let mut lines: Vec<_> = all.iter().filter(|(line, _)| **line != [0; 3]).collect();
+    lines.sort_by(|a, b| b.1.total_cmp(a.1));
+    let mut chosen: Vec<(Multiples, usize)> = Vec::new();
+    for (wanted, (.., most)) in KINDS.iter().enumerate() {
+        let mut of_kind: Vec<Multiples> = Vec::new();
+        for (line, _) in lines.iter().filter(|(line, _)| kind(line, free) == wanted) {
+            if of_kind.len() < *most && of_kind.iter().all(|other| other[..2] != line[..2]) {
+                of_kind.push(**line);
+            }
+        }
+        chosen.extend(of_kind.into_iter().map(|line| (line, wanted)));
+    }
+    chosen
+}
+
+fn combination([nutation, rotation, slow]: &Multiples) -> Combination {
+    Combination { terms: vec![(*nutation, "nu'"), (*rotation, "psi'"), (*slow, "l'")] }
+}
+
+fn draw(chosen: &[Vec<(Multiples, usize)>], tables: &[Table]) -> String {
+    let (names, between) = (54.0, 42.0);
+    let width = (PAGE - LEFT - 2.0 * names - between) / 2.0;
+    let grid = Grid { left: LEFT, top: 18.0, width, height: 112.0, between: [names + between, 20.0] };
+    let bottom = grid.bottom(chosen.len()) + BELOW;
+    let mut page = Page::new("line-atlas", PAGE, bottom + 14.0);
+    let x = [
+        (Axis::logarithmic("*s*_{max} − *s*_{min}", SPREAD * 10f64.powf(SCALES.0), SPREAD), SPREAD * SCALE),
+        (Axis::logarithmic("wobble [rad]", 10f64.powf(WOBBLES.0), 10f64.powf(WOBBLES.1)), WOBBLE),
+    ];
+    for (i, (lines, (_, label))) in chosen.iter().zip(OBSERVABLES).enumerate() {
+        for (column, (x, other)) in x.iter().enumerate() {
+            let y = Axis::logarithmic(&format!("amplitude of {label}"), SHOWN.0, SHOWN.1);
+            let x = if i + 1 < chosen.len() { x.bare() } else { x.clone() };
+            let panel = Panel::new(grid.frame(column, i), x, if column == 0 { y } else { y.unnamed() });
+            let table = &tables[3 * i + column];
+            panel.upright(&mut page, *other, dotted(GREY, 0.8));
+            let mut ends = Vec::new();
+            for (k, (line, kind)) in lines.iter().enumerate() {
+                let points: Vec<_> = table.points(0, k + 1).into_iter().filter(|(_, size)| *size > 0.0).collect();
+                panel.curve(&mut page, &points, KINDS[*kind].0);
+                if let Some(&(at, last)) = points.last() {
+                    let name = spectrum::name(&combination(line));
+                    ends.push((panel.at(at, last), name, KINDS[*kind].0.colour));
+                }
+            }
+            panel.draw_frame(&mut page);
+            panel.letter(&mut page, 2 * i + column, 6, "");
+            name_ends(&mut page, panel.frame, ends);
+        }
+    }
+    let samples: Vec<_> = KINDS.iter().map(|(line, name, width, _)| (Sample::Line(*line), *name, *width)).collect();
+    legend_row(&mut page, [LEFT, bottom + 8.0], &samples);
+    page.finish("Amplitudes of spectral lines against the size of s and the wobble")
+}
+
+/// Names to the right of a frame, as near to the ends of their curves as there is room.
+fn name_ends(page: &mut Page, frame: Rectangle, mut ends: Vec<(At, String, &'static str)>) {
+    const APART: f64 = 9.6;
+    ends.sort_by(|a, b| a.0[1].total_cmp(&b.0[1]));
+    // Downwards from the top; what then is below the frame goes up again.
+    let mut heights: Vec<f64> = ends.iter().map(|(at, ..)| at[1]).collect();
+    for k in 1..heights.len() {
+        heights[k] = heights[k].max(heights[k - 1] + APART);
+    }
+    let mut most = frame.bottom();
+    for height in heights.iter_mut().rev() {
+        *height = height.min(most);
+        most = *height - APART;
+    }
+    for (([x, y], name, colour), height) in ends.into_iter().zip(heights) {
+        page.path(&[[x + 1.0, y], [x + 8.0, height]], solid(GREY, 0.5));
+        page.text([x + 10.0, height + 0.35 * SMALL], Anchor::Start, SMALL, colour, &name);
+    }
+}
+
+fn caption(chosen: &[Vec<(Multiples, usize)>], tables: &[Table]) -> Caption {
+    let of_observable = |(i, lines): (usize, &Vec<(Multiples, usize)>)| {
+        let lacking = lines.iter().zip(&tables[3 * i + 2].rows).filter(|((_, kind), _)| *kind == KINDS.len() - 1);
+        let power = |((line, _), row): (&(Multiples, usize), &Vec<f64>)| {
+            format!("{} {:.2}", spectrum::name(&combination(line)), row[4])
+        };
+        let name = OBSERVABLES[i].1.split(" *r*").next().unwrap_or_default();
+        format!("of {name} {}", lacking.map(power).collect::<Vec<_>>().join(", "))
+    };
+    let powers = chosen.iter().enumerate().map(of_observable).collect::<Vec<_>>().join("; ");
+    let numbers =
+        [("momentum", MOMENTUM), ("tilt", TILT), ("azimuth", AZIMUTH), ("size", SCALE * SPREAD), ("wobble", WOBBLE)];
+    let [chi, delta] = [PULSAR.chi, PULSAR.delta];
+    let sight =
+        format!("*θ*_{{o}} = {}, *φ*_{{o}} = {}, *χ* = {chi}, *δ* = {delta}.", OBSERVER.theta_o, OBSERVER.phi_o);
+    let words = [("powers", powers), ("sight", sight), ("motions", (SCALES.2 + WOBBLES.2 + 2).to_string())];
+    let numbers = numbers.map(|(name, value)| (name, significant(value, 3)));
+    Caption::of("line-atlas", &[&words[..], &numbers].concat())
+}
