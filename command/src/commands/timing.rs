@@ -1,6 +1,7 @@
 //! `twofold timing`.
 
 use clap::Args;
+use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
 use twofold::epoch::{DAY, Epoch};
@@ -28,9 +29,9 @@ pub(crate) struct TimingArgs {
     #[arg(long, value_name = "NUMBER")]
     pub(crate) epochs: Option<usize>,
     /// Fit F1 beside F0: what a spin-down absorbs is no signature
-    #[arg(long)]
+    #[arg(long, conflicts_with = "f2")]
     pub(crate) f1: bool,
-    /// Fit F1 and F2
+    /// Fit F1 and F2, as is done for a scene with [spin_down] unless --f1 says otherwise
     #[arg(long)]
     pub(crate) f2: bool,
     /// Add to the table what the residuals are made of: geometry, torque, Lorentz violation, and the rate of the frequency
@@ -73,7 +74,11 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
     let file = |ending: &str| format!("{name}.{ending}");
     let endings = ["csv", "par", "tim", "h_plus.txt", "h_cross.txt"];
     let folder = OutputFolder::at(&args.out, args.force, |found| endings.iter().any(|ending| found == file(ending)))?;
-    let derivatives = if args.f2 { 2 } else { usize::from(args.f1) };
+    let derivatives = match (args.f1, args.f2 || scene.spin_down.is_some()) {
+        (true, _) => 1,
+        (false, true) => 2,
+        (false, false) => 0,
+    };
     let timing = pulsar.timed(&epochs, derivatives).map_err(|error| match error {
         TimingError::NoPulse(why) => refused(why),
         TimingError::Motion(error) => error.into(),
@@ -109,6 +114,7 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
          rounding of the initial angular momentum, linear in time and taken up by F0",
         pulsar.arrival_error(farthest)
     ));
+    note_periods(&pulsar, &epochs);
     tell(&format!("{}: {} arrival times, {files} files\n{}", args.out.display(), timing.pulses.len(), summary(&timing)))
 }
 
@@ -126,6 +132,25 @@ fn summary(timing: &Timing) -> String {
         first.pulse.number,
         first.arrival,
     )
+}
+
+/// The periods of both precessions, and a warning where the epochs are too rare to show that of the body.
+fn note_periods(pulsar: &PulsarScene, epochs: &[Epoch]) {
+    let [_, of_momentum, of_body] = pulsar.clock.motion().rates().map(|rate| TAU / rate.abs() / DAY);
+    let days = |period: f64| if period.is_finite() { format!("{period:.6e} d") } else { "none".to_owned() };
+    note(&format!(
+        "precession of the body about its axis: {}; of its angular momentum: {}",
+        days(of_body),
+        days(of_momentum)
+    ));
+    let mut times: Vec<_> = epochs.iter().map(|at| at.seconds_since(&pulsar.epoch)[0]).collect();
+    times.sort_by(f64::total_cmp);
+    let apart = (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64 / DAY;
+    if apart > 0.5 * of_body {
+        note(&format!(
+            "epochs are {apart:.3e} d apart, more than half the precession of the body: what goes with that shows as another period or as scatter"
+        ));
+    }
 }
 
 fn note_dark(timing: &Timing, asked: usize) {

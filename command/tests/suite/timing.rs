@@ -40,9 +40,14 @@ fn every_built_in_pulsar_is_timed_and_runs() {
         let published =
             comment.split_once("F0 = ").and_then(|(_, rest)| digits(rest)).or(digits(digits_of_value)).expect("F0");
         let par = folder.read(&format!("{}.par", built_in.name));
-        let fitted = value(&par, "F0").expect("F0");
-        let relative = fitted.parse::<f64>().expect("a number") / published - 1.0;
-        assert!(relative.abs() < 1e-11, "{}: {fitted} and {published}", built_in.name);
+        let number = |key: &str| value(&par, key).map(|text| text.parse::<f64>().expect("a number"));
+        // At the epoch of the scene. A torque that varies moves the frequency by 2e-9 of it within a precession, and the fit by a part of that.
+        let epoch: Epoch = value(&par, "PEPOCH").expect("PEPOCH").parse().expect("a date");
+        let [since, _] = scene.epoch.expect("an epoch").seconds_since(&epoch);
+        let changed = since * (number("F1").unwrap_or(0.0) + since / 2.0 * number("F2").unwrap_or(0.0));
+        let relative = (number("F0").expect("F0") + changed) / published - 1.0;
+        let allowed = if scene.spin_down.is_some() { 1e-9 } else { 1e-11 };
+        assert!(relative.abs() < allowed, "{}: {relative:e}", built_in.name);
     }
 }
 
@@ -59,7 +64,7 @@ fn files_agree_with_the_table() {
             [value("RAJ"), value("DECJ"), value("TZRSITE")],
             [Some("18:30:47.567"), Some("-10:59:27.92"), Some("@")]
         );
-        assert_eq!(value("F1").is_some(), fit.contains(&"--f1"));
+        assert_eq!([value("F1"), value("F2")].map(|of| of.is_some()), [true, !fit.contains(&"--f1")]);
         let date = |key: &str| value(key).and_then(|text| text.parse::<Epoch>().ok()).expect("a date");
         let mut lines = tim.lines();
         assert_eq!(lines.next(), Some("FORMAT 1"));
@@ -79,7 +84,7 @@ fn files_agree_with_the_table() {
         }
         // The reference of the numbers, and the residuals, by the digits of the .par alone.
         let times: Vec<_> = points.iter().map(|(n, at)| (*n, at.seconds_since(&date("PEPOCH")))).collect();
-        let fit = SpinFit::new(&times, usize::from(value("F1").is_some())).expect("a fit");
+        let fit = SpinFit::new(&times, ["F1", "F2"].iter().filter(|key| value(key).is_some()).count()).expect("a fit");
         for (ours, row) in fit.residuals.iter().zip(&rows) {
             assert!((ours - row[3]).abs() < 2e-11, "{ours:e} {row:?}");
         }
@@ -119,7 +124,7 @@ fn the_digits_of_the_files_give_the_residuals() {
 /// A fitted spin-down absorbs the residuals that a slow drift of L makes in a year, but not those of a wobble.
 #[test]
 fn a_wobble_is_not_absorbed_by_a_spin_down() {
-    let scene = Scene::named("b1828-11").expect("a scene");
+    let scene = Scene { spin_down: None, ..Scene::named("b1828-11").expect("a scene") };
     let rms = |scene: &Scene, (count, step): (u32, f64), derivatives| {
         let pulsar = PulsarScene::new(scene).expect("a pulsar");
         let epochs = (0..count).map(|k| pulsar.epoch.after([f64::from(k) * step, 0.0]).expect("near"));
@@ -137,6 +142,57 @@ fn a_wobble_is_not_absorbed_by_a_spin_down() {
     let scene = Scene::from_toml("stronger", &stronger).expect("a scene");
     let [without, with] = [0, 1].map(|derivatives| rms(&scene, (200, 7.9e4), derivatives));
     assert!(without > 1e-10 && with < 0.01 * without, "{without:e} {with:e}");
+}
+
+/// The causes add up to the residuals but for the secular spin-down that no fit takes. Of B1828-11, a wobble of 3 degrees and a magnetic axis 89 degrees from the axis, the torque of a dipole
+/// makes `F1 g / (F0 w^2)` times `a_1 = -sin 2 theta sin 2 chi / 2` and `a_2 / 4 = -sin^2 theta sin^2 chi / 8` late, half of it where half of the torque does not go with the axis.
+#[test]
+fn the_causes_of_residuals_add_up() {
+    let amplitudes = |torque: &str| {
+        let folder = Folder::with(&[("star.toml", &with_lines("b1828-11", &[("torque", torque)]))]);
+        folder.succeeds(&["timing", "star.toml", "--causes", "--out", "."]);
+        let rows = numbers(&folder.read("star.csv"));
+        assert_eq!(rows.len(), 1000);
+        let days = |row: &[f64]| row[1] - 49_621.0 + row[2];
+        for row in &rows {
+            let [residual, geometry, torque, violation] = [row[3], row[16], row[17], row[18]];
+            assert!((residual - geometry - torque - violation).abs() < 1e-6, "{row:?}");
+            assert!(geometry.abs() < 1e-4 && violation.abs() < 1e-11);
+            assert!((row[19] / -3.6568e-13 - 1.0).abs() < 4e-3, "{row:?}");
+        }
+        // 3,652.5 d are 7.3 precessions; of seven the fitted polynomial takes a few percent.
+        let whole: Vec<_> = rows.iter().filter(|row| days(row) < 3500.0).collect();
+        [500.0, 250.0].map(|period| {
+            let sums = whole.iter().fold([0.0; 2], |[c, s], row| {
+                let (sin, cos) = (std::f64::consts::TAU * days(row) / period).sin_cos();
+                [c + row[17] * cos, s + row[17] * sin]
+            });
+            2.0 * sums[0].hypot(sums[1]) / whole.len() as f64
+        })
+    };
+    let (theta, chi, w) = (3f64.to_radians(), 89f64.to_radians(), std::f64::consts::TAU / (500.0 * 86_400.0));
+    let scale = 3.6568e-13 / 2.468_871_714_7 / (w * w);
+    let expected =
+        [scale * (2.0 * theta).sin() * (2.0 * chi).sin() / 2.0, scale * (theta.sin() * chi.sin()).powi(2) / 8.0];
+    for (torque, share) in [("torque = \"vacuum\"", 1.0), ("torque = \"plasma\"", 0.5)] {
+        for (found, expected) in amplitudes(torque).into_iter().zip(expected) {
+            assert!((found / expected / share - 1.0).abs() < 0.05, "{torque}: {found:e} {expected:e}");
+        }
+    }
+}
+
+/// Commands other than `timing` take the rotation as it is at the epoch, and say so.
+#[test]
+fn spin_down_is_for_timing() {
+    let folder = Folder::new();
+    let notes = stderr(&folder.succeeds(&["run", "b1828-11", "--out", "run.csv"]));
+    has_all(&notes, &["[spin_down] is for `twofold timing`; here the rotation stays as it is at the epoch".to_owned()]);
+    let rare = folder.succeeds(&["timing", "b1828-11", "--every", "300", "--out", "."]);
+    has_all(&stderr(&rare), &["5.000000e2 d", "more than half the precession of the body"].map(str::to_owned));
+    assert!(!stderr(&rare).contains("[spin_down]"));
+    // A tenth of the rotation, and no more.
+    let late = folder.run(&["timing", "b1828-11", "--to", "9000000", "--epochs", "9", "--force", "--out", "."]);
+    has_all(&stderr(&ends(late, 1)), &["F1 t / F0".to_owned()]);
 }
 
 #[test]
@@ -233,7 +289,7 @@ fn the_stated_error_holds_the_rounding_of_the_start() {
 /// Of epochs before that of the scene the first is the farthest.
 #[test]
 fn the_errors_that_are_printed_are_those_at_the_farthest_epoch() {
-    let args = ["timing", "b1828-11", "--from", "42000", "--to", "49000", "--epochs", "3", "--out", "out"];
+    let args = ["timing", "b1828-11", "--from", "42000", "--to", "49000", "--epochs", "5", "--out", "out"];
     let notes = stderr(&Folder::new().succeeds(&args));
     let pulsar = PulsarScene::new(&Scene::named("b1828-11").expect("a scene")).expect("a pulsar");
     // The epoch of the scene is MJD 49621.
@@ -269,8 +325,11 @@ fn numbers_have_no_break() {
     let far = timed(&["--from", "49000", "--every", "333.3"]);
     let (first, last) = (&near[0], &far[far.len() - 1]);
     let days = (last[1] - first[1]) + (last[2] - first[2]);
-    let turns = (last[0] - first[0]) - days * 86_400.0 * 2.468_871_714_7;
-    assert!(turns.abs() < 1e-3, "{turns}");
+    // The frequency and its rate at MJD 49621; F2 makes 1e-5 of a turn, the varying torque some hundredths.
+    let since = |row: &[f64]| (row[1] - 49_621.0 + row[2]) * 86_400.0;
+    let lost = 0.5 * -3.6568e-13 * (since(last).powi(2) - since(first).powi(2));
+    let turns = (last[0] - first[0]) - days * 86_400.0 * 2.468_871_714_7 - lost;
+    assert!(turns.abs() < 0.1, "{turns}");
 }
 
 /// A span of a million years, as it is allowed, has arrival times; one beyond all dates is refused at its place.
@@ -295,6 +354,7 @@ fn the_rounding_of_directions_is_a_part_of_a_turn() {
     let (spin, rate) = (format!("spin_frequency = {frequency:?}"), format!("alpha_rate = {rate:?}"));
     let lines = [("spin_frequency", spin.as_str()), ("alpha_rate", &rate), ("alpha_2", "alpha_2 = 0.0")];
     let scene = Scene::from_toml("slow", &with_lines("b1828-11", &lines)).expect("a scene");
+    let scene = Scene { spin_down: None, ..scene };
     let pulsar = PulsarScene::new(&scene).expect("a pulsar");
     // Without s and at the start nothing else is left; a turn takes 1e6 s but for the 1e-3 by which the axis goes round faster.
     let turns = pulsar.clock.motion().rounding(0.0) / std::f64::consts::TAU;

@@ -119,7 +119,7 @@ impl SpinFit {
         let wanted = (DoubleDouble::from(number as f64) - self.phase.into()) * 2.0;
         let frequency = DoubleDouble::from(self.frequency);
         let [rate, second] = self.derivatives;
-        let root = (frequency * frequency + wanted * (2.0 * rate)).sqrt();
+        let root = (frequency * frequency + wanted * rate).sqrt();
         let mut t = wanted.over(if frequency.high < 0.0 { frequency - root } else { frequency + root });
         if second != 0.0 {
             let wanted = wanted * 0.5;
@@ -210,6 +210,11 @@ mod tests {
         for (number, time) in points.iter().step_by(50) {
             assert!((fit.time_of(*number)[0] - time[0]).abs() < 1e-6);
         }
+        // Without F2 the root of the quadratic equation, of a rate a thousand times as large.
+        let quadratic = SpinFit { derivatives: [-3.65e-10, 0.0], ..fit.clone() };
+        let t = DoubleDouble::from(quadratic.time_of(400_000_000));
+        let phase = DoubleDouble::from(fit.phase) + t * (DoubleDouble::from(fit.frequency) + t * -1.825e-10);
+        assert!((phase.high - 4e8).abs() < 1e-6 && t.high > 1.63e8, "{t:?}");
         assert!(SpinFit::new(&points, 3).is_err());
     }
 }

@@ -279,12 +279,13 @@ impl Exact {
     }
 }
 
-/// The text of a built-in pulsar with another `alpha_2`.
+/// A built-in pulsar with another `alpha_2`, which does not slow down.
 fn pulsars(alpha_2: &str) -> Result<Vec<(String, Scene)>, String> {
     let scene = |built_in: &twofold_scene::scene_file::BuiltIn| {
         let text = built_in.toml.replace("alpha_2 = 1.6e-9", &format!("alpha_2 = {alpha_2}"));
         let name = format!("{} with alpha_2 = {alpha_2}", built_in.name);
-        Scene::from_toml(&name, &text).map(|scene| (name, scene)).map_err(String::from)
+        let scene = Scene::from_toml(&name, &text)?;
+        Ok((name, Scene { spin_down: None, ..scene }))
     };
     PULSARS.iter().map(scene).collect()
 }
@@ -335,7 +336,7 @@ fn free_b1828(epsilon: Option<f64>) -> Result<Scene, String> {
         _ => line.to_owned(),
     });
     let text = lines.collect::<Vec<_>>().join("\n");
-    Scene::from_toml(&name, &text).map_err(String::from)
+    Ok(Scene { spin_down: None, ..Scene::from_toml(&name, &text)? })
 }
 
 /// Largest difference of the residuals of free precession from the formula, and the largest residual.
