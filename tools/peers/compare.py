@@ -1,6 +1,6 @@
 """Times ours and other programs in turn on the same scenes, and prints their ratios at equal true error; `scripts/peers` runs it.
 
-    python3 tools/peers/compare.py OURS RUST_PEERS [--scenes tp-II,...] [--rounds N] [--out FILE.csv]
+    python3 tools/peers/compare.py OURS RUST_PEERS [--scenes tp-II,...] [--tasks long,...] [--rounds N] [--out FILE.csv]
 
 Each program waits for one request at a time (README.md beside this file), so that only one works at any moment, and they take
 turns run by run. Times are those of work of the thread; the least of all counts. A scene's error is the largest of a component of n,
@@ -27,8 +27,14 @@ TARGETS = [
     ("n L", "Rust", (5, 10), 1 / 3),
     ("n L e_x", "Rust", (5, 10), 1 / 3),
     ("many scenes", "heyoka, batch of 8", (5, 12), 1 / 3.5),
+    ("long", "heyoka", (10, 10), 1 / 300),
+    ("long", "our integrators", (10, 10), 1 / 100),
 ]
-RUST = ("numeris", "ode_solvers", "differential-equations")
+GROUPS = {
+    "Rust": ("numeris", "ode_solvers", "differential-equations"),
+    "our integrators": ("Taylor", "splitting"),
+}
+RUST = GROUPS["Rust"]
 
 
 class Program:
@@ -60,11 +66,12 @@ class Program:
         return [float(t) for t in times.split(" ")], int(steps), int(evaluations), float(set_up), numbers
 
 
-def measure(programs, scenes, rounds, repeats):
+def measure(programs, scenes, tasks, rounds, repeats):
     """Rows of scene, method, task, setting, error, least, median, steps, evaluations; and the longest set-up of each method."""
     rows, set_ups = [], {}
     for scene in scenes:
-        cases = [(p, *m[:2], s) for p in programs for m in p.methods for s in m[2]]
+        here = [task for task in tasks if task != "long" or scene.late]
+        cases = [(p, *m[:2], s) for p in programs for m in p.methods if m[1] in here for s in m[2]]
         # Alternately: the settings of ours are spread among those of the others.
         order = sorted(range(len(cases)), key=lambda i: (cases[i][3], cases[i][1], cases[i][2]))
         times = [[] for _ in cases]
@@ -72,10 +79,11 @@ def measure(programs, scenes, rounds, repeats):
         for round_ in range(rounds + 1):
             for i in order:
                 program, name, task, setting = cases[i]
-                slow = name.startswith("SciPy")
-                if slow and round_ > 2:
+                slow, once = name.startswith("SciPy"), task == "long" and name != "torus"
+                if slow and round_ > 2 or once and round_ != 1:
                     continue
-                found, *last[i] = program.run(name, task, scene.name, setting, 1 if slow or round_ == 0 else repeats)
+                few = slow or once or round_ == 0
+                found, *last[i] = program.run(name, task, scene.name, setting, 1 if few else repeats)
                 # The first round warms up.
                 times[i] += found if round_ else []
             print(f"\r{scene.name}: round {round_} of {rounds}", end="", file=sys.stderr, flush=True)
@@ -83,7 +91,8 @@ def measure(programs, scenes, rounds, repeats):
         for (program, name, task, setting), t, (steps, evaluations, set_up, state) in zip(cases, times, last):
             t.sort()
             set_ups[name, task] = max(set_up, set_ups.get((name, task), 0.0))
-            rows.append([scene.name, name, task, setting, error(scene, state), t[0], t[len(t) // 2], steps, evaluations])
+            err = error(scene.late if task == "long" else scene.end, state)
+            rows.append([scene.name, name, task, setting, err, t[0], t[len(t) // 2], steps, evaluations])
     return rows, set_ups
 
 
@@ -133,12 +142,14 @@ def verdicts(rows, ours, scene="tp-II"):
     print(f"\n{scene}: ours / theirs, the largest over the errors that theirs reaches\n")
     print("| task | theirs | errors | largest ratio | at error | asked | |\n|---|---|---|---:|---:|---:|---|")
     for task, theirs, (first, last), asked in TARGETS:
-        begins = RUST if theirs == "Rust" else theirs
+        begins = GROUPS.get(theirs, theirs)
         ratios = []
         for k in range(first, last + 1):
             a, b = best(rows, scene, task, ours, 10.0**-k), best(rows, scene, task, begins, 10.0**-k)
             if b is not None:
                 ratios.append((a / b if a is not None else math.inf, k))
+        if not ratios and any(row[2] == task for row in rows):
+            print(f"| {task} | {theirs} | 1e-{first} to 1e-{last} | - | none reached | {asked:.3g} | |")
         if ratios:
             ratio, at = max(ratios)
             verdict = "met" if ratio <= asked else "not met"
@@ -150,6 +161,7 @@ def main():
     parser.add_argument("ours")
     parser.add_argument("rust_peers")
     parser.add_argument("--scenes", default="tp-II")
+    parser.add_argument("--tasks", default="n L,n L e_x,pulses,many scenes,long")
     parser.add_argument("--rounds", type=int, default=10)
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--out")
@@ -158,7 +170,7 @@ def main():
     worker = [sys.executable, os.path.join(HERE, "worker.py")]
     programs = [Program(command) for command in ([args.ours], [args.rust_peers], worker)]
     ours = tuple({name for name, *_ in programs[0].methods if not name.startswith(RUST)})
-    rows, set_ups = measure(programs, scenes, args.rounds, args.repeats)
+    rows, set_ups = measure(programs, scenes, args.tasks.split(","), args.rounds, args.repeats)
     tables(rows, ours)
     verdicts(rows, ours)
     print("\nBefore the first run, the longest of all settings:")

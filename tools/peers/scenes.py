@@ -5,18 +5,20 @@ import os
 from dataclasses import dataclass
 from fractions import Fraction
 
-DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "data")
+DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "command", "data")
+LONG = 1e6
 
 
 @dataclass
 class Scene:
-    """I^zz, s and n, L, e_x at the start, in units I^xx = C = 1; the state at the end in 30 digits."""
+    """I^zz, s and n, L, e_x at the start, in units I^xx = C = 1; the states at 1,000 and, of tp-II, at 1e6 t_c in 30 digits."""
 
     name: str
     inertia: float
     s: list
     start: list
     end: list
+    late: list
 
 
 def rows(file):
@@ -26,12 +28,14 @@ def rows(file):
 
 def read_scenes(duration=1000):
     ends = {row[0]: [Fraction(x) for x in row[2:]] for row in rows("bench_states.csv") if float(row[1]) == duration}
+    parts = {row[0]: [Fraction(x) for x in row[2:]] for row in rows("bench_long.csv") if float(row[1]) == LONG}
+    late = {name: [high + low for high, low in zip(v[::2], v[1::2])] for name, v in parts.items()}
     numbers = ((row[0], [float(x) for x in row[1:]]) for row in rows("bench_scenes.csv"))
-    return [Scene(name, v[0], v[1:4], v[4:], ends[name]) for name, v in numbers]
+    return [Scene(name, v[0], v[1:4], v[4:], ends[name], late.get(name)) for name, v in numbers]
 
 
-def error(scene, state):
+def error(end, state):
     """Largest error of a component of n, L / |L| and e_x, where the state has it."""
-    size = sum(float(x) ** 2 for x in scene.end[3:6]) ** 0.5
+    size = sum(float(x) ** 2 for x in end[3:6]) ** 0.5
     units = [1.0] * 3 + [size] * 3 + [1.0] * 3
-    return max(abs(float(Fraction(x) - y)) / unit for x, y, unit in zip(state, scene.end, units))
+    return max(abs(float(Fraction(x) - y)) / unit for x, y, unit in zip(state, end, units))

@@ -12,10 +12,16 @@ import heyoka as hy
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from scenes import read_scenes
+from scenes import LONG, read_scenes
 
 DURATION = 1000.0
+SAMPLES = 10_000
 TOLERANCES = "1e-4 1e-5 1e-6 1e-7 1e-8 1e-9 1e-10 1e-11 1e-12 1e-13 1e-14 1e-15 2.3e-16"
+SETTINGS = {
+    "SciPy DOP853": "1e-3 1e-4 1e-5 1e-6 1e-7 1e-8 1e-9 1e-10 1e-11 1e-12 1e-13",
+    ("heyoka", "long"): "1e-11 1e-12 1e-13 1e-14 1e-15 2.3e-16",
+    "heyoka, 80 bits": "1e-15 1e-16 1e-17",
+}
 CHI, RHO, THETA_O = 0.5, 0.6, 0.8
 
 
@@ -53,6 +59,26 @@ def heyoka(tolerance, task, high_accuracy):
         start = time.thread_time_ns()
         steps = ta.propagate_until(DURATION)[3]
         return time.thread_time_ns() - start, steps, steps * ta.order, ta.state
+
+    return run
+
+
+def heyoka_sampled(tolerance, number):
+    """Of numbers of 64 or 80 bits."""
+    system, *_ = equations(False)
+    zeros = np.zeros(6, dtype=number)
+    options = {"tol": number(tolerance), "compact_mode": False, "fp_type": number}
+    ta = hy.taylor_adaptive(system, zeros, pars=zeros[:3], **options)
+    times = (np.arange(SAMPLES + 1) * (LONG / SAMPLES)).astype(number)
+
+    def run(scene):
+        ta.time = number(0.0)
+        ta.state[:] = scene.start[:6]
+        ta.pars[:] = [2 * s for s in scene.s]
+        start = time.thread_time_ns()
+        # Faster than continuous output, which keeps every step.
+        *_, steps, _, states = ta.propagate_grid(times)
+        return time.thread_time_ns() - start, steps, steps * ta.order, states[-1]
 
     return run
 
@@ -112,6 +138,8 @@ def makers():
             found[name, task] = lambda tol, task=task, high=high: heyoka(tol, task, high)
     for lanes in (4, 8):
         found[f"heyoka, batch of {lanes}", "many scenes"] = lambda tol, lanes=lanes: heyoka_batch(tol, lanes, False)
+    found["heyoka", "long"] = lambda tol: heyoka_sampled(tol, float)
+    found["heyoka, 80 bits", "long"] = lambda tol: heyoka_sampled(tol, np.longdouble)
     for task in ("n L", "n L e_x"):
         found["SciPy DOP853", task] = lambda tol, task=task: scipy(tol, task)
     return found
@@ -123,7 +151,7 @@ def main():
         words = line.rstrip("\n").split("\t")
         if words == ["methods"]:
             for name, task in methods:
-                print(name, task, "1e-3 1e-4 1e-5 1e-6 1e-7 1e-8 1e-9 1e-10 1e-11 1e-12 1e-13" if "SciPy" in name else TOLERANCES, sep="\t")
+                print(name, task, SETTINGS.get((name, task)) or SETTINGS.get(name, TOLERANCES), sep="\t")
             print(flush=True)
             continue
         _, name, task, scene, setting, repeats = words

@@ -3,13 +3,15 @@
 use std::fmt;
 
 use nalgebra::Vector3;
-use twofold::dynamics::{Problem, RotationState};
+use twofold::Scalar as _;
+use twofold::dynamics::{AxisState, Problem, RotationState};
 use twofold::observables::Observer;
 use twofold::observables::pulsar::Beam;
-use twofold::propagation::{ErrorEstimates, Motion, SampledProblem, Samples, states_of_many};
+use twofold::propagation::{ErrorEstimates, Motion, SampledProblem, Samples, TorusMotion, states_of_many};
 
 use super::runge_kutta;
 use super::scene::BenchScene;
+use twofold_verify::double_double::DoubleDouble;
 
 /// What a method carries along.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,6 +94,53 @@ pub const MANY_SCENES: &[(Method, usize)] = &[
     (Method { name: "lanes, 8 scenes", carries: Carries::Axis, settings: ACCURACIES, run: in_lanes::<8> }, 8),
     (Method { name: "lanes, 16 scenes", carries: Carries::Axis, settings: ACCURACIES, run: in_lanes::<16> }, 16),
 ];
+
+/// Times of the states of a long motion, evenly to its end.
+const LONG_SAMPLES: usize = 10_000;
+
+/// Motions with 10,000 states on the way, the set-up included.
+pub const SAMPLED: &[Method] = &[
+    Method { name: "torus", carries: Carries::Axis, settings: &[1e-6, 1e-8, 1e-10, 1e-12], run: torus_sampled },
+    Method { name: "Taylor", carries: Carries::Axis, settings: LONG_ACCURACIES, run: taylor_sampled },
+    Method { name: "Taylor, 32 digits", carries: Carries::Axis, settings: &[1e-10], run: taylor_of_32_digits_sampled },
+    Method { name: "splitting", carries: Carries::Axis, settings: LONG_ACCURACIES, run: splitting_sampled },
+];
+
+const LONG_ACCURACIES: &[f64] = &[1e-4, 1e-6, 1e-8, 1e-10, 1e-11, 1e-12, 1e-14, 1e-16];
+
+fn sample_times(duration: f64) -> Vec<f64> {
+    (1..=LONG_SAMPLES).map(|i| duration * i as f64 / LONG_SAMPLES as f64).collect()
+}
+
+fn states_of(motion: &impl Motion<f64>, duration: f64) -> Result<Vec<AxisState<f64>>, String> {
+    let states = sample_times(duration).into_iter().map(|t| motion.axis_state(t));
+    Ok(states.collect::<Result<_, _>>()?)
+}
+
+fn torus_sampled(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {
+    let states = states_of(&TorusMotion::new(&scene.problem, (0.0, duration), tolerance)?, duration)?;
+    Ok(End::new(&states[LONG_SAMPLES - 1], 0, 0))
+}
+
+fn taylor_sampled(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {
+    let times = sample_times(duration);
+    let found = scene.problem.reduced().taylor_states(0.0, &times, tolerance, ErrorEstimates::NotWanted)?;
+    Ok(End::new(&found.states[LONG_SAMPLES - 1], found.step_count, found.step_count * found.order))
+}
+
+fn taylor_of_32_digits_sampled(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {
+    let (problem, times) = (scene.problem.reduced().map(DoubleDouble::from_f64), sample_times(duration));
+    let found = problem.taylor_states(0.0, &times, tolerance, ErrorEstimates::NotWanted)?;
+    let AxisState { axis, momentum } = found.states[LONG_SAMPLES - 1];
+    let end = AxisState { axis: axis.map(DoubleDouble::high), momentum: momentum.map(DoubleDouble::high) };
+    Ok(End::new(&end, found.step_count, found.step_count * found.order))
+}
+
+fn splitting_sampled(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {
+    let motion = scene.problem.reduced().splitting((0.0, duration), tolerance)?;
+    let (states, steps) = (states_of(&motion, duration)?, motion.step_count() as usize);
+    Ok(End::new(&states[LONG_SAMPLES - 1], steps, 2 * steps * motion.scheme().stages()))
+}
 
 fn taylor_with_pulses(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {
     let (beam, observer) = (Beam::new(0.5, 0.0, 0.6), Observer::at(0.8, 0.0));

@@ -17,6 +17,10 @@ pub(super) const COMPANION: usize = 2;
 /// Largest order of a series.
 pub(super) const MAX_ORDER: usize = 40;
 
+/// First coefficients, to which what their factors `rate / (k + 1)` lose by rounding is added again. It is the same in every step, so that the energy
+/// would drift in proportion to time. Later coefficients are too small to show.
+pub(super) const MENDED: usize = 8;
+
 /// Coefficients kept at hand: a power of two, so that a masked index is within bounds without a comparison.
 const PLACES: usize = 64;
 const MASK: usize = PLACES - 1;
@@ -62,6 +66,9 @@ pub(super) struct Recurrence<A: Arithmetic, const V: usize> {
     share_of_axis: Box<Row<A::Vector>>,
     /// `2 C unit / (k+1)`, in the principal frame times the differences of eigenvalues.
     share_of_momentum: Box<Row<A::Vector>>,
+    /// What both of them lose by rounding.
+    rest_of_axis: [A::Vector; MENDED],
+    rest_of_momentum: [A::Vector; MENDED],
     /// Columns of `s`.
     tensor: [A::Vector; 3],
     axis: Box<Row<A::Permuted>>,
@@ -98,6 +105,8 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
             order,
             share_of_axis: Row::filled(zero),
             share_of_momentum: Row::filled(zero),
+            rest_of_axis: [zero; MENDED],
+            rest_of_momentum: [zero; MENDED],
             tensor,
             axis: turned(),
             momentum: turned(),
@@ -116,6 +125,33 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
             self.share_of_axis.put(k, self.arithmetic.divide(axis_rate, order));
             self.share_of_momentum.put(k, self.arithmetic.divide(momentum_rate, order));
         }
+        for k in 0..MENDED {
+            self.rest_of_axis[k] = self.rest(axis_rate, self.share_of_axis.at(k), k + 1);
+            self.rest_of_momentum[k] = self.rest(momentum_rate, self.share_of_momentum.at(k), k + 1);
+        }
+    }
+
+    /// What `share` is less than `rate / divisor`. The product of `share` and `divisor` is taken away by powers of two, the largest first: each is at
+    /// least half of what is left, so that every difference is exact.
+    #[inline(always)]
+    fn rest(&self, rate: A::Vector, share: A::Vector, divisor: usize) -> A::Vector {
+        let a = self.arithmetic;
+        let twice = a.add(share, share);
+        let fourfold = a.add(twice, twice);
+        let mut left = rate;
+        for (power, multiple) in [(8, a.add(fourfold, fourfold)), (4, fourfold), (2, twice), (1, share)] {
+            if divisor & power != 0 {
+                left = a.sub(left, multiple);
+            }
+        }
+        a.divide(left, divisor as f64)
+    }
+
+    /// Whether the factors of coefficient `k + 1` are mended. Those of the first, second, fourth and eighth are exact.
+    #[inline(always)]
+    fn is_mended(k: usize) -> bool {
+        const INEXACT: u32 = 1 << 2 | 1 << 4 | 1 << 5 | 1 << 6;
+        k < MENDED && INEXACT >> k & 1 == 1
     }
 
     /// Fills `series` (of length `order + 1`) with the coefficients about the state `start`.
@@ -136,33 +172,42 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
         let series = &mut series[..self.order + 1];
         self.put(0, start, series);
         let mut k = 0;
+        while k < self.order.min(MENDED) {
+            k += self.advance::<B, true>(k, series);
+        }
         while k < self.order {
-            if k + 2 >= B && k + B <= self.order {
-                // Orders k to k + B - 1, as far as the coefficients up to k go.
-                let mut sums = [self.zero_sums(); B];
-                self.add_common_terms(&mut sums, k);
-                for (r, sum) in sums.iter_mut().enumerate() {
-                    for j in r..B - 1 {
-                        self.add_term(sum, j, k + r - j);
-                    }
+            k += self.advance::<B, false>(k, series);
+        }
+    }
+
+    /// Makes coefficients from `k + 1` on and returns how many; `FIRST` if some of their factors may have to be mended.
+    #[inline(always)]
+    fn advance<const B: usize, const FIRST: bool>(&mut self, k: usize, series: &mut [Vectors<A::Vector, V>]) -> usize {
+        if k + 2 >= B && k + B <= self.order {
+            // Orders k to k + B - 1, as far as the coefficients up to k go.
+            let mut sums = [self.zero_sums(); B];
+            self.add_common_terms(&mut sums, k);
+            for (r, sum) in sums.iter_mut().enumerate() {
+                for j in r..B - 1 {
+                    self.add_term(sum, j, k + r - j);
                 }
-                // Each order finished adds its terms to the next ones.
-                for (r, sum) in sums.iter_mut().enumerate() {
-                    for newer in k + 1..k + r + 1 {
-                        self.add_term(sum, newer, k + r - newer);
-                        self.add_term(sum, k + r - newer, newer);
-                    }
-                    self.finish(k + r, sum, series);
-                }
-                k += B;
-            } else {
-                let mut sum = self.zero_sums();
-                for j in 0..k + 1 {
-                    self.add_term(&mut sum, j, k - j);
-                }
-                self.finish(k, &sum, series);
-                k += 1;
             }
+            // Each order finished adds its terms to the next ones.
+            for (r, sum) in sums.iter_mut().enumerate() {
+                for newer in k + 1..k + r + 1 {
+                    self.add_term(sum, newer, k + r - newer);
+                    self.add_term(sum, k + r - newer, newer);
+                }
+                self.finish::<FIRST>(k + r, sum, series);
+            }
+            B
+        } else {
+            let mut sum = self.zero_sums();
+            for j in 0..k + 1 {
+                self.add_term(&mut sum, j, k - j);
+            }
+            self.finish::<FIRST>(k, &sum, series);
+            1
         }
     }
 
@@ -226,15 +271,27 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
 
     /// Makes coefficient `k + 1` of the sums of order `k`.
     #[inline(always)]
-    fn finish(&mut self, k: usize, sums: &Sums<A::Vector>, series: &mut [Vectors<A::Vector, V>]) {
+    fn finish<const FIRST: bool>(&mut self, k: usize, sums: &Sums<A::Vector>, series: &mut [Vectors<A::Vector, V>]) {
         let a = self.arithmetic;
         let cross = |[ahead, behind]: [A::Vector; 2]| a.sub(ahead, behind);
         let pull = if A::PRINCIPAL_FRAME { sums.pull[0] } else { cross(sums.pull) };
         let mut next = [pull; V];
-        next[AXIS] = a.mul(cross(sums.axis), self.share_of_axis.at(k));
-        next[MOMENTUM] = a.mul(pull, self.share_of_momentum.at(k));
+        next[AXIS] = cross(sums.axis);
         if V > COMPANION {
-            next[COMPANION] = a.mul(cross(sums.companion), self.share_of_axis.at(k));
+            next[COMPANION] = cross(sums.companion);
+        }
+        for i in 0..V {
+            let (shares, rests) = if i == MOMENTUM {
+                (&self.share_of_momentum, &self.rest_of_momentum)
+            } else {
+                (&self.share_of_axis, &self.rest_of_axis)
+            };
+            let sum = next[i];
+            next[i] = if FIRST && Self::is_mended(k) {
+                a.mul_add(sum, shares.at(k), a.mul(sum, rests[k]))
+            } else {
+                a.mul(sum, shares.at(k))
+            };
         }
         self.put(k + 1, &next, series);
     }
@@ -290,4 +347,27 @@ pub(super) fn change<A: Arithmetic, const V: usize>(
         sum[i] = a.mul(a.mul_add(higher, h, first[i]), h);
     }
     sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numerics::arithmetic::{Componentwise, plain};
+    use crate::numerics::double_double::DoubleDouble;
+
+    #[test]
+    fn first_shares_and_their_rests_are_the_quotients() {
+        let rate = [0.7, -0.042 * 0.8, 1.0];
+        let recurrence = Recurrence::<_, 2>::new(plain::<f64>(), 12, rate, rate, [[0.0; 3]; 3]);
+        for k in 0..MENDED {
+            let (share, rest) = (recurrence.share_of_axis.at(k), recurrence.rest_of_axis[k]);
+            assert_eq!(rest, recurrence.rest_of_momentum[k]);
+            for i in 0..3 {
+                let product = DoubleDouble::sum(share[i], rest[i]) * DoubleDouble::from((k + 1) as f64);
+                let left = (product - DoubleDouble::from(rate[i])).high;
+                assert!(left.abs() < 1e-31 * rate[i].abs(), "{k} {i}: {left:e}");
+            }
+            assert_eq!(rest == [0.0; 3], !Recurrence::<Componentwise<f64>, 2>::is_mended(k), "{k}");
+        }
+    }
 }

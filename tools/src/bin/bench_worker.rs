@@ -3,21 +3,40 @@
 
 use std::io::{self, BufRead as _, Write as _};
 
-use twofold_command::bench::method::{MANY_SCENES, METHODS, Method, WITH_PULSES};
+use twofold_command::bench::method::{MANY_SCENES, METHODS, Method, SAMPLED, WITH_PULSES};
 use twofold_command::bench::scaling::set_up;
 use twofold_command::bench::scene::{BenchScene, DURATION};
 use twofold_command::bench::{Effort, timing::clock};
 
-/// Name, task, scenes of one run, the method.
-fn all() -> Vec<(String, f64, Method)> {
-    let plain = METHODS.iter().map(|method| (method.carries.to_string(), 1.0, *method));
-    let pulses = WITH_PULSES.iter().map(|method| ("pulses".to_owned(), 1.0, *method));
-    let many = MANY_SCENES.iter().map(|(method, count)| ("many scenes".to_owned(), *count as f64, *method));
-    plain.chain(pulses).chain(many).collect()
+/// Length of a long motion (t_c).
+const LONG: f64 = 1e6;
+
+/// A task and a method for it.
+struct Case {
+    task: String,
+    /// Length of the motion (t_c).
+    duration: f64,
+    /// Scenes of one run.
+    scenes: usize,
+    method: Method,
+}
+
+fn all() -> Vec<Case> {
+    let case = |task: &str, duration, scenes, method: &Method| Case {
+        task: task.to_owned(),
+        duration,
+        scenes,
+        method: *method,
+    };
+    let plain = METHODS.iter().map(|method| case(&method.carries.to_string(), DURATION, 1, method));
+    let pulses = WITH_PULSES.iter().map(|method| case("pulses", DURATION, 1, method));
+    let many = MANY_SCENES.iter().map(|(method, count)| case("many scenes", DURATION, *count, method));
+    let long = SAMPLED.iter().map(|method| case("long", LONG, 1, method));
+    plain.chain(pulses).chain(many).chain(long).collect()
 }
 
 fn main() -> Result<(), String> {
-    let (scenes, methods) = (BenchScene::all(), all());
+    let (scenes, cases) = (BenchScene::all(), all());
     let set_up = set_up(&Effort::QUICK)?;
     let mut out = io::stdout().lock();
     for line in io::stdin().lock().lines() {
@@ -26,17 +45,17 @@ fn main() -> Result<(), String> {
         let answer = match words[..] {
             ["methods"] => {
                 let settings = |method: &Method| method.settings.iter().map(|s| format!("{s:e}")).collect::<Vec<_>>();
-                let line = |(task, _, method): &(String, f64, Method)| {
+                let line = |Case { task, method, .. }: &Case| {
                     format!("{}\t{task}\t{}", method.name, settings(method).join(" "))
                 };
-                methods.iter().map(line).collect::<Vec<_>>().join("\n") + "\n"
+                cases.iter().map(line).collect::<Vec<_>>().join("\n") + "\n"
             }
             ["run", name, task, scene, setting, repeats] => {
-                let method = methods.iter().find(|(t, _, method)| t == task && method.name == name);
+                let case = cases.iter().find(|case| case.task == task && case.method.name == name);
                 let scene = scenes.iter().find(|s| s.name == scene);
-                let (Some((_, share, method)), Some(scene)) = (method, scene) else { return Err(line) };
+                let (Some(case), Some(scene)) = (case, scene) else { return Err(line) };
                 let setting = setting.parse().map_err(|_| line.clone())?;
-                run(method, *share, scene, setting, repeats.parse().map_err(|_| line.clone())?, set_up)?
+                run(case, scene, setting, repeats.parse().map_err(|_| line.clone())?, set_up)?
             }
             _ => return Err(line),
         };
@@ -45,20 +64,13 @@ fn main() -> Result<(), String> {
     Ok(())
 }
 
-fn run(
-    method: &Method,
-    share: f64,
-    scene: &BenchScene,
-    setting: f64,
-    repeats: usize,
-    set_up: f64,
-) -> Result<String, String> {
+fn run(case: &Case, scene: &BenchScene, setting: f64, repeats: usize, set_up: f64) -> Result<String, String> {
     let mut times = Vec::new();
     let mut end = None;
     for _ in 0..repeats {
         let start = clock();
-        end = Some(std::hint::black_box((method.run)(scene, DURATION, setting)?));
-        times.push(format!("{:e}", (clock() - start) / share));
+        end = Some(std::hint::black_box((case.method.run)(scene, case.duration, setting)?));
+        times.push(format!("{:e}", (clock() - start) / case.scenes as f64));
     }
     let Some(end) = end else { return Err("no repeats".to_owned()) };
     let vectors = [Some(end.axis), Some(end.momentum), end.equatorial_axis];
