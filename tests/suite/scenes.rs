@@ -90,6 +90,48 @@ fn a_tensor_in_a_rotated_frame_gives_the_rotated_motion() {
     assert!(energy_of_axis.abs() < 1e-16, "{energy_of_axis:e}");
 }
 
+/// The wobble, the precession period and the frequency of the pulses stand for angles, rates, oblateness and spin; degrees for radians. Of B1828-11 the latter follow by hand from
+/// `epsilon Omega^z = 2 pi / T` and `2 pi F0 = Omega^z ((1 + epsilon) / cos theta - epsilon)`.
+#[test]
+fn what_is_observed_of_a_pulsar_stands_for_its_star() {
+    let observed = Scene::named("b1828-11").expect("a scene");
+    let toml = twofold_scene::scene_file::built_in("b1828-11").expect("built in").toml;
+    let (start, rest) = (toml.find("[initial]").expect("a section"), toml.find("[observer]").expect("a section"));
+    let by_hand = toml[..start]
+        .replace("precession_period = 500.0", "oblateness = 9.38886993556628e-09")
+        .replace("frequency = 2.4688717147", "spin_frequency = 2.4654882117878643");
+    let initial =
+        "[initial]\nalpha = 0.0\nbeta = 0.05235987755982989\nalpha_rate = 15.512378628558416\nbeta_rate = 0.0\n";
+    let by_hand = format!("{by_hand}{initial}{}", toml[rest..].replace("\"89.0 deg\"", "1.5533430342749532"));
+    let by_hand = Scene::from_toml("by hand", &by_hand).unwrap_or_else(|error| panic!("{error}"));
+    let (a, b) = (&observed.problem, &by_hand.problem);
+    assert!((a.spheroid().oblateness() / b.spheroid().oblateness() - 1.0).abs() < 1e-7);
+    let (a, b) = (a.initial(), b.initial());
+    for (x, y) in [(a.axis, b.axis), (a.momentum, b.momentum), (a.equatorial_axis, b.equatorial_axis)] {
+        assert!((x - y).norm() < 1e-13 * y.norm(), "{x:?} {y:?}");
+    }
+    assert!((observed.pulsar.expect("a beam").chi - by_hand.pulsar.expect("a beam").chi).abs() < 1e-15);
+    // Against other angles, by the definitions: n to L, and the magnetic axis to L about n.
+    let lines = [
+        ("wobble = \"3.0 deg\"", "wobble = 0.7\nmomentum = [1.0, -2.0, 0.5]"),
+        ("azimuth = \"-90 deg\"", "azimuth = 2.0"),
+        ("precession_phase = \"90 deg\"", "precession_phase = 0.4"),
+        ("chi = \"89.0 deg\"", "chi = 1.2\ndelta = 0.9"),
+        ("frequency = 2.4688717147", "frequency = -3.5"),
+    ];
+    let text = lines.iter().fold(toml.to_owned(), |text, (from, to)| text.replace(from, to));
+    let scene = Scene::from_toml("other", &text).unwrap_or_else(|error| panic!("{error}"));
+    let state = scene.problem.initial();
+    let (n, l) = (state.axis, state.momentum.normalize());
+    assert!((l + nalgebra::Vector3::new(1.0, -2.0, 0.5).normalize()).norm() < 1e-15);
+    // A negative frequency turns L about.
+    assert!((n.angle(&-l) - 0.7).abs() < 1e-15);
+    let m = scene.pulsar.expect("a beam").beam().direction(state);
+    let across = |v: nalgebra::Vector3<f64>| (v - n * n.dot(&v)).normalize();
+    let phase = n.dot(&across(m).cross(&across(-l))).atan2(across(m).dot(&across(-l)));
+    assert!((phase - 0.4).abs() < 1e-14 && (m.angle(&n) - 1.2).abs() < 1e-14, "{phase}");
+}
+
 /// A physical star is the same motion in other units.
 #[test]
 fn a_physical_star_moves_as_in_its_own_units() {

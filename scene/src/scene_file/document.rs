@@ -270,7 +270,20 @@ impl<'a> Entry<'a> {
 
     /// An angle in radians. Beyond a million, more than six digits of its place on the circle are lost.
     pub(crate) fn angle(&self) -> Result<f64, Fault> {
-        self.number_where("an angle of at most 1e6 in size [rad]", |x| x.abs() <= 1e6)
+        self.angle_where("an angle of at most 1e6 in size [rad]", |x| x.abs() <= 1e6)
+    }
+
+    /// An angle for which `holds`: a number of radians, or degrees in a text, `"89.0 deg"`.
+    pub(crate) fn angle_where(&self, allowed: &str, holds: impl Fn(f64) -> bool) -> Result<f64, Fault> {
+        let angle = match self.value {
+            DeValue::String(text) if self.replaced.get(&self.key).is_none() => {
+                let degrees = text.strip_suffix("deg").and_then(|number| number.trim_end().parse().ok());
+                let degrees = degrees.filter(|degrees: &f64| degrees.is_finite());
+                degrees.ok_or_else(|| self.refuse(&format!("{allowed}, or degrees as \"89.0 deg\"")))?.to_radians()
+            }
+            _ => self.number()?,
+        };
+        if holds(angle) { Ok(angle) } else { Err(self.refuse(allowed)) }
     }
 
     /// A finite number for which `holds`.

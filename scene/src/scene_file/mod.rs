@@ -7,6 +7,7 @@ mod built_in;
 mod document;
 mod motion;
 mod observation;
+mod rotation;
 mod spin_down;
 
 use twofold::dynamics::Problem;
@@ -109,19 +110,20 @@ impl Scene {
         let about = document.optional_string("about")?.unwrap_or("").to_owned();
         let sources = document.optional("sources").map(|entry| sources(&entry)).transpose()?.unwrap_or_default();
         let star_section = document.required_section("star", "the spheroid and its spin")?;
-        let (star, spin_caution) = motion::read_star(&star_section)?;
+        let angles = rotation::WobbleAngles::read(document)?;
+        let (star, spin_caution) = motion::read_star(&star_section, &angles)?;
+        let pulsar_section = document.section("pulsar")?;
+        let pulsar = pulsar_section.as_ref().map(observation::read_pulsar).transpose()?;
         let violation =
             motion::read_violation(&document.required_section("lorentz_violation", "the coefficients s^IJ")?)?;
         let initial_section = document.required_section("initial", "the initial orientation and motion")?;
-        let initial = motion::read_initial(&initial_section, &star, &violation)?;
+        let initial = motion::read_initial(&initial_section, &star, &violation, pulsar.as_ref())?;
         let problem = Problem::new(star.spheroid, violation.tensor, initial.state);
         let problem = problem.map_err(|error| initial_section.fault(format!("no motion starts so: {error}")))?;
         let spin_down_section = document.section("spin_down")?;
         let spin_down = spin_down_section.as_ref().map(|section| spin_down::read(section, &star.units)).transpose()?;
         let observer = document.section("observer")?;
         let observer = observer.map(|section| observation::read_observer(&section, &star.units)).transpose()?;
-        let pulsar_section = document.section("pulsar")?;
-        let pulsar = pulsar_section.as_ref().map(observation::read_pulsar).transpose()?;
         let catalogued = pulsar_section.as_ref().map(observation::read_catalogued).transpose()?.flatten();
         let (time_section, times, epoch, epoch_caution) = match times {
             Some(times) => (None, times.clone(), None, None),

@@ -1,8 +1,8 @@
 //! The sections that set the motion and the units of the file: `[star]`, `[lorentz_violation]` and `[initial]`.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 use twofold::Error;
 use twofold::dynamics::{BodyState, RigidSpheroid, RotationState};
 use twofold::euler_angles::{EulerAngles, EulerRates};
@@ -15,6 +15,8 @@ use twofold::units::geometrised::{CENTIMETRE, ERG, GRAM, GRAM_PER_CUBIC_CENTIMET
 use twofold::units::si::GRAM_SQUARE_CENTIMETRE;
 
 use super::document::{Entry, Fault, Section};
+use super::observation::Pulsar;
+use super::rotation::{Rotation, WobbleAngles, rotation};
 
 /// Units of a scene file and of its output: those of the paper, or seconds and cgs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,17 +59,18 @@ pub(super) struct Star {
     pub(super) units: Units,
 }
 
-/// The star, and a sentence if it spins faster than gravity can hold it.
-pub(super) fn read_star(section: &Section<'_>) -> Result<(Star, Option<String>), Fault> {
-    section.only("inertia_ratio spin mass radius density oblateness spin_frequency")?;
-    for physical in ["mass", "radius", "density", "oblateness", "spin_frequency"] {
+/// The star, and a sentence if it spins faster than gravity can hold it. The angles of the wobble and of the magnetic axis are needed for what is observed of it.
+pub(super) fn read_star(section: &Section<'_>, angles: &WobbleAngles) -> Result<(Star, Option<String>), Fault> {
+    section.only("inertia_ratio spin mass radius density oblateness precession_period spin_frequency frequency")?;
+    section.not_both(&[("oblateness", "precession_period"), ("spin_frequency", "frequency")])?;
+    for physical in ["mass", "radius", "density", "oblateness", "precession_period", "spin_frequency", "frequency"] {
         section.not_both(&[("inertia_ratio", physical), ("spin", physical)])?;
     }
     section.not_both(&[("radius", "density")])?;
     if section.has("inertia_ratio") || section.has("spin") {
         Ok((in_units_of_tc(section)?, None))
     } else {
-        physical(section)
+        physical(section, angles)
     }
 }
 
@@ -79,15 +82,11 @@ fn in_units_of_tc(section: &Section<'_>) -> Result<Star, Fault> {
     Ok(Star { spheroid: RigidSpheroid::in_units_of_tc(ratio), spin, units: Units::PAPER })
 }
 
-fn physical(section: &Section<'_>) -> Result<(Star, Option<String>), Fault> {
+fn physical(section: &Section<'_>, angles: &WobbleAngles) -> Result<(Star, Option<String>), Fault> {
     let mass = section
         .required("mass", "in solar masses; or `star.inertia_ratio` and `star.spin` for the paper's units")?
         .number_in("a mass from 1e-3 to 1e3 [solar masses]", 1e-3..=1e3)?;
-    let oblateness = section
-        .required("oblateness", "(I^zz - I^xx) / I^xx")?
-        .number_in("from 1e-15 to 0.99: an oblate star, for which C is above zero", 1e-15..=0.99)?;
-    let spin_entry = section.required("spin_frequency", "Omega^z / (2 pi) [Hz]")?;
-    let frequency = spin_entry.number_in("from -1e5 to 1e5 [Hz]", -1e5..=1e5)?;
+    let Rotation { entry: spin_entry, frequency, oblateness } = rotation(section, angles)?;
     // Geometrised units (G = c = 1, base second) inside, cgs outside.
     let mean_radius = match (section.optional("radius"), section.optional("density")) {
         (Some(radius), _) => radius.number_in("a radius from 1 to 1e7 [km]", 1.0..=1e7)? * KILOMETRE,
@@ -237,8 +236,25 @@ pub(super) struct Initial {
     pub(super) perturbation: Result<Perturbation<f64>, &'static str>,
 }
 
-pub(super) fn read_initial(section: &Section<'_>, star: &Star, violation: &Violation) -> Result<Initial, Fault> {
-    section.only("alpha beta gamma alpha_rate beta_rate kind alpha_0 beta_0 amplitude phase")?;
+pub(super) fn read_initial(
+    section: &Section<'_>,
+    star: &Star,
+    violation: &Violation,
+    beam: Option<&Pulsar>,
+) -> Result<Initial, Fault> {
+    section.only(
+        "alpha beta gamma alpha_rate beta_rate kind alpha_0 beta_0 amplitude phase wobble momentum azimuth precession_phase",
+    )?;
+    if section.has("wobble") {
+        let others = ANGLES.iter().chain(&CONSTANTS).chain(&["gamma"]);
+        section.not_both(&others.map(|key| ("wobble", *key)).collect::<Vec<_>>())?;
+        return from_wobble(section, star, beam);
+    }
+    for key in ["momentum", "azimuth", "precession_phase"] {
+        if let Some(entry) = section.optional(key) {
+            return Err(entry.refuse_because("it goes with `initial.wobble` only"));
+        }
+    }
     let Some(constant) = CONSTANTS.iter().find(|key| section.has(key)) else { return from_angles(section, star) };
     section.not_both(&ANGLES.map(|angle| (*constant, angle)))?;
     from_constants(section, star, violation)
@@ -247,11 +263,14 @@ pub(super) fn read_initial(section: &Section<'_>, star: &Star, violation: &Viola
 fn from_angles(section: &Section<'_>, star: &Star) -> Result<Initial, Fault> {
     let angles = EulerAngles {
         alpha: section
-            .required("alpha", "precession angle [rad], or `initial.kind` for the paper's constants")?
+            .required(
+                "alpha",
+                "precession angle [rad], or `initial.kind` for the paper's constants, or `initial.wobble`",
+            )?
             .angle()?,
         beta: section
             .required("beta", "inclination of the symmetry axis to Z [rad]")?
-            .number_in("an angle from 0 to pi [rad]", 0.0..=PI)?,
+            .angle_where("an angle from 0 to pi [rad]", |x| (0.0..=PI).contains(&x))?,
         gamma: gamma(section)?,
     };
     let per_tc = star.units.time;
@@ -261,6 +280,37 @@ fn from_angles(section: &Section<'_>, star: &Star) -> Result<Initial, Fault> {
     let state = BodyState::from_angles(&star.spheroid, &angles, &rates);
     refuse_overflow(section, &state)?;
     Ok(Initial { state, angles, perturbation: Err("[initial] gives angles and no constants (`initial.kind`)") })
+}
+
+/// The state by the angle of the wobble. With `l` along `L`, `x` the direction across it nearest to X (to Y where `l` is along X) and `phi` the azimuth,
+/// `n = l cos theta + (x cos phi + l x x sin phi) sin theta`, and the part of the magnetic axis (of `e_x` without a pulsar) across `n` is turned back about `n` by the phase from that of `l`.
+fn from_wobble(section: &Section<'_>, star: &Star, beam: Option<&Pulsar>) -> Result<Initial, Fault> {
+    let wobble = section.required("wobble", "angle of the symmetry axis to L [rad]")?;
+    let theta = wobble.angle_where("an angle from 0 to below pi/2 [rad]", |x| (0.0..FRAC_PI_2).contains(&x))?;
+    let allowed = "three numbers, not all zero: a direction";
+    let l = match section.optional("momentum") {
+        None => Vector3::z(),
+        Some(entry) => {
+            let given = entry.vector(allowed)?;
+            given.try_normalize(0.0).filter(|l| l.norm().is_finite()).ok_or_else(|| entry.refuse(allowed))?
+        }
+    };
+    let angle = |key: &str| section.optional(key).map_or(Ok(0.0), |entry| entry.angle());
+    let (azimuth, phase) = (angle("azimuth")?, angle("precession_phase")?);
+    let nearest = if l.x.abs() > 0.99 { Vector3::y() } else { Vector3::x() };
+    let x = (nearest - l * l.dot(&nearest)).normalize();
+    let outwards = x * azimuth.cos() + l.cross(&x) * azimuth.sin();
+    let axis = l * theta.cos() + outwards * theta.sin();
+    // The part of l across n, as a direction: also where there is no wobble.
+    let of_momentum = l * theta.sin() - outwards * theta.cos();
+    let delta = beam.map_or(0.0, |beam| beam.delta);
+    let (sin, cos) = (phase + delta).sin_cos();
+    let equatorial_axis = of_momentum * cos - axis.cross(&of_momentum) * sin;
+    let momentum = l * (star.spheroid.inertia_zz * star.spin / theta.cos());
+    let state = BodyState { axis, momentum, equatorial_axis };
+    refuse_overflow(section, &state)?;
+    let angles = state.angles().unwrap_or(EulerAngles { alpha: 0.0, beta: axis.z.acos(), gamma: 0.0 });
+    Ok(Initial { state, angles, perturbation: Err("[initial] gives a wobble and no constants (`initial.kind`)") })
 }
 
 fn from_constants(section: &Section<'_>, star: &Star, violation: &Violation) -> Result<Initial, Fault> {
@@ -276,7 +326,7 @@ fn from_constants(section: &Section<'_>, star: &Star, violation: &Violation) -> 
     }
     let beta_entry = section.required("beta_0", "mean inclination [rad]")?;
     let beta_0 = beta_entry
-        .number_where("an angle above 0 and below pi [rad]: Eq. (34) divides by sin(beta_0)", |x| {
+        .angle_where("an angle above 0 and below pi [rad]: Eq. (34) divides by sin(beta_0)", |x| {
             x > 0.0 && x < PI && x.sin() > f64::EPSILON
         })?;
     if kind == Precession::Twofold && beta_0.cos().abs() < 1e-12 {

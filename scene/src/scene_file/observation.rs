@@ -64,7 +64,7 @@ pub(super) fn read_observer(section: &Section<'_>, units: &Units) -> Result<View
     section.only("theta_o phi_o distance")?;
     let theta_o = section
         .required("theta_o", "colatitude of the observer [rad]")?
-        .number_in("an angle from 0 to pi [rad]", 0.0..=PI)?;
+        .angle_where("an angle from 0 to pi [rad]", |x| (0.0..=PI).contains(&x))?;
     let phi_o = section.required("phi_o", "azimuth of the observer [rad]")?.angle()?;
     let distance = match section.optional("distance") {
         Some(entry) if !units.are_physical() => {
@@ -81,11 +81,11 @@ pub(super) fn read_pulsar(section: &Section<'_>) -> Result<Pulsar, Fault> {
     Ok(Pulsar {
         chi: section
             .required("chi", "angle of the magnetic axis to the symmetry axis [rad]")?
-            .number_in("an angle from 0 to pi [rad]", 0.0..=PI)?,
+            .angle_where("an angle from 0 to pi [rad]", |x| (0.0..=PI).contains(&x))?,
         delta: section.optional("delta").map_or(Ok(0.0), |entry| entry.angle())?,
         rho: section
             .required("rho", "semi-open angle of the beam [rad]")?
-            .number_where("an angle above 0 and below pi [rad]", |x| x > 0.0 && x < PI)?,
+            .angle_where("an angle above 0 and below pi [rad]", |x| x > 0.0 && x < PI)?,
         second_beam: section.optional("second_beam").map_or(Ok(false), |entry| entry.boolean())?,
     })
 }

@@ -331,8 +331,8 @@ fn free_b1828(epsilon: Option<f64>) -> Result<Scene, String> {
     let toml = PULSARS.iter().find(|scene| name.starts_with(scene.name)).ok_or("no such scene")?.toml;
     let lines = toml.lines().map(|line| match line.split_once(" = ") {
         Some(("alpha_2", _)) => "alpha_2 = 0.0".to_owned(),
-        Some(("oblateness", _)) => format!("oblateness = {epsilon:?}"),
-        Some(("spin_frequency", _)) => format!("spin_frequency = {spin:?}"),
+        Some(("precession_period", _)) => format!("oblateness = {epsilon:?}"),
+        Some(("frequency", _)) => format!("spin_frequency = {spin:?}"),
         _ => line.to_owned(),
     });
     let text = lines.collect::<Vec<_>>().join("\n");

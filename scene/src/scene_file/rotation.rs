@@ -1,0 +1,95 @@
+//! Oblateness and rotation of a physical star, as such or by what is observed of a pulsar.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use twofold::epoch::DAY;
+
+use super::document::{Entry, Fault, Section};
+
+/// Angles of a wobbling pulsar, where the scene has them: of the symmetry axis to `L`, and of the magnetic axis to the symmetry axis (rad).
+pub(super) struct WobbleAngles {
+    wobble: Option<f64>,
+    chi: Option<f64>,
+}
+
+impl WobbleAngles {
+    /// From `initial.wobble` and `pulsar.chi`.
+    pub(super) fn read(document: &Section<'_>) -> Result<Self, Fault> {
+        let angle = |section: &str, key: &str| {
+            let entry = document.section(section)?.and_then(|section| section.optional(key));
+            entry.map(|entry| entry.angle()).transpose()
+        };
+        Ok(Self { wobble: angle("initial", "wobble")?, chi: angle("pulsar", "chi")? })
+    }
+}
+
+/// Oblateness, and `Omega^z / (2 pi)` (Hz) with the entry that it is from.
+pub(super) struct Rotation<'a> {
+    pub(super) entry: Entry<'a>,
+    pub(super) frequency: f64,
+    pub(super) oblateness: f64,
+}
+
+/// From `oblateness` or `precession_period`, and `spin_frequency` or `frequency`.
+///
+/// With the wobble `theta` and the oblateness `epsilon` the body precesses at the rate `epsilon Omega^z`, its axis goes round `L` at `(1 + epsilon) Omega^z / cos theta`, and pulses come
+/// at the rate of the magnetic axis about `L`: that of the symmetry axis, less that of the precession where `theta < chi < pi - theta`.
+pub(super) fn rotation<'a>(section: &Section<'a>, angles: &WobbleAngles) -> Result<Rotation<'a>, Fault> {
+    const OBLATENESS: &str = "from 1e-15 to 0.99: an oblate star, for which C is above zero";
+    let in_range = |oblateness: &f64| (1e-15..=0.99).contains(oblateness);
+    let wobble = |entry: &Entry<'a>| {
+        let wobble = angles.wobble.filter(|wobble| (0.0..FRAC_PI_2).contains(wobble));
+        wobble.ok_or_else(|| entry.refuse_because("it needs `initial.wobble`, from 0 to below pi/2 [rad]"))
+    };
+    let (period, given) = match section.optional("precession_period") {
+        Some(entry) => {
+            wobble(&entry)?;
+            let days = entry.number_in("a period from 1e-9 to 1e9 [d]", 1e-9..=1e9)?;
+            (Some((1.0 / (days * DAY), entry)), None)
+        }
+        None => {
+            let entry = section.required("oblateness", "(I^zz - I^xx) / I^xx, or `star.precession_period` [d]")?;
+            (None, Some(entry.number_where(OBLATENESS, |oblateness| in_range(&oblateness))?))
+        }
+    };
+    let (entry, frequency) = match section.optional("frequency") {
+        Some(entry) => {
+            let wobble = wobble(&entry)?;
+            let chi = angles
+                .chi
+                .ok_or_else(|| entry.refuse_because("it needs `pulsar.chi`: pulses are those of the magnetic axis"))?;
+            let observed = entry.number_in("from -1e5 to 1e5 [Hz]", -1e5..=1e5)?;
+            let cos = wobble.cos();
+            let goes_round = wobble < chi && chi < PI - wobble;
+            let of_period = |(precession, _): &(f64, Entry<'_>)| {
+                let precession = precession.copysign(observed);
+                cos * if goes_round { observed + precession } else { observed } - precession
+            };
+            let of_oblateness =
+                |oblateness: f64| observed / ((1.0 + oblateness) / cos - if goes_round { oblateness } else { 0.0 });
+            let frequency = match (&period, given) {
+                (Some(period), _) => of_period(period),
+                (None, oblateness) => of_oblateness(oblateness.unwrap_or(0.0)),
+            };
+            (entry, frequency)
+        }
+        None => {
+            let entry =
+                section.required("spin_frequency", "Omega^z / (2 pi) [Hz], or `star.frequency` of the pulses [Hz]")?;
+            let frequency = entry.number_in("from -1e5 to 1e5 [Hz]", -1e5..=1e5)?;
+            (entry, frequency)
+        }
+    };
+    let oblateness = match (period, given) {
+        (Some((precession, period)), _) => {
+            let oblateness = precession / frequency.abs();
+            if !in_range(&oblateness) {
+                let why = format!("the oblateness is then {oblateness:e}: allowed is {OBLATENESS}");
+                return Err(period.refuse_because(&why));
+            }
+            oblateness
+        }
+        (None, oblateness) => oblateness.unwrap_or(0.0),
+    };
+    Ok(Rotation { entry, frequency, oblateness })
+}
