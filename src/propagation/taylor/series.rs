@@ -280,14 +280,14 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
         if V > COMPANION {
             next[COMPANION] = cross(sums.companion);
         }
-        for i in 0..V {
+        for (i, next) in next.iter_mut().enumerate() {
             let (shares, rests) = if i == MOMENTUM {
                 (&self.share_of_momentum, &self.rest_of_momentum)
             } else {
                 (&self.share_of_axis, &self.rest_of_axis)
             };
-            let sum = next[i];
-            next[i] = if FIRST && Self::is_mended(k) {
+            let sum = *next;
+            *next = if FIRST && Self::is_mended(k) {
                 a.mul_add(sum, shares.at(k), a.mul(sum, rests[k]))
             } else {
                 a.mul(sum, shares.at(k))

@@ -1,6 +1,6 @@
 //! The motion of the symmetry axis and the angular momentum alone, without the angle about the axis.
 
-use super::propagation::{against_reference, estimate_against_reference};
+use super::propagation::{against_reference, estimate_against_truth};
 use crate::prelude::*;
 use crate::second_integrator::axis_states;
 
@@ -10,7 +10,7 @@ checks! {
     AtMost(1e-12) "largest error of a component";
     because "rounding of the initial values (1e-16) and of up to 1,200 steps, grown with a phase of 600 rad";
     /// the error estimate of the motion of n and L alone is not below its true error, from tolerance 1e-3 to 1e-14
-    Oracle "axis-motion-error-estimate" [25]: estimate_against_reference::<AxisState<f64>>;
+    Oracle "axis-motion-error-estimate" [25]: estimate_against_truth::<AxisState<f64>>;
     AtMost(1.0) "largest true error / estimate";
     because "an estimate below the true error is wrong";
     /// n and L of random motions do not depend on whether e_x is carried along, forwards and backwards in time
