@@ -144,7 +144,7 @@ equations! {
          "propagation::SeriesProjection" "propagation::Turning" "observables::pulsar::Pulse"
          "observables::pulsar::PulseTrain" "observables::pulsar::Stamped"
          "observables::pulsar::rate_bounds::RateBounds" "observables::pulsar::rate_bounds::rate_bounds"
-         "observables::pulsar::event_time::event_time"] ["figure_pulse_series"]
+         "observables::pulsar::event_time::event_time"] ["figure_pulse_series" "figure_spin_down" "figure_violation_residuals"]
     45 "" "magnetic axis in the body"
         ["observables::pulsar::Beam::new" "observables::pulsar::Beam::opposite"
          "observables::pulsar::Beam::direction"] ["figure_beam_cone"]

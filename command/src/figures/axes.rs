@@ -10,11 +10,13 @@ pub(super) struct Axis {
     high: f64,
     logarithmic: bool,
     numbers: bool,
+    /// Numbers are written in full, with no power of ten taken out.
+    in_full: bool,
 }
 
 impl Axis {
     pub(super) fn linear(label: &str, low: f64, high: f64) -> Self {
-        Self { label: label.to_owned(), low, high, logarithmic: false, numbers: true }
+        Self { label: label.to_owned(), low, high, logarithmic: false, numbers: true, in_full: false }
     }
 
     pub(super) fn logarithmic(label: &str, low: f64, high: f64) -> Self {
@@ -32,6 +34,11 @@ impl Axis {
             false => 1.0,
         };
         Self::linear(label, low - room, high + room)
+    }
+
+    /// The same axis with its numbers in full, as dates are read.
+    pub(super) fn in_full(self) -> Self {
+        Self { in_full: true, ..self }
     }
 
     /// The same axis with ticks but neither numbers nor a label, where the panel below has them.
@@ -57,7 +64,7 @@ impl Axis {
     /// Power of ten that is taken out of the numbers at the ticks, to keep them short.
     fn power(&self) -> i32 {
         let size = self.low.abs().max(self.high.abs()).log10();
-        if self.logarithmic || (-2.0..4.0).contains(&size) { 0 } else { size.floor() as i32 }
+        if self.logarithmic || self.in_full || (-2.0..4.0).contains(&size) { 0 } else { size.floor() as i32 }
     }
 
     /// The label, with the power of ten that its numbers lack.

@@ -31,10 +31,10 @@ pub fn golden_tables(figures: &[Figure]) -> Result<Vec<GoldenTable>, String> {
 
 /// The numbers that a line of the file asks for.
 fn numbers(figure: &Figure, line: &str) -> Option<Vec<GoldenLine>> {
-    // Errors of approximations to three digits, as in the tables of regimes; lines, which are fitted, to six.
+    // Errors of approximations to three digits, as in the tables of regimes, and residuals far below those of the torque; lines and other residuals, which are fitted, to six.
     let digits = match figure.name.as_str() {
-        "perturbation-regimes" | "method-regimes" => 3,
-        "beam-alignment-spectra" | "wave-spectra" | "line-atlas" => 6,
+        "perturbation-regimes" | "method-regimes" | "violation-residuals" => 3,
+        "beam-alignment-spectra" | "wave-spectra" | "line-atlas" | "spin-down" => 6,
         _ => 9,
     };
     let mut words = line.split(' ').skip(1);

@@ -1,8 +1,8 @@
 //! What lines and marks stand for.
 
 use super::axes::{Mark, draw_mark};
-use super::style::{BLACK, Line, SMALL};
-use super::svg::{Anchor, At, Page};
+use super::style::{BLACK, GREY, Line, SMALL, solid};
+use super::svg::{Anchor, At, Page, Rectangle};
 
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Sample {
@@ -35,4 +35,24 @@ fn legend_entry(page: &mut Page, [x, y]: At, (sample, name): &(Sample, &str)) {
         Sample::Mark(mark, colour) => draw_mark(page, [x + SAMPLE / 2.0, middle], mark, 2.0, colour),
     }
     page.text([x + SAMPLE + 4.0, y], Anchor::Start, SMALL, BLACK, name);
+}
+
+/// Names to the right of a frame, as near to the ends of their curves as there is room.
+pub(super) fn name_ends(page: &mut Page, frame: Rectangle, mut ends: Vec<(At, String, &'static str)>) {
+    const APART: f64 = 9.6;
+    ends.sort_by(|a, b| a.0[1].total_cmp(&b.0[1]));
+    // Downwards from the top; what then is below the frame goes up again.
+    let mut heights: Vec<f64> = ends.iter().map(|(at, ..)| at[1]).collect();
+    for k in 1..heights.len() {
+        heights[k] = heights[k].max(heights[k - 1] + APART);
+    }
+    let mut most = frame.bottom();
+    for height in heights.iter_mut().rev() {
+        *height = height.min(most);
+        most = *height - APART;
+    }
+    for (([x, y], name, colour), height) in ends.into_iter().zip(heights) {
+        page.path(&[[x + 1.0, y], [x + 8.0, height]], solid(GREY, 0.5));
+        page.text([x + 10.0, height + 0.35 * SMALL], Anchor::Start, SMALL, colour, &name);
+    }
 }

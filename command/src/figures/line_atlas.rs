@@ -214,26 +214,6 @@ fn draw(chosen: &[Vec<(Multiples, usize)>], tables: &[Table]) -> String {
     page.finish("Amplitudes of spectral lines against the size of s and the wobble")
 }
 
-/// Names to the right of a frame, as near to the ends of their curves as there is room.
-fn name_ends(page: &mut Page, frame: Rectangle, mut ends: Vec<(At, String, &'static str)>) {
-    const APART: f64 = 9.6;
-    ends.sort_by(|a, b| a.0[1].total_cmp(&b.0[1]));
-    // Downwards from the top; what then is below the frame goes up again.
-    let mut heights: Vec<f64> = ends.iter().map(|(at, ..)| at[1]).collect();
-    for k in 1..heights.len() {
-        heights[k] = heights[k].max(heights[k - 1] + APART);
-    }
-    let mut most = frame.bottom();
-    for height in heights.iter_mut().rev() {
-        *height = height.min(most);
-        most = *height - APART;
-    }
-    for (([x, y], name, colour), height) in ends.into_iter().zip(heights) {
-        page.path(&[[x + 1.0, y], [x + 8.0, height]], solid(GREY, 0.5));
-        page.text([x + 10.0, height + 0.35 * SMALL], Anchor::Start, SMALL, colour, &name);
-    }
-}
-
 fn caption(chosen: &[Vec<(Multiples, usize)>], tables: &[Table]) -> Caption {
     let of_observable = |(i, lines): (usize, &Vec<(Multiples, usize)>)| {
         let lacking = lines.iter().zip(&tables[3 * i + 2].rows).filter(|((_, kind), _)| *kind == KINDS.len() - 1);

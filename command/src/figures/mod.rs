@@ -42,10 +42,14 @@ mod spectrum;
 mod sphere;
 #[cfg(test)]
 mod sphere_tests;
+mod spin_down;
+#[cfg(test)]
+mod spin_down_tests;
 mod style;
 mod subject;
 mod svg;
 mod table;
+mod violation_residuals;
 mod wave_spectra;
 mod waves;
 mod work_precision;

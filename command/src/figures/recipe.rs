@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use super::{
     Caption, Figure, Subject, Table, alignment, alignment_spectra, beam_cone, bound_factor, euler_angles, line_atlas,
-    method_map, momentum_sphere, motion, pulse_series, regime_map, wave_spectra, waves,
+    method_map, momentum_sphere, motion, pulse_series, regime_map, spin_down, violation_residuals, wave_spectra, waves,
 };
 
 type OfMotions = fn(&str, &[&Subject]) -> Result<Sheet, String>;
@@ -67,6 +67,8 @@ fn maker(name: &str, places: &'static [usize]) -> Maker {
         "bound-factor" => Maker::Alone(bound_factor::sheet),
         "perturbation-regimes" => Maker::Alone(regime_map::sheet),
         "line-atlas" => Maker::Alone(line_atlas::sheet),
+        "spin-down" => Maker::Alone(spin_down::sheet),
+        "violation-residuals" => Maker::Alone(violation_residuals::sheet),
         "method-regimes" => Maker::Alone(method_map::sheet),
         "motion" | "motion-tp-1" => Maker::Motions(Needs::Nothing, &[0], motion::sheet),
         "motion-tp-2" => Maker::Motions(Needs::Nothing, &[1], motion::sheet),

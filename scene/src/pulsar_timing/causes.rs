@@ -8,14 +8,16 @@ use twofold::propagation::PhasedMotion;
 
 use super::{PulsarScene, Timing};
 
-/// The causes of the residuals (s), each fitted as the arrival times are, so that they add up to the residuals but for what of the secular spin-down no fit takes.
+/// The causes of the residuals (s), each fitted as the arrival times are. They add up to the residuals but for what of the secular spin-down no fit takes, and for the rounding of arrival times,
+/// of which they have none.
 #[derive(Debug, Clone)]
 pub struct Causes {
     /// Free precession turns the beam: when it points at the observer.
     pub geometry: Vec<f64>,
     /// The torque varies over a precession. Zero where it does not go with the magnetic axis.
     pub torque: Vec<f64>,
-    /// By how much Lorentz violation makes the pulses late.
+    /// By how much Lorentz violation makes the pulses late directly, the torque left as it is. It changes the rate of the precession too, and with it when the torque is large: that is
+    /// in [`torque`](Self::torque), and may be the larger part.
     pub violation: Vec<f64>,
     /// Rate of the frequency at each pulse (Hz/s), geometry apart.
     pub spin_down_rate: Vec<f64>,
@@ -35,7 +37,7 @@ impl PulsarScene {
         let mut spin_down_rate = Vec::with_capacity(timing.pulses.len());
         for timed in &timing.pulses {
             let number = timed.pulse.number;
-            let stretched = time.stretched_at(timed.arrival.seconds_since(&self.epoch))?;
+            let stretched = time.stretched_at(timed.pulse.midpoint)?;
             let without = free.pulse_near(stretched)?.filter(|pulse| pulse.number == number);
             let without = without.ok_or_else(|| {
                 format!("--causes: without Lorentz violation the star has no pulse in the turn {number}, from which the one with it could be late")

@@ -1,0 +1,239 @@
+//! PSR B1828-11 over ten years as observers show it: residuals, rate of the frequency, beam width.
+
+use nalgebra::{DMatrix, DVector};
+use std::f64::consts::TAU;
+use twofold::dynamics::Problem;
+use twofold::epoch::DAY;
+use twofold_scene::pulsar_timing::{Causes, PulsarScene, Timing};
+use twofold_scene::scene_file::Scene;
+
+use super::drawing::*;
+
+const NAME: &str = "spin-down";
+
+pub(super) const SCENE: &str = "b1828-11";
+
+/// Derivatives of the frequency that are fitted, F1 and F2.
+pub(super) const FITTED: usize = 2;
+
+/// By how much the part of geometry is enlarged to be seen.
+pub(super) const ENLARGED: f64 = 50.0;
+
+/// Periods of lines, in precession periods: the first is that which a biaxial star lacks.
+const LINES: [f64; 3] = [2.0, 1.0, 0.5];
+
+const TOTAL: Line = solid(BLACK, 0.8);
+const TORQUE: Line = solid("#f2b48c", 3.0);
+const GEOMETRY: Line = dashed(BLUE, 1.1);
+
+/// The pulsar of the scene with its `s` times a factor, timed at the epochs of the scene.
+pub(super) struct Timed {
+    pub(super) scene: Scene,
+    pub(super) pulsar: PulsarScene,
+    pub(super) timing: Timing,
+    pub(super) causes: Causes,
+}
+
+impl Timed {
+    pub(super) fn new(factor: f64) -> Result<Self, String> {
+        let mut scene = Scene::named(SCENE).map_err(|error| error.to_string())?;
+        let problem = &scene.problem;
+        scene.problem = Problem::new(*problem.spheroid(), problem.coefficients() * factor, *problem.initial())?;
+        let pulsar = PulsarScene::new(&scene)?;
+        let start = scene.times.start();
+        let epochs = scene.times.iter().map(|t| pulsar.epoch.after([t - start, 0.0])).collect::<Result<Vec<_>, _>>()?;
+        let timing = pulsar.timed(&epochs, FITTED).map_err(|error| error.to_string())?;
+        let causes = pulsar.causes(&timing)?;
+        Ok(Self { scene, pulsar, timing, causes })
+    }
+
+    /// Dates of the pulses (MJD).
+    pub(super) fn dates(&self) -> impl Iterator<Item = f64> {
+        self.timing.pulses.iter().map(|timed| timed.arrival.day() as f64 + timed.arrival.fraction())
+    }
+
+    /// Period of the free precession (d).
+    pub(super) fn precession(&self) -> f64 {
+        (TAU / self.pulsar.clock.stretched_time().precession().rate).abs() / DAY
+    }
+}
+
+pub(super) fn sheet() -> Result<Sheet, String> {
+    let timed = Timed::new(1.0)?;
+    let columns = [
+        "date [MJD]",
+        "residual [ms]",
+        "residual by torque [ms]",
+        "residual by geometry [ms]",
+        "rate of the frequency [1e-15 Hz/s]",
+        "beam width [ms]",
+    ];
+    let mut curves = Table::new("curves", columns);
+    let Causes { geometry, torque, spin_down_rate, .. } = &timed.causes;
+    for (i, date) in timed.dates().enumerate() {
+        let (late, width) = (timed.timing.fit.residuals[i], timed.timing.pulses[i].pulse.duration);
+        curves.push([date, 1e3 * late, 1e3 * torque[i], 1e3 * geometry[i], 1e15 * spin_down_rate[i], 1e3 * width]);
+    }
+    let lines = lines(&curves, timed.precession())?;
+    Ok(Sheet {
+        svg: draw(&curves, timed.precession()),
+        caption: caption(&timed, &curves, &lines),
+        tables: vec![curves, lines],
+    })
+}
+
+/// Amplitudes of lines of the curves, each fitted beside the others and what the fit of F0, F1, F2 takes: so they are those before that fit.
+fn lines(curves: &Table, precession: f64) -> Result<Table, String> {
+    let columns = ["period [d]", "residual [ms]", "rate of the frequency [1e-15 Hz/s]", "beam width [ms]"];
+    let mut table = Table::new("lines", columns);
+    let (first, last) = (curves.rows[0][0], curves.rows[curves.rows.len() - 1][0]);
+    let (middle, half) = (0.5 * (first + last), 0.5 * (last - first));
+    let model = DMatrix::from_fn(curves.rows.len(), 4 + 2 * LINES.len(), |i, k| {
+        let since = curves.rows[i][0] - middle;
+        match k.checked_sub(4) {
+            None => (since / half).powi(k as i32),
+            Some(k) => {
+                let phase = TAU * since / (LINES[k / 2] * precession);
+                if k % 2 == 0 { phase.cos() } else { phase.sin() }
+            }
+        }
+    });
+    let normal = (model.transpose() * &model).cholesky().ok_or("lines that cannot be told apart")?;
+    let fitted = [1, 4, 5].map(|column| {
+        let values = DVector::from_iterator(curves.rows.len(), curves.rows.iter().map(|row| row[column]));
+        normal.solve(&(model.transpose() * values))
+    });
+    for (k, period) in LINES.iter().enumerate() {
+        let amplitudes = fitted.iter().map(|found| found[4 + 2 * k].hypot(found[5 + 2 * k]));
+        table.push([period * precession].into_iter().chain(amplitudes).collect::<Vec<_>>());
+    }
+    Ok(table)
+}
+
+/// The axis of dates that all panels share.
+pub(super) fn dates(table: &Table) -> Axis {
+    Axis::linear("date [MJD]", table.rows[0][0], table.rows[table.rows.len() - 1][0]).in_full()
+}
+
+fn draw(curves: &Table, precession: f64) -> String {
+    let (left, names) = (LEFT + 12.0, 66.0);
+    let grid = Grid { left, top: 18.0, width: PAGE - left - names, height: 96.0, between: [0.0, 20.0] };
+    let mut page = Page::new(NAME, PAGE, grid.bottom(3) + BELOW);
+    let x = dates(curves);
+    let values = |column: usize| curves.rows.iter().map(move |row| row[column]);
+    let rates = Axis::around("d*ν*/d*t* [10^{−15} Hz/s]", values(4).chain([most(curves, 4)[1] + ABOVE]));
+    let axes =
+        [Axis::around("residual [ms]", values(1).chain(values(2))), rates, Axis::around("beam width [ms]", values(5))];
+    let what = ["after the fit of *F*0, *F*1, *F*2", "rate of the frequency", "duration of the pulse"];
+    for (row, (y, what)) in axes.into_iter().zip(what).enumerate() {
+        let panel = Panel::new(grid.frame(0, row), if row < 2 { x.bare() } else { x.clone() }, y);
+        match row {
+            0 => {
+                let enlarged: Vec<_> = curves.rows.iter().map(|row| (row[0], ENLARGED * row[3])).collect();
+                let drawn = [
+                    (curves.points(0, 2), TORQUE, "torque".to_owned(), VERMILION),
+                    (enlarged, GEOMETRY, format!("geometry × {ENLARGED}"), BLUE),
+                    (curves.points(0, 1), TOTAL, "total".to_owned(), BLACK),
+                ];
+                panel.level(&mut page, 0.0, solid(LIGHT, 0.5));
+                let mut ends = Vec::new();
+                for (points, line, name, colour) in drawn {
+                    panel.curve(&mut page, &points, line);
+                    let &(at, last) = points.last().expect("pulses");
+                    ends.push((panel.at(at, last), name, colour));
+                }
+                panel.draw_frame(&mut page);
+                name_ends(&mut page, panel.frame, ends);
+            }
+            1 => {
+                panel.curve(&mut page, &curves.points(0, 4), solid(BLACK, 1.1));
+                bars(&mut page, &panel, curves, precession);
+                panel.draw_frame(&mut page);
+            }
+            _ => {
+                panel.curve(&mut page, &curves.points(0, 5), solid(BLACK, 1.1));
+                panel.draw_frame(&mut page);
+            }
+        }
+        panel.letter(&mut page, row, 3, what);
+    }
+    page.finish("Residuals, rate of the frequency and beam width of PSR B1828-11")
+}
+
+/// Room for bars above the curve of the rate (1e-15 Hz/s).
+const ABOVE: f64 = 0.45;
+
+/// The row with the largest number in a column: the date and the number.
+fn most(curves: &Table, column: usize) -> [f64; 2] {
+    let row = curves.rows.iter().max_by(|a, b| a[column].total_cmp(&b[column])).expect("pulses");
+    [row[0], row[column]]
+}
+
+/// Bars as long as the precession period and half of it, each from a peak of the rate to the next that it leads to.
+fn bars(page: &mut Page, panel: &Panel, curves: &Table, precession: f64) {
+    let [peak, top] = most(curves, 4);
+    let first = peak - ((peak - curves.rows[0][0]) / precession).floor() * precession;
+    for (place, turns, length) in [(1.0, 1.0, precession), (3.0, 0.5, 0.5 * precession)] {
+        let from = first + place * precession;
+        let [[left, y], [right, _]] = [from, from + turns * precession].map(|date| panel.at(date, top + 0.3 * ABOVE));
+        page.path(&[[left, y], [right, y]], solid(GREEN, 1.6));
+        for end in [left, right] {
+            page.path(&[[end, y - 3.0], [end, y + 3.0]], solid(GREEN, 1.0));
+        }
+        let name = format!("{} d", significant(length, 3));
+        page.text([0.5 * (left + right), y - 4.0], Anchor::Middle, SMALL, GREEN, &name);
+    }
+}
+
+/// Root mean square of numbers, and the largest.
+pub(super) fn sizes(values: &[f64]) -> [f64; 2] {
+    let squares: f64 = values.iter().map(|x| x * x).sum();
+    [(squares / values.len() as f64).sqrt(), values.iter().fold(0.0, |most, x| most.max(x.abs()))]
+}
+
+/// Angles of the scene in degrees: wobble, magnetic axis, observer, half opening of the beam.
+pub(super) fn angles(timed: &Timed) -> [(&'static str, String); 4] {
+    let state = timed.pulsar.problem.initial();
+    let wobble = state.axis.angle(&state.momentum);
+    let (viewer, pulsar) = (timed.scene.observer.expect("an observer"), timed.scene.pulsar.expect("a beam"));
+    let degrees = |angle: f64| significant(angle.to_degrees(), 3);
+    [
+        ("wobble", degrees(wobble)),
+        ("chi", degrees(pulsar.chi)),
+        ("theta_o", degrees(viewer.theta_o)),
+        ("rho", degrees(pulsar.rho)),
+    ]
+}
+
+fn caption(timed: &Timed, curves: &Table, lines: &Table) -> Caption {
+    let column = |k: usize| curves.rows.iter().map(|row| row[k]).collect::<Vec<_>>();
+    let [rms, largest] = sizes(&column(1));
+    let [rms_geometry, largest_geometry] = sizes(&column(3));
+    let range = |k: usize| Spread::of(column(k)).map_or((0.0, 0.0), |spread| (spread.low, spread.high));
+    let ((slow, fast), (narrow, wide)) = (range(4), range(5));
+    let [absent, once, twice] = [0, 1, 2].map(|k| &lines.rows[k]);
+    let part = 100.0 * (fast - slow) / slow.abs();
+    let numbers = [
+        ("once_period", once[0], 3),
+        ("twice_period", twice[0], 3),
+        ("absent_period", absent[0], 3),
+        ("enlarged", ENLARGED, 3),
+        ("residual_rms", rms, 2),
+        ("residual_largest", largest, 2),
+        ("geometry_rms", rms_geometry, 2),
+        ("geometry_largest", largest_geometry, 2),
+        ("residual_once", once[1], 3),
+        ("residual_twice", twice[1], 2),
+        ("residual_absent", absent[1], 1),
+        ("rate_once", once[2], 3),
+        ("rate_twice", twice[2], 3),
+        ("width_once", once[3], 2),
+        ("width_twice", twice[3], 2),
+        ("narrow", narrow, 3),
+        ("wide", wide, 3),
+        ("part", part, 1),
+        ("f1", timed.scene.spin_down.map_or(0.0, |spin_down| spin_down.f1), 5),
+    ];
+    let numbers = numbers.map(|(name, value, digits)| (name, significant(value, digits)));
+    Caption::of(NAME, &[&numbers[..], &angles(timed)].concat())
+}
