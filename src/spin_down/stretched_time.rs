@@ -134,7 +134,7 @@ impl StretchedTime {
         let mut tau = wanted;
         for _ in 0..STEPS {
             let step = (wanted - self.time(tau)) * self.slowing(tau.high);
-            tau = tau + step;
+            tau += step;
             // Newton's method squares what is left.
             if step.high.abs() <= 1e-18 * tau.high.abs() {
                 break;

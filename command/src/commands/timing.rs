@@ -34,7 +34,7 @@ pub(crate) struct TimingArgs {
     /// Fit F1 and F2, as is done for a scene with [spin_down] unless --f1 says otherwise
     #[arg(long)]
     pub(crate) f2: bool,
-    /// Add to the table what the residuals are made of: geometry, torque, Lorentz violation, and the rate of the frequency
+    /// Add to the table what the residuals are made of: geometry, torque, what Lorentz violation does to the direction of the beam, and the rate of the frequency
     #[arg(long)]
     pub(crate) causes: bool,
     /// Uncertainty of the arrival times that the .tim states, in microseconds

@@ -126,7 +126,7 @@ impl SpinFit {
             for _ in 0..NEWTON_STEPS {
                 let phase = t * (frequency + t * (DoubleDouble::from(rate / 2.0) + t * (second / 6.0)));
                 let slope = frequency.high + t.high * (rate + t.high * second / 2.0);
-                t = t - (phase - wanted) / slope;
+                t -= (phase - wanted) / slope;
             }
         }
         t.into()
