@@ -124,6 +124,11 @@ impl PhasedMotion {
         }
     }
 
+    /// Whether the phases are the angles of a torus, which may be any basis of it.
+    pub(crate) fn is_on_torus(&self) -> bool {
+        matches!(self.solution, Solution::Torus(_))
+    }
+
     /// The same in turns, to 32 digits where they are known.
     pub(crate) fn turns_per_time(&self) -> [DoubleDouble; 3] {
         match &self.solution {

@@ -12,8 +12,11 @@ const MOST: f64 = 0.1;
 /// Terms of the series of time in stretched time.
 const TERMS: usize = 30;
 
-/// Most steps of Newton's method from the time to the stretched time: two from 10 % to rounding take six.
+/// Most steps of Newton's method from the time to the stretched time. From 10 % off it reaches rounding in six.
 const STEPS: usize = 12;
+
+/// Largest part of the rotation by which the varying torque may move it within a precession: more is no small change of the rotation that the scene states.
+const MOST_VARYING: f64 = 0.01;
 
 /// How a star is braked: `d|L|/dt` proportional to `-|L|^n (k_0 + k_1 sin^2 theta_m)`, along `L`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,11 +48,11 @@ pub struct Precession {
 /// ```text
 /// t = integral of u dtau + Q(tau) - Q(0)
 /// Q = -kappa g [u^(3 - n) (a_1 cos psi / w^2 + a_2 cos 2 psi / (4 w^2)) - (3 - n) kappa u^(5 - 2 n) (a_1 sin psi / w^3 + a_2 sin 2 psi / (8 w^3))]
+///     + (3 - n) / 2 integral of (kappa P)^2 dtau,    P = g (a_1 sin psi / w + a_2 sin 2 psi / (2 w))
 /// ```
 ///
 /// with [`TorqueHarmonics`] `a_0, a_1, a_2`, `psi = psi_0 + w tau`, and `g = q / (1 - q + q a_0)` for the torque's share `q`. `Q` is by how much the varying torque makes a pulse late. The rotation of
-/// the star that does not slow down, `tau`, is the mean one at the time zero. Exact for `n = 3`; else without terms of the relative size
-/// `(kappa / w)^2` in `Q`, and of the mean square of the varying torque.
+/// the star that does not slow down, `tau`, is the mean one at the time zero. Exact for `n = 3`; else of second order in `kappa`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StretchedTime {
     braking: Braking,
@@ -72,7 +75,8 @@ impl StretchedTime {
     /// The time of a star that is braked while it precesses.
     ///
     /// # Errors
-    /// [`Error::Domain`] for a rate or an index that is not finite, a share outside 0 to 1, and a torque that vanishes: `q = 1` with the magnetic axis and `n` along `L`.
+    /// [`Error::Domain`] for a rate that is not finite, an index beyond 30 in size, a share outside 0 to 1, a torque that vanishes (`q = 1` with the magnetic axis and `n` along `L`), and one that moves the
+    /// rotation by more than a hundredth within a precession.
     pub fn new(braking: &Braking, precession: &Precession) -> Result<Self, Error> {
         let Braking { rate, index, torque_share } = *braking;
         Error::ensure(rate.is_finite(), "braking rate -F1 / F0", rate, "a finite number")?;
@@ -81,6 +85,17 @@ impl StretchedTime {
         Error::ensure((0.0..=1.0).contains(&torque_share), share, torque_share, "from 0 to 1")?;
         let mean = 1.0 - torque_share + torque_share * precession.torque.constant;
         Error::ensure(mean > 0.0, "mean braking torque", mean, "above zero: the magnetic axis may not stay along L")?;
+        let modulation = torque_share / mean;
+        let Precession { torque, rate: w, .. } = *precession;
+        if modulation * (torque.once.abs() + torque.twice.abs()) > 0.0 {
+            let varying = (rate * modulation * (torque.once.abs() + torque.twice.abs() / 2.0) / w).abs();
+            Error::ensure(
+                varying <= MOST_VARYING,
+                "change of the rotation by the varying torque within a precession",
+                varying,
+                "at most 0.01: a shorter period of precession, a smaller F1, or a torque that does not vary",
+            )?;
+        }
         let mut term = DoubleDouble::from(1.0);
         let mut secular = Vec::new();
         for k in 1..TERMS {
@@ -92,7 +107,7 @@ impl StretchedTime {
             }
             secular.push(term);
         }
-        Ok(Self { braking: *braking, precession: *precession, modulation: torque_share / mean, secular })
+        Ok(Self { braking: *braking, precession: *precession, modulation, secular })
     }
 
     /// How the star is braked.
@@ -126,7 +141,7 @@ impl StretchedTime {
         let lost = self.braking.rate * time[0] * (self.braking.index - 2.0).abs().max(1.0);
         Error::ensure(
             lost.abs() <= MOST,
-            "F1 t / F0, times n - 2 for braking indices n above 3",
+            "F1 t / F0, times |n - 2| of the braking index n where that is above 1",
             -lost,
             "at most 0.1 in size: the rotation is followed while it falls by a tenth",
         )?;
@@ -151,36 +166,42 @@ impl StretchedTime {
         tau + series * tau + self.late(tau.high).into()
     }
 
-    /// By how much the varying torque makes the star late since the time zero, `Q(tau) - Q(0)`.
+    /// By how much the varying torque makes the star late since the time zero, `Q(tau) - Q(0)`; from differences, so that the rounding is that of the result.
     pub fn late(&self, tau: f64) -> f64 {
         if self.modulation == 0.0 || self.precession.rate == 0.0 {
             return 0.0;
         }
-        self.lateness(tau) - self.lateness(0.0)
-    }
-
-    fn lateness(&self, tau: f64) -> f64 {
         let Braking { rate, index, .. } = self.braking;
-        let Precession { torque, rate: w, .. } = self.precession;
-        let ((sin, cos), (sin_2, cos_2)) = self.phases(tau);
-        let u = self.secular_slowness(tau);
-        let first = torque.once * cos + torque.twice * cos_2 / 4.0;
-        let second = torque.once * sin + torque.twice * sin_2 / 8.0;
-        let by_parts = (3.0 - index) * rate / w * u.powf(5.0 - 2.0 * index) * second;
-        -rate * self.modulation / (w * w) * (u.powf(3.0 - index) * first - by_parts)
+        let Precession { torque, rate: w, phase } = self.precession;
+        let u = self.slowness(tau);
+        let half = 0.5 * ((w * tau) % (2.0 * TAU));
+        // cos a - cos b = -2 sin((a + b) / 2) sin((a - b) / 2), sin a - sin b = 2 cos((a + b) / 2) sin((a - b) / 2).
+        let differences = |multiple: f64| {
+            let ((sin, cos), across) = ((multiple * (phase + half)).sin_cos(), 2.0 * (multiple * half).sin());
+            [-sin * across, cos * across]
+        };
+        let [[cos, sin], [cos_2, sin_2]] = [differences(1.0), differences(2.0)];
+        let sum = |once: f64, twice: f64, divisor: f64| torque.once * once + torque.twice * twice / divisor;
+        let ((sin_psi, cos_psi), (sin_2_psi, cos_2_psi)) = self.phases(tau);
+        let fallen = |power: f64| (power * u.ln()).exp_m1();
+        let first = sum(cos, cos_2, 4.0) + fallen(3.0 - index) * sum(cos_psi, cos_2_psi, 4.0);
+        let second = sum(sin, sin_2, 8.0) + fallen(5.0 - 2.0 * index) * sum(sin_psi, sin_2_psi, 8.0);
+        // Of P^2, with the square of A sin psi + B sin 2 psi as a sum of cosines.
+        let [a, b] = [torque.once, torque.twice / 2.0].map(|harmonic| rate * self.modulation * harmonic / w);
+        let [sin_3, sin_4] = [3.0, 4.0].map(|multiple| differences(multiple)[1]);
+        let squares =
+            0.5 * (a * a + b * b) * tau + (a * b * (sin - sin_3 / 3.0) - a * a * sin_2 / 4.0 - b * b * sin_4 / 8.0) / w;
+        -rate * self.modulation / (w * w) * (first - (3.0 - index) * rate / w * second) + (3.0 - index) / 2.0 * squares
     }
 
-    /// `a = |L| / |L'| = d tau / dt` at a stretched time.
+    /// `a = |L| / |L'| = d tau / dt` at a stretched time, by the law.
     pub fn slowing(&self, tau: f64) -> f64 {
-        let Braking { rate, index, .. } = self.braking;
         let Precession { torque, rate: w, .. } = self.precession;
-        let u = self.secular_slowness(tau);
         if self.modulation == 0.0 || w == 0.0 {
-            return 1.0 / u;
+            return 1.0 / self.slowness(tau);
         }
         let ((sin, _), (sin_2, _)) = self.phases(tau);
-        let varying = rate * self.modulation * (torque.once * sin + torque.twice * sin_2 / 2.0) / w;
-        1.0 / (u + varying * u.powf(3.0 - index))
+        1.0 / self.slowness(tau + self.modulation * (torque.once * sin + torque.twice * sin_2 / 2.0) / w)
     }
 
     /// The rate of rotation's own rate, `d ln a / dt` over that of the mean torque at the time zero: `a^(n - 1) (1 + g (a_1 cos psi + a_2 cos 2 psi))`.
@@ -191,26 +212,31 @@ impl StretchedTime {
         self.slowing(tau).powf(self.braking.index - 1.0) * (1.0 + varying)
     }
 
-    /// Most that the varying torque makes the star late, either way, from its mean.
-    pub fn largest_lateness(&self) -> f64 {
-        let Precession { torque, rate: w, .. } = self.precession;
-        if w == 0.0 {
+    /// What wrong angles of the wobble and of its phase do to the lateness: three times their error, `error` at the wobble of a radian and as much over it for a smaller one, as
+    /// `a_1` goes with the first and `a_2` with the second power of the wobble.
+    pub fn error_by_angles(&self, error: f64) -> f64 {
+        if self.precession.rate == 0.0 {
             return 0.0;
         }
-        (self.braking.rate * self.modulation / (w * w)).abs() * (torque.once.abs() + torque.twice.abs() / 4.0)
+        3.0 * error * (self.braking.rate * self.modulation / self.precession.rate.powi(2)).abs()
     }
 
-    /// What the map leaves out at a time: the mean square of the varying torque, and terms of the relative size `(kappa / w)^2`.
+    /// What the map leaves out at a time: what is of third order in `kappa`.
     pub fn truncation(&self, t: f64) -> f64 {
         let Braking { rate, index, .. } = self.braking;
         let Precession { torque, rate: w, .. } = self.precession;
         if self.modulation == 0.0 || w == 0.0 || index == 3.0 {
             return 0.0;
         }
-        let size = self.modulation * (torque.once.abs() + torque.twice.abs());
-        let varying = (rate / w).abs() * size;
-        (3.0 - index).abs()
-            * (0.5 * varying * varying * t.abs() + (rate / w).powi(2) * (index.abs() + 2.0) * varying / w.abs())
+        let varying = (rate * self.modulation / w).abs() * (torque.once.abs() + torque.twice.abs());
+        let in_a_precession = (rate / w).abs().max(varying);
+        // Each order has a factor below |5 - 2 n| + 1; the square of the varying torque falls with u as time goes on.
+        let factor = (3.0 - index).abs() * ((5.0 - 2.0 * index).abs() + 1.0);
+        factor
+            * varying
+            * (in_a_precession * in_a_precession / w.abs()
+                + varying * (rate * t * t).abs()
+                + varying * varying * t.abs())
     }
 
     /// Sines and cosines of `psi` and of `2 psi`.
@@ -219,8 +245,8 @@ impl StretchedTime {
         (psi.sin_cos(), (2.0 * psi).sin_cos())
     }
 
-    /// `u`, the secular `1 / a`.
-    fn secular_slowness(&self, tau: f64) -> f64 {
+    /// `u`, the secular `1 / a`; with what the varying torque adds to the time, `1 / a` itself.
+    fn slowness(&self, tau: f64) -> f64 {
         let Braking { rate, index, .. } = self.braking;
         let y = index - 2.0;
         if y == 0.0 { (rate * tau).exp() } else { ((y * rate * tau).ln_1p() / y).exp() }
@@ -288,6 +314,24 @@ mod tests {
         let nu = |t: f64| found.slowing(found.stretched_at([t, 0.0]).unwrap()[0]);
         let second = (nu(300.0) - 2.0 * nu(0.0) + nu(-300.0)) / 9e4;
         assert!((second / 4.5e-12 - 1.0).abs() < 1e-3, "{second:e}");
+    }
+
+    /// Over a small part of a slow precession the lateness is `kappa g` times half the square of time and the torque's difference from its mean, less what the rotation at the start is ahead; by the Taylor series.
+    #[test]
+    fn a_short_time_has_a_small_lateness() {
+        let torque = TorqueHarmonics::new(0.2, 1.3);
+        let (phase, w, kappa) = (0.7_f64, 1e-6, 1e-12);
+        let braking = Braking { rate: kappa, index: 3.0, torque_share: 1.0 };
+        let stretched = StretchedTime::new(&braking, &Precession { torque, phase, rate: w }).unwrap();
+        let g = 1.0 / torque.constant;
+        let rate = kappa * g * (torque.once * phase.sin() + torque.twice * (2.0 * phase).sin() / 2.0) / w;
+        let second = kappa * g * (torque.once * phase.cos() + torque.twice * (2.0 * phase).cos());
+        for tau in [1e-3, 1.0, 1e2] {
+            let expected = tau * (rate + 0.5 * second * tau);
+            assert!((stretched.late(tau) / expected - 1.0).abs() < 1e-8, "{tau}");
+        }
+        let slow = Precession { torque, phase, rate: 1e-13 };
+        assert!(StretchedTime::new(&braking, &slow).is_err());
     }
 
     #[test]

@@ -123,8 +123,8 @@ fn what_is_observed_of_a_pulsar_stands_for_its_star() {
     let scene = Scene::from_toml("other", &text).unwrap_or_else(|error| panic!("{error}"));
     let state = scene.problem.initial();
     let (n, l) = (state.axis, state.momentum.normalize());
-    assert!((l + nalgebra::Vector3::new(1.0, -2.0, 0.5).normalize()).norm() < 1e-15);
-    // A negative frequency turns L about.
+    assert!((l - nalgebra::Vector3::new(1.0, -2.0, 0.5).normalize()).norm() < 1e-15);
+    // A negative frequency: the wobble and its phase are angles to -L.
     assert!((n.angle(&-l) - 0.7).abs() < 1e-15);
     let m = scene.pulsar.expect("a beam").beam().direction(state);
     let across = |v: nalgebra::Vector3<f64>| (v - n * n.dot(&v)).normalize();

@@ -136,7 +136,8 @@ fn summary(timing: &Timing) -> String {
 
 /// The periods of both precessions, and a warning where the epochs are too rare to show that of the body.
 fn note_periods(pulsar: &PulsarScene, epochs: &[Epoch]) {
-    let [_, of_momentum, of_body] = pulsar.clock.motion().rates().map(|rate| TAU / rate.abs() / DAY);
+    let Ok(rates) = pulsar.clock.precession_rates() else { return };
+    let [of_body, of_momentum] = rates.map(|rate| TAU / rate.abs() / DAY);
     let days = |period: f64| if period.is_finite() { format!("{period:.6e} d") } else { "none".to_owned() };
     note(&format!(
         "precession of the body about its axis: {}; of its angular momentum: {}",

@@ -308,6 +308,10 @@ fn every_documented_key_of_a_scene_is_changed_once() {
     let mut count = 0;
     for section in sections {
         let (name, text) = section.split_once(']').expect("a title");
+        // The second program integrates motions without braking; the checks `spin-down-*` integrate the torque.
+        if name == "spin_down" {
+            continue;
+        }
         let text = text.split("\n## ").next().expect("a text");
         for row in text.lines().filter(|line| line.starts_with("| `")) {
             let keys = row.split('|').nth(1).expect("a column");
@@ -321,7 +325,7 @@ fn every_documented_key_of_a_scene_is_changed_once() {
             }
         }
     }
-    assert!(count >= 38, "only {count} keys are found");
+    assert!(count >= 44, "only {count} keys are found");
 }
 
 #[test]

@@ -40,7 +40,10 @@ impl PulsarScene {
             let stretched = time.stretched_at(timed.pulse.midpoint)?;
             let without = free.pulse_near(stretched)?.filter(|pulse| pulse.number == number);
             let without = without.ok_or_else(|| {
-                format!("--causes: without Lorentz violation the star has no pulse in the turn {number}, from which the one with it could be late")
+                format!(
+                    "--causes: at the time of pulse {number} the star without Lorentz violation is in another turn, or dark: allowed is a \
+                     violation that makes the pulses late by less than a turn"
+                )
             })?;
             // Late against even turns, which the fit takes away.
             let violation = (stretched[0] - without.midpoint[0]) + (stretched[1] - without.midpoint[1]);

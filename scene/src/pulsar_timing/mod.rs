@@ -74,8 +74,8 @@ impl PulsarScene {
         let clock = PulsarClock::on(motion, &beam, &observer)?;
         let clock = match &scene.spin_down {
             Some(spin_down) => {
-                let braking = spin_down.braking(1.0 / clock.period());
-                clock.braked(&braking)?
+                let braking = spin_down.braking(1.0 / clock.period())?;
+                clock.braked(&braking).map_err(|error| format!("[spin_down]: {error}"))?
             }
             None => clock,
         };
@@ -107,7 +107,7 @@ impl PulsarScene {
         const ROUNDINGS: f64 = 10.0;
         let per_radian = self.clock.period().abs() / TAU;
         let of_motion = self.clock.motion().error_estimate(t) * per_radian;
-        ARRIVAL_ROUNDING.max(of_motion) + ROUNDINGS * f64::EPSILON / 2.0 * t.abs()
+        self.residual_error(t).max(of_motion) + ROUNDINGS * f64::EPSILON / 2.0 * t.abs()
     }
 
     /// The pulses nearest to given epochs, and their fit of F0 and so many derivatives. Epochs of dark turns have none.

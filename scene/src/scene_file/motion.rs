@@ -282,7 +282,7 @@ fn from_angles(section: &Section<'_>, star: &Star) -> Result<Initial, Fault> {
     Ok(Initial { state, angles, perturbation: Err("[initial] gives angles and no constants (`initial.kind`)") })
 }
 
-/// The state by the angle of the wobble. With `l` along `L`, `x` the direction across it nearest to X (to Y where `l` is along X) and `phi` the azimuth,
+/// The state by the angle of the wobble. With `l` along `L` (along `-L` for a negative spin), `x` the direction across it nearest to X (to Y where `l` is along X) and `phi` the azimuth,
 /// `n = l cos theta + (x cos phi + l x x sin phi) sin theta`, and the part of the magnetic axis (of `e_x` without a pulsar) across `n` is turned back about `n` by the phase from that of `l`.
 fn from_wobble(section: &Section<'_>, star: &Star, beam: Option<&Pulsar>) -> Result<Initial, Fault> {
     let wobble = section.required("wobble", "angle of the symmetry axis to L [rad]")?;
@@ -292,9 +292,15 @@ fn from_wobble(section: &Section<'_>, star: &Star, beam: Option<&Pulsar>) -> Res
         None => Vector3::z(),
         Some(entry) => {
             let given = entry.vector(allowed)?;
-            given.try_normalize(0.0).filter(|l| l.norm().is_finite()).ok_or_else(|| entry.refuse(allowed))?
+            let largest = given.amax();
+            if largest == 0.0 {
+                return Err(entry.refuse(allowed));
+            }
+            (given / largest).normalize()
         }
     };
+    // A star of negative spin turns about -L.
+    let l = if star.spin < 0.0 { -l } else { l };
     let angle = |key: &str| section.optional(key).map_or(Ok(0.0), |entry| entry.angle());
     let (azimuth, phase) = (angle("azimuth")?, angle("precession_phase")?);
     let nearest = if l.x.abs() > 0.99 { Vector3::y() } else { Vector3::x() };

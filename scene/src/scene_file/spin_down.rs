@@ -27,12 +27,21 @@ pub enum IndexOrSecond {
 
 impl SpinDown {
     /// The law of braking of a star with the frequency `F0` (Hz).
-    pub fn braking(&self, frequency: f64) -> Braking {
+    ///
+    /// # Errors
+    /// A sentence for an `F2` that makes the braking index larger than 30 in size.
+    pub fn braking(&self, frequency: f64) -> Result<Braking, String> {
         let index = match self.index {
             IndexOrSecond::Index(index) => index,
             IndexOrSecond::Second(second) => frequency * second / (self.f1 * self.f1),
         };
-        Braking { rate: -self.f1 / frequency, index, torque_share: self.torque_share }
+        if let (IndexOrSecond::Second(second), false) = (self.index, (-30.0..=30.0).contains(&index)) {
+            return Err(format!(
+                "`spin_down.f2` = {second:e}: the braking index F0 F2 / F1^2 is then {index:.4e}, allowed is from -30 to 30. An F2 of timing noise is no \
+                 law of braking: leave it out"
+            ));
+        }
+        Ok(Braking { rate: -self.f1 / frequency, index, torque_share: self.torque_share })
     }
 }
 
@@ -54,14 +63,15 @@ pub(super) fn read(section: &Section<'_>, units: &Units) -> Result<SpinDown, Fau
     };
     let torque_share = match section.optional("torque") {
         None => 0.0,
-        Some(entry) if entry.is_string() => {
-            let name = entry.word(&TORQUES.map(|(name, _)| name))?;
-            TORQUES.iter().find(|(of, _)| *of == name).map_or(0.0, |(_, share)| *share)
+        Some(entry) => {
+            let allowed =
+                "\"constant\", \"plasma\", \"vacuum\", or the share of sin^2 theta_m in the torque, from 0 to 1";
+            let named = entry.string().ok().map(|name| TORQUES.iter().find(|(of, _)| *of == name));
+            match named {
+                Some(found) => found.map(|(_, share)| *share).ok_or_else(|| entry.refuse(allowed))?,
+                None => entry.number_in(allowed, 0.0..=1.0)?,
+            }
         }
-        Some(entry) => entry.number_in(
-            "\"constant\", \"plasma\", \"vacuum\", or the share of sin^2 theta_m in the torque, from 0 to 1",
-            0.0..=1.0,
-        )?,
     };
     Ok(SpinDown { f1, index, torque_share })
 }

@@ -15,11 +15,12 @@ use crate::error::Error;
 use crate::numerics::angle::wrapped;
 use crate::numerics::double_double::DoubleDouble;
 use crate::observables::Observer;
+use crate::observables::spectrum::QuasiPeriodicMotion;
 use crate::propagation::{Motion, PhasedMotion, Turning, largest_torque};
 use crate::solutions::averaged::AveragingOrder;
 use crate::spin_down::{Braking, Precession, StretchedTime, TorqueHarmonics};
 
-/// Largest `x = C |s| I^xx / |L|^2` with a torque that goes with the magnetic axis: its two harmonics are those of free precession, right to `x`.
+/// Largest `x = C |s| I^xx / |L|^2` with a torque that goes with the magnetic axis: its two harmonics are those of free precession with the angles at the start, which are right to `x`.
 const STRONGEST: f64 = 1e-3;
 
 /// Most rotation of the body in one turn about L (rad): the search takes a tenth of a second.
@@ -159,11 +160,13 @@ impl PulsarClock {
         let state = self.motion.problem.initial();
         let (n, l) = (state.axis, state.momentum.normalize());
         let m = self.beam.direction(state);
+        // By the sine too: the cosine of a small angle has lost it.
+        let angle = |v: &Vector3<f64>| n.cross(v).norm().atan2(n.dot(v));
         let precession = Precession {
-            torque: TorqueHarmonics::new(n.angle(&l), n.angle(&m)),
-            phase: n.cross(&m).dot(&l).atan2(m.dot(&l) - m.dot(&n) * n.dot(&l)),
+            torque: TorqueHarmonics::new(angle(&l), angle(&m)),
+            phase: n.cross(&m).dot(&l).atan2(n.cross(&m).dot(&n.cross(&l))),
             // The magnetic axis goes round n as e_x does, and psi is from it to L.
-            rate: -self.motion.rates()[2],
+            rate: -self.precession_rates()?[0],
         };
         Ok(Self { time: StretchedTime::new(braking, &precession)?, ..self })
     }
@@ -171,6 +174,23 @@ impl PulsarClock {
     /// The motion, in the stretched time of a star that slows down.
     pub fn motion(&self) -> &PhasedMotion {
         &self.motion
+    }
+
+    /// Mean rates (rad per unit of time) of the free precession, of `e_x` about `n` from the direction in which `n` goes round `L`, and of the precession of `L`.
+    ///
+    /// # Errors
+    /// As for [`QuasiPeriodicMotion::new`]; [`Error::NotConverged`] where turns about `n` or of `L` are not counted.
+    pub fn precession_rates(&self) -> Result<[f64; 2], Error> {
+        if !self.motion.is_on_torus() {
+            let [_, of_momentum, of_body] = self.motion.rates();
+            return Ok([of_body, of_momentum]);
+        }
+        let motion = QuasiPeriodicMotion::new(&self.motion.problem)?;
+        let rate = |symbol: &str, what| {
+            let rate = motion.frequencies().rate(symbol);
+            rate.ok_or(Error::NotConverged { what, iterations: 1, residual: f64::NAN })
+        };
+        Ok([rate("psi'", "turns of the body about its axis")?, rate("l'", "turns of L about its axis")?])
     }
 
     /// The stretched time of the motion.
@@ -184,7 +204,7 @@ impl PulsarClock {
     }
 
     /// Error of a midpoint at the time `t` by what the motion leaves out: that of directions over the rate of turns. Of a star that slows down also what the
-    /// stretched time leaves out, the share `C |s| I^xx / |L|^2` of what the varying torque makes it late, and what a `C` that does not fall would add to the precession of `L`.
+    /// stretched time leaves out, what angles that are off by `C |s| I^xx / |L|^2` do to the lateness by the varying torque, and what a `C` that does not fall would add to the precession of `L`.
     pub fn truncation(&self, t: f64) -> f64 {
         let of_motion = self.motion.truncation(t) / self.turns.rate(&self.motion);
         if self.time.is_uniform() {
@@ -193,7 +213,7 @@ impl PulsarClock {
         let state = self.motion.problem.initial();
         let precession = self.strength() * state.momentum.norm() / self.motion.problem.spheroid().inertia_xx;
         let rigid = precession * (self.time.braking().rate * t * t / self.turns.rate(&self.motion)).abs();
-        of_motion.abs() + self.time.truncation(t) + self.strength() * self.time.largest_lateness() + rigid
+        of_motion.abs() + self.time.truncation(t) + self.time.error_by_angles(self.strength()) + rigid
     }
 
     /// `C |s| I^xx / |L|^2`, by the largest torque: the relative size of what Lorentz violation adds to rates.

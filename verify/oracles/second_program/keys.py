@@ -54,6 +54,14 @@ CASES = {
         "observer.distance": 1.9,
         "time.end": 0.017,
     },
+    "keys-observed": {
+        "star.precession_period": 7.1e-7,
+        "star.frequency": -287.0,
+        "initial.wobble": 0.41,
+        "initial.momentum": [0.3, -0.7, 0.4],
+        "initial.azimuth": -2.7,
+        "initial.precession_phase": 1.9,
+    },
     "keys-density": {"star.density": 7.7e14},
     "keys-dates": {
         "sources": ["another source"],

@@ -47,10 +47,9 @@ class Scene:
         self.physical = "mass" in star
         if self.physical:
             given = {"radius": star["radius"] * 1e3} if "radius" in star else {"density": star["density"] * 1e3}
-            self.inertia_xx, self.inertia_zz, self.c = uniform_spheroid(
-                star["mass"] * SOLAR_MASS, star["oblateness"], **given
-            )
-            self.spin = 2 * np.pi * star["spin_frequency"]
+            oblateness, spin = self._oblateness_and_spin(star)
+            self.inertia_xx, self.inertia_zz, self.c = uniform_spheroid(star["mass"] * SOLAR_MASS, oblateness, **given)
+            self.spin = spin
         else:
             self.inertia_xx, self.inertia_zz, self.c = 1.0, float(star["inertia_ratio"]), 1.0
             self.spin = float(star["spin"])
@@ -58,6 +57,21 @@ class Scene:
         # Units of the output: 1 kg m^2 = 1e7 g cm^2, 1 J = 1e7 erg.
         self.cgs = 1e7 if self.physical else 1.0
         self.unit = "s" if self.physical else "t_c"
+
+    def _oblateness_and_spin(self, star):
+        """(I^zz - I^xx) / I^xx and Omega^z, which may be given by the period of the precession [d] and the frequency of the pulses [Hz]."""
+        oblateness, spin = star.get("oblateness"), 2 * np.pi * star.get("spin_frequency", 0.0)
+        precession = 2 * np.pi / (star["precession_period"] * 86400) if oblateness is None else None
+        if "frequency" in star:
+            pulses, theta, chi = 2 * np.pi * star["frequency"], self.document["initial"]["wobble"], self.document["pulsar"]["chi"]
+            # Of each turn of the axis about L, (1 + eps) Omega^z / cos theta, the precession eps Omega^z is taken back where the magnetic axis goes round the axis.
+            back = 1.0 if theta < chi < np.pi - theta else 0.0
+            if precession is None:
+                spin = pulses / ((1 + oblateness) / np.cos(theta) - back * oblateness)
+            else:
+                signed = np.sign(pulses) * precession
+                spin = (pulses + back * signed) * np.cos(theta) - signed
+        return (precession / abs(spin) if oblateness is None else oblateness), spin
 
     def _coefficients(self, given):
         """`tensor`, s^IJ in the frame of the file, and `principal`, the rows of whose axes X, Y, Z are in that frame."""
@@ -93,8 +107,11 @@ class Scene:
         self.epoch = time.get("epoch")
 
     def _initial(self, given):
-        gamma = float(given.get("gamma", 0.0))
         self.constants = None
+        if "wobble" in given:
+            self._of_wobble(given)
+            return
+        gamma = float(given.get("gamma", 0.0))
         if "kind" in given:
             self.constants = Constants(self, given)
             alpha, beta, alpha_rate, beta_rate = self.constants.initial_values()
@@ -117,6 +134,29 @@ class Scene:
             axes = axes @ self.principal
             self.angles = (np.arctan2(axes[2, 0], -axes[2, 1]), np.arctan2(axes[0, 2], axes[1, 2]))
         self.axes, self.omega = axes, omega
+
+
+    def _of_wobble(self, given):
+        """L along `momentum`, the axis n at the angle of the wobble to it (to -L for a negative spin), the magnetic axis by its angle about n."""
+
+        def turned(vector, axis, angle):
+            return vector * np.cos(angle) + np.cross(axis, vector) * np.sin(angle) + axis * (axis @ vector) * (1 - np.cos(angle))
+
+        momentum = np.array(given.get("momentum", [0.0, 0.0, 1.0]), float)
+        l = np.sign(self.spin) * momentum / np.linalg.norm(momentum)
+        nearest = np.eye(3)[1 if abs(l[0]) > 0.99 else 0]
+        across = nearest - l * (l @ nearest)
+        outwards = turned(across / np.linalg.norm(across), l, given.get("azimuth", 0.0))
+        theta = given["wobble"]
+        n = turned(l, np.cross(l, outwards), theta)
+        towards_l = turned(-outwards, np.cross(l, outwards), theta)
+        delta = (self.document.get("pulsar") or {}).get("delta", 0.0)
+        x = turned(towards_l, n, -given.get("precession_phase", 0.0) - delta)
+        axes = np.array([x, np.cross(n, x), n])
+        size = self.inertia_zz * self.spin / np.cos(theta)
+        inertia = np.array([self.inertia_xx, self.inertia_xx, self.inertia_zz])
+        self.axes, self.omega = axes, axes @ (size * l) / inertia
+        self.angles = (np.arctan2(axes[2, 0], -axes[2, 1]), np.arctan2(axes[0, 2], axes[1, 2]))
 
 
 class Constants:
