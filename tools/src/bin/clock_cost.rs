@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let motion = pulsar.clock.motion();
         let states = least(|| times.iter().for_each(|t| _ = black_box(motion.state(*t))));
         let pulses = least(|| times.iter().for_each(|t| _ = black_box(pulsar.clock.pulse_near(*t))));
-        let with_fit = least(|| drop(black_box(pulsar.timed(&epochs, true))));
+        let with_fit = least(|| drop(black_box(pulsar.timed(&epochs, 2))));
         println!("{:11} {set_up:12.4} {states:12.2} {pulses:12.2} {with_fit:14.2}", built_in.name);
     }
     Ok(())
