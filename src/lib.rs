@@ -24,6 +24,7 @@
 //! | the motion of a star | [`Problem::motion`], [`Motion`], [`propagation`] |
 //! | what is computed, how, and at what cost | [`Problem::plan`], [`plan`] |
 //! | pulses, arrival times, position angles | [`pulse_train`], [`observables::pulsar`] |
+//! | pulsars that slow down | [`spin_down`], [`observables::pulsar::PulsarClock::braked`] |
 //! | spectral lines and fundamental frequencies | [`observables::spectrum`] |
 //! | gravitational waves | [`observables::gravitational_wave`] |
 //! | bounds on `s^IJ` from pulsars | [`observables::bound`], [`observables::eta_distribution`] |
