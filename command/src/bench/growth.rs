@@ -126,31 +126,35 @@ mod tests {
         assert_eq!(exponent(&rows, "other", |row| row.phase), None);
     }
 
-    /// The series on the torus against 1e7 t_c of motion in double-double numbers. That one takes `n` as it is rounded, the series as a unit vector: a
-    /// torque of `2 C |s|` that is larger by `|n|^2 - 1` may turn the axes by so much more.
+    /// The series on the torus against 1e7 t_c of motion in double-double numbers, both from a unit vector `n`.
     #[test]
     fn the_exact_motion_is_right_after_ten_million() {
         let problem = BenchScene::named("tp-II").problem;
         let motion = TorusMotion::new(&problem, (0.0, 1e7), 1e-15).expect("a torus");
+        for (t, axis) in references() {
+            let found = motion.axis_state(t).expect("a state").axis.map(twofold::Scalar::from_f64);
+            let error = largest((found - axis).iter().map(|x: &DoubleDouble| x.high().abs()));
+            assert!(error < 2e-15, "t = {t}: {error:e}");
+        }
+    }
+
+    /// The reference of fifty digits takes `n` as it is rounded: a torque of `2 C |s|` that is larger by `|n|^2 - 1` may turn the axes by so much more.
+    #[test]
+    fn the_long_reference_agrees_with_that_of_fifty_digits() {
+        let scene = BenchScene::named("tp-II");
+        let problem = &scene.problem;
         let axis = problem.initial().axis.map(<DoubleDouble as twofold::Scalar>::from_f64);
         let excess = (axis.dot(&axis) - twofold::Scalar::from_f64(1.0)).high().abs();
         let torque =
             2.0 * problem.spheroid().constant_c * problem.coefficients().amax() / problem.initial().momentum.norm();
-        for (t, axis) in references() {
-            let found = motion.axis_state(t).expect("a state").axis.map(twofold::Scalar::from_f64);
-            let error = largest((found - axis).iter().map(|x: &DoubleDouble| x.high().abs()));
-            assert!(error < 2e-15 + excess * torque * t, "t = {t}: {error:e}, {excess:e}");
-        }
-    }
-
-    #[test]
-    fn the_long_reference_agrees_with_that_of_fifty_digits() {
-        let scene = BenchScene::named("tp-II");
+        let mut compared = 0;
         for (t, axis) in references() {
             if let Some((_, state)) = scene.references.iter().find(|(time, _)| *time == t) {
                 let error = largest((state.axis - axis).iter().map(|x| x.high().abs()));
-                assert!(error < 1e-18, "t = {t}: {error:e}");
+                assert!(error < excess * (1.0 + torque * t), "t = {t}: {error:e}, {excess:e}");
+                compared += 1;
             }
         }
+        assert!(compared > 0);
     }
 }
