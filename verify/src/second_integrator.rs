@@ -13,12 +13,14 @@ fn pack<const N: usize, X: RotationState<f64>>(state: &X) -> Vector<f64, N> {
     Vector::from_array(core::array::from_fn(|i| vectors[i / 3][i % 3]))
 }
 
+/// The state in the first nine numbers.
+fn unpack<const N: usize>(y: &Vector<f64, N>) -> BodyState<f64> {
+    let vector = |k: usize| Vector3::new(y[3 * k], y[3 * k + 1], y[3 * k + 2]);
+    BodyState { axis: vector(0), momentum: vector(1), equatorial_axis: vector(2) }
+}
+
 /// State after `duration` by the regular equations.
 pub(crate) fn regular_motion(problem: &Problem<f64>, duration: f64, tolerance: f64) -> Result<BodyState<f64>, String> {
-    let unpack = |y: &Vector<f64, 9>| {
-        let vector = |k: usize| Vector3::new(y[3 * k], y[3 * k + 1], y[3 * k + 2]);
-        BodyState { axis: vector(0), momentum: vector(1), equatorial_axis: vector(2) }
-    };
     let (spheroid, s) = (problem.spheroid(), problem.coefficients());
     let rates = |_: f64, y: &Vector<f64, 9>| pack(&body_state_rates(spheroid, s, &unpack(y)));
     let end = RKV98NoInterp::integrate(0.0, duration, &pack(problem.initial()), rates, &settings(tolerance))
@@ -40,13 +42,9 @@ pub(crate) fn braked_states(
     times: &[f64],
     tolerance: f64,
 ) -> Result<Vec<BodyState<f64>>, String> {
-    let unpack = |y: &Vector<f64, 10>| {
-        let vector = |k: usize| Vector3::new(y[3 * k], y[3 * k + 1], y[3 * k + 2]);
-        BodyState { axis: vector(0), momentum: vector(1), equatorial_axis: vector(2) }
-    };
-    let pack = |state: &BodyState<f64>, last: f64| {
-        let vectors = state.vectors();
-        Vector::from_array(core::array::from_fn(|i| if i < 9 { vectors[i / 3][i % 3] } else { last }))
+    let with_last = |state: &BodyState<f64>, last: f64| {
+        let packed: Vector<f64, 9> = pack(state);
+        Vector::from_array(core::array::from_fn(|i| if i < 9 { packed[i] } else { last }))
     };
     let rates = |_: f64, y: &Vector<f64, 10>| {
         let (state, a) = (unpack(y), y[9]);
@@ -55,10 +53,10 @@ pub(crate) fn braked_states(
         let cos = beam.direction(&state).dot(&state.momentum) / state.momentum.norm();
         let lambda = rate * a.powf(index - 1.0) * (1.0 + modulation * (1.0 - cos * cos - mean));
         rates.momentum -= state.momentum * lambda;
-        pack(&rates, -lambda * a)
+        with_last(&rates, -lambda * a)
     };
     let start = problem.initial();
-    let (mut y, mut time, mut found) = (pack(start, start.momentum.norm() / unit), 0.0, Vec::new());
+    let (mut y, mut time, mut found) = (with_last(start, start.momentum.norm() / unit), 0.0, Vec::new());
     for &next in times {
         let end = RKV98NoInterp::integrate(time, next, &y, rates, &settings(tolerance)).map_err(|e| e.to_string())?;
         (y, time) = (end.y, next);

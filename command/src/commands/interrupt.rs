@@ -72,9 +72,10 @@ fn requested() {
     process::exit(INTERRUPTED.into());
 }
 
-/// Lets the command end by itself: a request that came before ends it now, one that comes later waits for as long as the value lives. What
-/// a request takes away makes the work fail, and that failure is not the reason of the end.
-pub(super) fn no_more_requests() -> impl Sized {
+/// Lets what follows come to its end: a request that came before ends the command now, one that comes later waits for as long as the value
+/// lives. For the end of a command, whose failure may come from what a request took away, and for a file that is put among what a
+/// request takes away.
+pub(super) fn hold_requests() -> impl Sized {
     on_request()
 }
 

@@ -202,7 +202,7 @@ pub(crate) fn run_command(command: Command) -> ExitCode {
 }
 
 fn status(result: Result<(), Failure>) -> ExitCode {
-    let _ending = interrupt::no_more_requests();
+    let _ending = interrupt::hold_requests();
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure::Failed(message)) => end(1, &message),

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use tempfile::{TempDir, TempPath};
 
 use super::Failure;
-use super::interrupt::unfinished;
+use super::interrupt::{hold_requests, unfinished};
 
 /// A folder that is being filled.
 pub(super) struct OutputFolder {
@@ -68,6 +68,8 @@ impl OutputFolder {
     /// Writes a file, for now aside.
     pub(super) fn write(&self, name: &str, content: &[u8]) -> Result<(), Failure> {
         let Some(temporary) = &self.temporary else { return Ok(()) };
+        // A folder into which a file comes while it is taken away would stay.
+        let _held = hold_requests();
         fs::write(temporary.path().join(name), content)
             .map_err(|error| cannot_be_written(&self.path.join(name), &error))
     }
@@ -76,6 +78,7 @@ impl OutputFolder {
     /// theirs; without leave to replace, none takes the name of a file that has appeared since.
     pub(super) fn complete(mut self) -> Result<usize, Failure> {
         let Some(temporary) = self.temporary.take() else { return Ok(0) };
+        let _held = hold_requests();
         let mut count = 0;
         for entry in fs::read_dir(temporary.path()).map_err(|error| cannot_be_written(&self.path, &error))? {
             let entry = entry.map_err(|error| cannot_be_written(&self.path, &error))?;

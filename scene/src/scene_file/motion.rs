@@ -315,7 +315,7 @@ fn from_wobble(section: &Section<'_>, star: &Star, beam: Option<&Pulsar>) -> Res
     let momentum = l * (star.spheroid.inertia_zz * star.spin / theta.cos());
     let state = BodyState { axis, momentum, equatorial_axis };
     refuse_overflow(section, &state)?;
-    let angles = state.angles().unwrap_or(EulerAngles { alpha: 0.0, beta: axis.z.acos(), gamma: 0.0 });
+    let angles = angles_of(&state);
     Ok(Initial { state, angles, perturbation: Err("[initial] gives a wobble and no constants (`initial.kind`)") })
 }
 
@@ -363,9 +363,14 @@ fn from_constants(section: &Section<'_>, star: &Star, violation: &Violation) -> 
         return Ok(Initial { state, angles: principal, perturbation: Ok(printed) });
     }
     let state = state.rotated(&violation.principal_from_given.transpose());
-    let angles = state.angles().unwrap_or(EulerAngles { alpha: 0.0, beta: state.axis.z.acos(), gamma: 0.0 });
+    let angles = angles_of(&state);
     let perturbation = Err("its angles are those of the principal frame, which is not the frame of this file");
     Ok(Initial { state, angles, perturbation })
+}
+
+/// Euler angles of a state. On a pole only `alpha + gamma` or its difference has a meaning; both are taken as zero.
+fn angles_of(state: &BodyState<f64>) -> EulerAngles<f64> {
+    state.angles().unwrap_or(EulerAngles { alpha: 0.0, beta: state.axis.z.acos(), gamma: 0.0 })
 }
 
 /// Rates with `gamma' = Omega^z - alpha' cos(beta)`, Eq. (24) `[firstint]`.

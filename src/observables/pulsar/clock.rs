@@ -12,7 +12,7 @@ use super::{Beam, Pulse};
 use crate::dynamics::equations_of_motion::angular_velocity;
 use crate::dynamics::{BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
-use crate::numerics::angle::wrapped;
+use crate::numerics::angle::{about, wrapped};
 use crate::numerics::double_double::DoubleDouble;
 use crate::observables::Observer;
 use crate::observables::spectrum::QuasiPeriodicMotion;
@@ -164,7 +164,7 @@ impl PulsarClock {
         let angle = |v: &Vector3<f64>| n.cross(v).norm().atan2(n.dot(v));
         let precession = Precession {
             torque: TorqueHarmonics::new(angle(&l), angle(&m)),
-            phase: n.cross(&m).dot(&l).atan2(n.cross(&m).dot(&n.cross(&l))),
+            phase: about(&n, &(m - n * n.dot(&m)), &l),
             // The magnetic axis goes round n as e_x does, and psi is from it to L.
             rate: -self.precession_rates()?[0],
         };
