@@ -53,6 +53,7 @@ pub mod propagation;
 pub mod solutions;
 pub mod spin_down;
 pub mod star;
+pub mod timing_model;
 pub mod units;
 
 pub use dynamics::{AxisState, BodyState, Problem, RigidSpheroid};

@@ -5,22 +5,22 @@ use std::fmt;
 use nalgebra::{DMatrix, DVector};
 
 use super::scaled_jacobian::ScaledJacobian;
-use super::symmetry::symmetries;
-use crate::parameters::{Parameter, Parameters};
+use super::{Model, Unknown};
+use crate::parameters::Parameter;
 
 /// A direction along which data do not change.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Direction {
+pub struct Direction<U = Parameter> {
     /// What cannot be told, where it has a name.
     pub words: Option<&'static str>,
     /// How much each unknown changes along it, the largest change one in the unknowns' own ranges.
-    pub change: Vec<(Parameter, f64)>,
+    pub change: Vec<(U, f64)>,
     /// By how many standard deviations of the data they change with it, as a part of what each of these changes would do alone
     /// (root of the sum of squares).
     pub ratio: f64,
 }
 
-impl fmt::Display for Direction {
+impl<U: Unknown> fmt::Display for Direction<U> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(words) = self.words {
             write!(f, "{words}; ")?;
@@ -47,29 +47,29 @@ const NEAR: f64 = 1e-5;
 const INDEPENDENT: f64 = 1e-4;
 
 /// The directions in the space of some unknowns.
-pub(super) struct Directions<'a> {
+pub(super) struct Directions<'a, U> {
     scaled: &'a ScaledJacobian,
-    unknowns: &'a [Parameter],
+    unknowns: &'a [U],
     ranges: DVector<f64>,
 }
 
-impl<'a> Directions<'a> {
-    pub(super) fn new(scaled: &'a ScaledJacobian, unknowns: &'a [Parameter], parameters: &Parameters<f64>) -> Self {
-        let ranges = unknowns.iter().map(|unknown| unknown.range(parameters));
+impl<'a, U: Unknown> Directions<'a, U> {
+    pub(super) fn new(scaled: &'a ScaledJacobian, unknowns: &'a [U], model: &impl Model<Unknown = U>) -> Self {
+        let ranges = unknowns.iter().map(|unknown| model.range(*unknown));
         Self { scaled, unknowns, ranges: DVector::from_iterator(unknowns.len(), ranges) }
     }
 
     /// The degenerate directions: one for each symmetry that is among them, and what is left.
-    pub(super) fn degenerate(&self, parameters: &Parameters<f64>) -> Vec<Direction> {
+    pub(super) fn degenerate(&self, model: &impl Model<Unknown = U>) -> Vec<Direction<U>> {
         let Self { scaled, unknowns, .. } = self;
         let nullity = scaled.nullity();
-        let named = symmetries(parameters);
+        let named = model.symmetries();
         let alone = |idle: &usize| {
             let unknown = unknowns[*idle];
             let words = named.iter().find(|symmetry| matches!(symmetry.change[..], [(one, _)] if one == unknown));
             Direction { words: words.map(|symmetry| symmetry.words), change: vec![(unknown, 1.0)], ratio: 0.0 }
         };
-        let mut found: Vec<Direction> = scaled.idle.iter().map(alone).collect();
+        let mut found: Vec<Direction<U>> = scaled.idle.iter().map(alone).collect();
         let null: DMatrix<f64> = scaled.vectors.columns(scaled.values.len() - nullity, nullity).into_owned();
         let mut left = null.clone();
         for symmetry in &named {
@@ -88,25 +88,27 @@ impl<'a> Directions<'a> {
         found
     }
 
-    /// The directions along which the data change by less than a standard deviation over the whole range of the unknowns.
-    pub(super) fn weak(&self) -> Vec<Direction> {
+    /// The directions along which the data change by less than a standard deviation over the whole range of the unknowns: eigenvectors of their covariance in units of the ranges, of
+    /// variances above one. That way round the ranges may differ by any factor: what rounding loses is in the small variances.
+    pub(super) fn weak(&self) -> Vec<Direction<U>> {
         let Self { scaled: ScaledJacobian { values, vectors, lengths, .. }, ranges, .. } = self;
         let rank = values.len() - self.scaled.nullity();
         if rank == 0 {
             return Vec::new();
         }
-        // J = U S V^T D with the lengths D: J times the ranges has the singular values and vectors of S V^T D R.
-        let rows = DMatrix::from_fn(rank, ranges.len(), |k, j| values[k] * vectors[(j, k)] * lengths[j] * ranges[j]);
-        let svd = rows.svd(false, true);
+        let in_ranges = DMatrix::from_fn(rank, ranges.len(), |k, j| {
+            if vectors[(j, k)] == 0.0 { 0.0 } else { vectors[(j, k)] / (values[k] * lengths[j] * ranges[j]) }
+        });
+        let svd = in_ranges.svd(false, true);
         let right = svd.v_t.expect("asked for");
-        let weak = svd.singular_values.iter().zip(right.row_iter()).filter(|(value, _)| **value < 1.0);
+        let weak = svd.singular_values.iter().zip(right.row_iter()).filter(|(value, _)| **value > 1.0);
         weak.map(|(_, row)| self.direction(&row.transpose().component_mul(ranges).component_mul(lengths), None))
             .collect()
     }
 
     /// A change of unknowns in columns of unit length, normalised; none if it changes something that is not unknown by more than
     /// [`NEAR`] of the largest change (as components of an `s^IJ` that is hardly there), or nothing.
-    fn in_scaled(&self, change: &[(Parameter, f64)]) -> Option<DVector<f64>> {
+    fn in_scaled(&self, change: &[(U, f64)]) -> Option<DVector<f64>> {
         let size = change.iter().fold(0.0, |most: f64, (_, part)| most.max(part.abs()));
         let mut vector = DVector::zeros(self.unknowns.len());
         for (unknown, part) in change.iter().filter(|(_, part)| part.abs() > 1e-14 * size) {
@@ -121,7 +123,7 @@ impl<'a> Directions<'a> {
     }
 
     /// The direction of a vector in columns of unit length. Unknowns of which rounding is all that moves are left out.
-    fn direction(&self, vector: &DVector<f64>, words: Option<&'static str>) -> Direction {
+    fn direction(&self, vector: &DVector<f64>, words: Option<&'static str>) -> Direction<U> {
         let Self { scaled, unknowns, ranges } = self;
         let unit = vector.normalize();
         let least = if words.is_some() { 1e-9 } else { 1e-3 };

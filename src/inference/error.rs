@@ -2,14 +2,14 @@
 
 use std::fmt;
 
-use super::{Direction, Observable};
+use super::Observable;
 use crate::error::Error;
 
 /// Why nothing can be inferred.
 #[derive(Debug, Clone, PartialEq)]
 pub enum InferenceError {
     /// The data do not determine the unknowns: each direction along which they do not change.
-    Degenerate(Vec<Direction>),
+    Degenerate(Vec<String>),
     /// Fewer data than unknowns.
     TooFew {
         /// Data.

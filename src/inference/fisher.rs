@@ -8,24 +8,25 @@ use nalgebra::{DMatrix, DVector};
 
 use super::degenerate::Directions;
 use super::scaled_jacobian::ScaledJacobian;
-use super::{Datum, Direction, Event, InferenceError, Jacobian, jacobian};
+use super::{Datum, Direction, Event, InferenceError, Jacobian, Model, jacobian};
+use crate::error::Error;
 use crate::parameters::{Parameter, Parameters};
 
 /// What data of given errors tell of unknowns.
 #[derive(Debug, Clone)]
-pub struct Fisher {
-    /// The parameters at which it is taken.
-    pub parameters: Parameters<f64>,
-    /// Those of them that are not known.
-    pub unknowns: Vec<Parameter>,
+pub struct Fisher<M: Model = Parameters<f64>> {
+    /// The model at which it is taken.
+    pub parameters: M,
+    /// The numbers of it that are not known.
+    pub unknowns: Vec<M::Unknown>,
     /// Singular values of the Jacobian with columns of unit length, largest first.
     pub singular_values: Vec<f64>,
     /// What rounding can make of a singular value that is zero.
     pub rounding: f64,
     /// Directions that the data do not determine at all: singular values below [`rounding`](Self::rounding).
-    pub degenerate: Vec<Direction>,
+    pub degenerate: Vec<Direction<M::Unknown>>,
     /// Directions along which the whole range of the unknowns (a radian, the rate of rotation, one) is less than one standard deviation.
-    pub weak: Vec<Direction>,
+    pub weak: Vec<Direction<M::Unknown>>,
     /// Covariance of the unknowns. NaN in the rows and columns of those that a degenerate direction moves.
     pub covariance: DMatrix<f64>,
 }
@@ -46,13 +47,15 @@ impl Fisher {
         }
         Ok(Self::of_jacobian(&jacobian(parameters, events, data, unknowns)?.weighted(data), unknowns, parameters))
     }
+}
 
+impl<M: Model> Fisher<M> {
     /// From a Jacobian in units of the standard deviations.
-    pub fn of_jacobian(jacobian: &Jacobian, unknowns: &[Parameter], parameters: &Parameters<f64>) -> Self {
+    pub fn of_jacobian(jacobian: &Jacobian, unknowns: &[M::Unknown], parameters: &M) -> Self {
         let scaled = ScaledJacobian::new(jacobian);
         let directions = Directions::new(&scaled, unknowns, parameters);
         Self {
-            parameters: *parameters,
+            parameters: parameters.clone(),
             unknowns: unknowns.to_vec(),
             degenerate: directions.degenerate(parameters),
             weak: directions.weak(),
@@ -70,17 +73,18 @@ impl Fisher {
         if self.degenerate.is_empty() && self.weak.is_empty() {
             Ok(self)
         } else {
-            Err(InferenceError::Degenerate([self.degenerate, self.weak].concat()))
+            let directions = self.degenerate.iter().chain(&self.weak);
+            Err(InferenceError::Degenerate(directions.map(ToString::to_string).collect()))
         }
     }
 
     /// Values of the unknowns.
     pub fn values(&self) -> Vec<f64> {
-        self.parameters.values(&self.unknowns)
+        self.unknowns.iter().map(|unknown| self.parameters.value(*unknown)).collect()
     }
 
     /// Standard deviation of an unknown with all others unknown; NaN where it is not determined, none if it is none of the unknowns.
-    pub fn sigma(&self, unknown: Parameter) -> Option<f64> {
+    pub fn sigma(&self, unknown: M::Unknown) -> Option<f64> {
         let place = self.unknowns.iter().position(|other| *other == unknown)?;
         Some(self.covariance[(place, place)].sqrt())
     }
@@ -97,7 +101,10 @@ impl Fisher {
     }
 
     /// The parameters with the unknowns moved along the principal axes of their correlations, by so many standard deviations each, all times `factor`.
-    pub fn beside(&self, deviations: &DVector<f64>, factor: f64) -> Parameters<f64> {
+    ///
+    /// # Errors
+    /// As for [`Model::moved`].
+    pub fn beside(&self, deviations: &DVector<f64>, factor: f64) -> Result<M, Error> {
         let axes = self.correlations().symmetric_eigen();
         let along = deviations.zip_map(&axes.eigenvalues, |deviation, value| deviation * value.max(0.0).sqrt());
         let change = (axes.eigenvectors * along).component_mul(&DVector::from_vec(self.sigmas())) * factor;

@@ -8,15 +8,16 @@ use crate::numerics::scalar::Real;
 use crate::parameters::{Parameter, Parameters};
 
 /// A change of the unknowns, the same for all data of some kind, in words.
-pub(super) struct Symmetry {
+#[derive(Debug, Clone, PartialEq)]
+pub struct Symmetry<U> {
     /// What cannot be told.
-    pub(super) words: &'static str,
+    pub words: &'static str,
     /// The change of each unknown, in its unit; those that are not named do not change.
-    pub(super) change: Vec<(Parameter, f64)>,
+    pub change: Vec<(U, f64)>,
 }
 
 /// The symmetries of a star with these parameters, the simplest first.
-pub(super) fn symmetries(parameters: &Parameters<f64>) -> Vec<Symmetry> {
+pub(super) fn symmetries(parameters: &Parameters<f64>) -> Vec<Symmetry<Parameter>> {
     use Parameter::*;
     let with_s = |other: (Parameter, f64)| {
         let components = [SAxial, SAsymmetry, S(0, 1), S(0, 2), S(1, 2)];

@@ -133,7 +133,8 @@ impl PhasedMotion {
     pub(crate) fn turns_per_time(&self) -> [DoubleDouble; 3] {
         match &self.solution {
             Solution::Torus(torus) => torus.turns_per_time(),
-            Solution::Averaged { .. } | Solution::Uniform(_) => self.rates().map(|rate| DoubleDouble::from(rate / TAU)),
+            Solution::Averaged { mean, .. } => mean.turns_per_time(),
+            Solution::Uniform(motion) => motion.rates().map(|rate| DoubleDouble::from(rate / TAU)),
         }
     }
 

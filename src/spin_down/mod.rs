@@ -14,4 +14,5 @@ mod stretched_time;
 mod torque;
 
 pub use stretched_time::{Braking, Precession, StretchedTime};
+pub(crate) use stretched_time::{late_by_torque, secular_lateness, slowing};
 pub use torque::TorqueHarmonics;

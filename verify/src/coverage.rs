@@ -4,6 +4,8 @@ use rayon::prelude::*;
 
 use crate::prelude::*;
 use crate::simulation::Simulation;
+use crate::timing_simulation::TimingSimulation;
+use twofold::inference::{Fit, Model, fit_timing};
 
 /// One fit against the truth.
 #[derive(Debug, Clone)]
@@ -34,24 +36,34 @@ pub struct Coverage {
 }
 
 impl Case {
-    fn of(seed: u64) -> Result<Self, InferenceError> {
-        let simulation = Simulation::new(seed)?;
-        let found = simulation.fit()?;
-        let truth = simulation.truth.values(&simulation.unknowns);
-        let (values, sigmas) = (found.fisher.values(), found.fisher.sigmas());
-        let pulls: Vec<f64> = (0..truth.len()).map(|k| (values[k] - truth[k]) / sigmas[k]).collect();
+    fn new<M: Model>(seed: u64, refused: usize, found: &Fit<M>, truth: &M) -> Self {
+        let Fisher { parameters, unknowns, .. } = &found.fisher;
+        let differences = unknowns.iter().map(|unknown| parameters.difference(truth, *unknown));
+        let pulls: Vec<f64> = differences.zip(found.fisher.sigmas()).map(|(change, sigma)| change / sigma).collect();
         // In units of the standard deviations, where the matrix is best conditioned.
         let vector = DVector::from_column_slice(&pulls);
         let solved = found.fisher.correlations().cholesky().map(|factors| factors.solve(&vector));
-        Ok(Self {
+        Self {
             seed,
-            refused: simulation.refused,
+            refused,
             distance: solved.map_or(f64::NAN, |solved| solved.dot(&vector)),
             pulls,
             chi_squared: found.chi_squared,
             degrees: found.degrees,
             iterations: found.iterations,
-        })
+        }
+    }
+
+    /// Of a motion over 60 to 120 t_c.
+    pub fn of_motion(seed: u64) -> Result<Self, InferenceError> {
+        let simulation = Simulation::new(seed)?;
+        Ok(Self::new(seed, simulation.refused, &simulation.fit()?, &simulation.truth))
+    }
+
+    /// Of a pulsar over 10 to 20 years.
+    pub fn of_pulsar(seed: u64) -> Result<Self, InferenceError> {
+        let TimingSimulation { truth, start, data, unknowns } = TimingSimulation::new(seed)?;
+        Ok(Self::new(seed, 0, &fit_timing(&start, &data, &unknowns)?, &truth))
     }
 }
 
@@ -69,10 +81,10 @@ pub struct Score {
 }
 
 impl Coverage {
-    /// The simulations with some numbers, on all threads.
-    pub fn of(seeds: std::ops::Range<u64>) -> Self {
+    /// The simulations with some numbers, on all threads: [`Case::of_motion`] or [`Case::of_pulsar`].
+    pub fn of(seeds: std::ops::Range<u64>, case: fn(u64) -> Result<Case, InferenceError>) -> Self {
         let mut coverage = Self::default();
-        let cases: Vec<_> = seeds.into_par_iter().map(|seed| (seed, Case::of(seed))).collect();
+        let cases: Vec<_> = seeds.into_par_iter().map(|seed| (seed, case(seed))).collect();
         for (seed, case) in cases {
             match case {
                 Ok(case) => coverage.cases.push(case),
@@ -106,5 +118,16 @@ impl Coverage {
             sum("chi^2 of the unknowns / degrees", |case| case.distance, |case| case.pulls.len()),
             sum("chi^2 of the residuals / degrees", |case| case.chi_squared, |case| case.degrees),
         ]
+    }
+
+    /// The largest score, if every fit ended at a minimum. Of a hundred cases too few are outside of three standard deviations for a normal score: that one is left out.
+    pub(crate) fn worst_score(&self) -> Result<Measured, String> {
+        if let Some((seed, error)) = self.failed.first() {
+            return Err(format!("seed {seed}: {error}"));
+        }
+        let scores: Vec<_> = self.scores().into_iter().filter(|score| score.what != "within three").collect();
+        let listed: Vec<_> =
+            scores.iter().map(|score| format!("{} {:.3} for {:.3}", score.what, score.found, score.expected)).collect();
+        Ok(Measured::new(largest(scores.iter().map(|score| score.score.abs())), listed.join(", ")))
     }
 }

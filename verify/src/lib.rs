@@ -33,3 +33,4 @@ pub mod second_integrator;
 pub mod simulation;
 pub mod stability;
 pub mod symbolic;
+pub mod timing_simulation;

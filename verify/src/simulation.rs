@@ -63,7 +63,7 @@ impl Simulation {
             let sigma = 10.0_f64.powf(random.random_range(-5.5..-4.5));
             let Some((exact, fisher)) = determined(&truth, campaign, end, sigma)? else { continue };
             let data = with_noise(&exact, &mut random);
-            let start = beside(&fisher, 3.0, &mut random);
+            let start = beside(&fisher, 3.0, &mut random)?;
             return Ok(Self { seed, campaign, truth, unknowns: fisher.unknowns, data, start, end, refused });
         }
         Err(Error::NotConverged {

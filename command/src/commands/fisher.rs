@@ -12,7 +12,7 @@ pub(super) fn fisher(args: &FisherArgs) -> Result<(), Failure> {
     let data = data_of(&signal, &events, &measurement.samples()?, &measurement.noise)
         .map_err(|error| refused(error.into()))?;
     let fisher = Fisher::of(&measurement.parameters, &events, &data, &measurement.unknowns).map_err(refused)?;
-    let [short, all] = uncertainties(&measurement, &fisher);
+    let [short, all] = uncertainties(&fisher, |unknown| measurement.unit(unknown));
     write_csv(&args.output, &all)?;
     let counts: Vec<_> = Observable::ALL
         .iter()

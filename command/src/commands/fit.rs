@@ -32,12 +32,12 @@ pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
             let signal = Signal::new(parameters, *end).map_err(|error| refused(error.into()))?;
             let events = measurement.events(&signal)?;
             let fisher = Fisher::of(parameters, &events, &data, unknowns).and_then(Fisher::determined);
-            start = beside(&fisher.map_err(refused)?, 3.0, &mut random);
+            start = beside(&fisher.map_err(refused)?, 3.0, &mut random)?;
             note("simulated: the fit begins three standard deviations beside the scene");
         }
     }
     let found = fit(&start, &data, unknowns, *end).map_err(refused)?;
-    let [short, all] = uncertainties(&measurement, &found.fisher);
+    let [short, all] = uncertainties(&found.fisher, |unknown| measurement.unit(unknown));
     write_csv(&args.output, &all)?;
     note(&format!(
         "{} data, {} unknowns, {} steps; chi^2 = {} of {} degrees of freedom",

@@ -4,7 +4,7 @@ use super::output_file::OutputFile;
 use super::run::{failed, read_scene};
 use super::{Failure, MeasurementArgs, TableArgs, note};
 use crate::text_table::text_table;
-use twofold::inference::{Event, Fisher, InferenceError, Noise, Signal, check_span};
+use twofold::inference::{Event, Fisher, InferenceError, Model, Noise, Signal, Unknown, check_span};
 use twofold::parameters::{Parameter, Parameters};
 use twofold_scene::measurements::{missing_section, parameters_of, parse_noise};
 use twofold_scene::scene_file::{Columns, Scene, nearest};
@@ -38,7 +38,7 @@ impl Measurement {
             None if sees_pulses => Parameter::OF_PULSES.to_vec(),
             None => Parameter::OF_STRAIN.to_vec(),
             Some("all") => Parameter::FITTED.to_vec(),
-            Some(list) => named(list).map_err(|why| refuse(format!("--parameters: {why}")))?,
+            Some(list) => named(list, &Parameter::FITTED).map_err(|why| refuse(format!("--parameters: {why}")))?,
         };
         let end = (scene.times.last() - scene.times.start()) / scene.units.time;
         if end <= 0.0 {
@@ -119,11 +119,12 @@ impl Measurement {
     }
 }
 
-fn named(list: &str) -> Result<Vec<Parameter>, String> {
+/// The unknowns of a list of names.
+pub(super) fn named<U: Unknown>(list: &str, all: &[U]) -> Result<Vec<U>, String> {
     let mut found = Vec::new();
     for name in list.split(',').map(str::trim) {
-        let unknown = Parameter::named(name).ok_or_else(|| {
-            let names: Vec<_> = Parameter::FITTED.iter().map(|unknown| unknown.key()).collect();
+        let unknown = all.iter().copied().find(|unknown| unknown.key() == name).ok_or_else(|| {
+            let names: Vec<_> = all.iter().map(|unknown| unknown.key()).collect();
             let hint = nearest(name, &names).map_or(String::new(), |near| format!(" (did you mean `{near}`?)"));
             format!("`{name}` is no parameter{hint}: allowed are {}, or all", names.join(", "))
         })?;
@@ -156,7 +157,12 @@ pub(super) fn readable(rows: &[Vec<String>]) -> String {
 }
 
 /// Unknowns with their values, standard deviations and correlations: a table for reading, and one with all numbers.
-pub(super) fn uncertainties(measurement: &Measurement, fisher: &Fisher) -> [Vec<Vec<String>>; 2] {
+///
+/// `unit_of` has by what a value is multiplied for the output, and its unit there.
+pub(super) fn uncertainties<M: Model>(
+    fisher: &Fisher<M>,
+    unit_of: impl Fn(M::Unknown) -> (f64, String),
+) -> [Vec<Vec<String>>; 2] {
     let (unknowns, values, sigmas) = (&fisher.unknowns, fisher.values(), fisher.sigmas());
     let correlations = fisher.correlations();
     let correlation = |i: usize, j: usize| correlations[(i, j)];
@@ -164,7 +170,7 @@ pub(super) fn uncertainties(measurement: &Measurement, fisher: &Fisher) -> [Vec<
     let mut all = vec![["parameter", "value", "sigma", "unit"].map(String::from).to_vec()];
     all[0].extend(unknowns.iter().map(|unknown| format!("correlation_{}", unknown.key())));
     for (i, unknown) in unknowns.iter().enumerate() {
-        let (factor, unit) = measurement.unit(*unknown);
+        let (factor, unit) = unit_of(*unknown);
         let (value, sigma) = (values[i] * factor, sigmas[i] * factor);
         let others = (0..unknowns.len()).filter(|&j| j != i && correlation(i, j).is_finite());
         let most = others.max_by(|a, b| correlation(i, *a).abs().total_cmp(&correlation(i, *b).abs()));

@@ -10,6 +10,7 @@ mod fit;
 mod forecast;
 mod inference_arguments;
 mod interrupt;
+mod limits;
 mod measurement;
 mod output_file;
 mod output_folder;
@@ -96,6 +97,11 @@ pub(crate) enum Command {
     /// Writes NAME.svg, NAME.png, NAME.md and NAME.csv (or NAME.TABLE.csv) of each figure; the files appear when all are
     /// complete. With --scene the figures of a motion are drawn for a scene in place of the paper's examples.
     Figures(figures::FiguresArgs),
+    /// Tell what arrival times and pulse widths limit: the wobble of a pulsar against its period, the motion of its spin axis, and with it the size of s
+    ///
+    /// Fits the timing model of docs/timing-model.md to barycentred data from a scene, over any number of turns. Prints values with standard deviations, limits at 95 %, and what was held
+    /// fixed.
+    Limits(limits::LimitsArgs),
     /// Tell how well measurements of a scene would determine its parameters, and what they cannot determine at all
     ///
     /// The Fisher matrix of pulse times, widths or strains with independent errors, by exact derivatives. Prints the standard
@@ -192,6 +198,7 @@ pub(crate) fn run_command(command: Command) -> ExitCode {
         Command::Fisher(args) => fisher::fisher(&args),
         Command::Fit(args) => fit::run(&args),
         Command::Forecast(args) => forecast::run(&args),
+        Command::Limits(args) => limits::run(&args),
         Command::Figures(args) => figures::figures(&args),
         Command::Bench(args) => bench::bench(&args),
         Command::Scenes(args) => scenes::scenes(&args),

@@ -102,6 +102,7 @@ fn is_little_work(command: &Command) -> bool {
             let spans = spans.as_ref().is_none_or(|spans| spans.iter().all(|span| span.is_nan() || *span < 50.0));
             measured(&fisher.measurement) && spans && epochs.iter().all(|count| *count <= 50)
         }
+        Command::Limits(args) => args.periods.is_none_or(|periods| periods.number <= 10),
         Command::Bounds(_) | Command::Compare(_) | Command::Scenes(_) | Command::Equations => true,
         Command::Figures(args) => args.list,
         Command::Verify(args) => args.filter.as_ref().is_some_and(|filter| filter.contains('?')),

@@ -88,7 +88,7 @@ fn decades_give_the_truth() {
     let mut random = ChaCha8Rng::seed_from_u64(3);
     let fisher = Fisher::of(&truth, &events, &data, unknowns).expect("Fisher matrix");
     assert!(fisher.degenerate.is_empty() && fisher.weak.is_empty(), "{:?} {:?}", fisher.degenerate, fisher.weak);
-    let start = beside(&fisher, 0.3, &mut random);
+    let start = beside(&fisher, 0.3, &mut random).expect("a start");
     let found = fit(&start, &data, unknowns, end).expect("fit");
     // A last digit of L is 1e-6 rad, a thousandth of an error.
     assert!(found.chi_squared < 1e-3, "chi^2 = {}", found.chi_squared);
@@ -118,7 +118,7 @@ fn strains_of_a_strong_violation_may_be_of_any_span() {
     // Two phases after 1e9 t_c tell two frequencies to some 1e-3 / 1e9.
     assert!(fisher.sigmas().iter().all(|sigma| *sigma < 1e-10), "{:?}", fisher.sigmas());
     let mut random = ChaCha8Rng::seed_from_u64(4);
-    let found = fit(&beside(&fisher, 0.3, &mut random), &data, unknowns, end).expect("fit");
+    let found = fit(&beside(&fisher, 0.3, &mut random).expect("a start"), &data, unknowns, end).expect("fit");
     for ((value, truth), sigma) in found.fisher.values().iter().zip(truth.values(unknowns)).zip(found.fisher.sigmas()) {
         assert!((value - truth).abs() < 0.05 * sigma, "{value} for {truth} +- {sigma}");
     }

@@ -9,19 +9,19 @@ use twofold::inference::{Datum, Noise, Observable, Place};
 use crate::scene_file::{LARGEST_FILE, Scene, shortened};
 
 /// Most rows of a file: a fit keeps a derivative of each datum by each unknown, and as many samples are allowed of a scene.
-const MOST_ROWS: usize = 100_000;
+pub(super) const MOST_ROWS: usize = 100_000;
 
 /// Most columns that a message names.
 const MOST_NAMED: usize = 30;
 
-/// Largest number of a turn in size: every whole number up to it is a double.
+/// Largest whole number in size, as of a turn: every one up to it is a double.
 const LARGEST_TURN: i64 = 1_000_000_000_000_000;
 
 /// A table of measured numbers, with the name that messages call it by.
 #[derive(Debug)]
 pub struct DataFile {
-    name: String,
-    text: String,
+    pub(super) name: String,
+    pub(super) text: String,
 }
 
 /// Every row with its line, its fields in the order wanted.
@@ -51,12 +51,16 @@ impl DataFile {
 
     /// Whether it is a table of pulses, by its header.
     pub fn is_of_pulses(&self) -> Result<bool, String> {
-        let mut reader = csv::Reader::from_reader(self.text.as_bytes());
-        let header = reader.headers().map_err(|error| format!("{}: {error}", self.name))?;
-        Ok(header.iter().any(|column| column == "turn"))
+        Ok(self.columns()?.iter().any(|column| column == "turn"))
     }
 
-    fn rows(&self, wanted: &[String]) -> Result<Rows, String> {
+    /// The names in the header.
+    pub(super) fn columns(&self) -> Result<csv::StringRecord, String> {
+        let mut reader = csv::Reader::from_reader(self.text.as_bytes());
+        Ok(reader.headers().map_err(|error| format!("{}: {error}", self.name))?.clone())
+    }
+
+    pub(super) fn rows(&self, wanted: &[String]) -> Result<Rows, String> {
         let name = &self.name;
         let mut reader = csv::Reader::from_reader(self.text.as_bytes());
         let header = reader.headers().map_err(|error| format!("{name}: {error}"))?.clone();
@@ -81,18 +85,18 @@ impl DataFile {
         Ok(rows)
     }
 
-    fn number(&self, line: u64, column: &str, text: &str) -> Result<f64, String> {
+    pub(super) fn number(&self, line: u64, column: &str, text: &str) -> Result<f64, String> {
         match text.parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),
             _ => Err(format!("{}:{line}: `{column}` is `{}`: allowed is a finite number", self.name, shortened(text))),
         }
     }
 
-    fn turn(&self, line: u64, text: &str) -> Result<i64, String> {
-        let turn = text.parse().ok().filter(|turn| (-LARGEST_TURN..=LARGEST_TURN).contains(turn));
-        turn.ok_or_else(|| {
+    pub(super) fn whole(&self, line: u64, column: &str, text: &str) -> Result<i64, String> {
+        let whole = text.parse().ok().filter(|whole| (-LARGEST_TURN..=LARGEST_TURN).contains(whole));
+        whole.ok_or_else(|| {
             let (name, text) = (&self.name, shortened(text));
-            format!("{name}:{line}: `turn` is `{text}`: allowed is a whole number from -1e15 to 1e15, or nothing")
+            format!("{name}:{line}: `{column}` is `{text}`: allowed is a whole number from -1e15 to 1e15")
         })
     }
 
@@ -119,7 +123,7 @@ impl DataFile {
             if fields[0] != "1" || fields[1].is_empty() {
                 continue;
             }
-            let turn = self.turn(line, &fields[1])?;
+            let turn = self.whole(line, "turn", &fields[1])?;
             *of_turn.entry(turn).or_default() += 1;
             rows.push((line, turn, fields));
         }

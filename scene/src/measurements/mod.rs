@@ -2,9 +2,10 @@
 
 mod data_file;
 mod errors;
+mod timing_data;
 
 pub use data_file::DataFile;
-pub use errors::{beside, with_noise};
+pub use errors::{add_timing_noise, beside, with_noise};
 
 use twofold::Error;
 use twofold::inference::{Noise, Observable};

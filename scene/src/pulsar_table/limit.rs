@@ -40,10 +40,7 @@ impl Pulsar {
             Eta::Unknown => None,
             Eta::Inclination(beta_0) => Some(beta_0.value * DEGREE),
         };
-        let sine = (self.lambda.value * DEGREE).sin().abs();
-        let allowed = "above 2.2e-16 in size: a motion across the line of sight is not seen";
-        Error::ensure(sine > f64::EPSILON, "sine of the angle to the line of sight", sine, allowed)?;
-        Ok(Some(Directions { inclination, sine }))
+        Ok(Some(Directions { inclination, sine: sine_of_sight(self.lambda.value * DEGREE)? }))
     }
 
     /// Standard uncertainty of `eta`, relative to it, from the number given for it or for `beta_0`: `eta ~ 1 / (sin b0 cos b0)`.
@@ -101,6 +98,24 @@ pub fn recommended(pulsars: &[Pulsar]) -> Result<(&Pulsar, Limit), String> {
         }
     }
     best.map(|(_, pulsar, limit)| (pulsar, limit)).ok_or_else(|| "a table without pulses".to_owned())
+}
+
+/// What `|x| eta` does not exceed with the probability [`CONFIDENCE`], for a normal `x` and a spin axis at an angle (rad) to the line of sight, all directions of the axes of a symmetric tensor
+/// as likely as each other. With `x` the bound over `eta` of Eq. (41) it is the limit on `|2 s^ZZ - s^XX - s^YY|`.
+///
+/// # Errors
+/// [`Error::Domain`] for a spin axis along the line of sight.
+pub fn limit_over_directions(angle_to_sight: f64, mean: f64, deviation: f64) -> Result<f64, Error> {
+    let directions = Directions { inclination: None, sine: sine_of_sight(angle_to_sight)? };
+    Ok(directions.quantile_of_eta_times(Normal { mean, deviation }))
+}
+
+/// The sine of the angle of the spin axis to the line of sight.
+fn sine_of_sight(angle: f64) -> Result<f64, Error> {
+    let sine = angle.sin().abs();
+    let allowed = "above 2.2e-16 in size: a motion across the line of sight is not seen";
+    Error::ensure(sine > f64::EPSILON, "sine of the angle to the line of sight", sine, allowed)?;
+    Ok(sine)
 }
 
 fn rule(nodes: usize) -> GaussLegendre {

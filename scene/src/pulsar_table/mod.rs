@@ -11,7 +11,7 @@ use crate::random::Random;
 use crate::scene_file::{FileFormat, SceneError};
 
 pub use figures::{COMBINATION, CONSERVATIVE_ETA, Figure, ROUND_INERTIA_OVER_C};
-pub use limit::{CONFIDENCE, Directions, Limit, recommended};
+pub use limit::{CONFIDENCE, Directions, Limit, limit_over_directions, recommended};
 
 /// The table that comes with the command: the two pulsars of the paper.
 pub const PAPER: &str = include_str!("../../pulsars/paper.toml");

@@ -19,6 +19,7 @@ use crate::observables::spectrum::QuasiPeriodicMotion;
 use crate::propagation::{Motion, PhasedMotion, Turning, largest_torque};
 use crate::solutions::averaged::AveragingOrder;
 use crate::spin_down::{Braking, Precession, StretchedTime, TorqueHarmonics};
+use crate::timing_model::{TimingModel, TimingParameter::*};
 
 /// Largest `x = C |s| I^xx / |L|^2` with a torque that goes with the magnetic axis: its two harmonics are those of free precession with the angles at the start, which are right to `x`.
 const STRONGEST: f64 = 1e-3;
@@ -157,18 +158,63 @@ impl PulsarClock {
             let strength = "C |s| I^xx / |L|^2 with a torque that goes with the magnetic axis";
             Error::ensure(self.strength() <= STRONGEST, strength, self.strength(), "at most 1e-3")?;
         }
+        let time = StretchedTime::new(braking, &self.precession()?.0)?;
+        Ok(Self { time, ..self })
+    }
+
+    /// The free precession, with the wobble `theta` and the angle `chi` of the magnetic axis to `n` (rad), of the state at the time zero.
+    fn precession(&self) -> Result<(Precession, [f64; 2]), Error> {
         let state = self.motion.problem.initial();
         let (n, l) = (state.axis, state.momentum.normalize());
         let m = self.beam.direction(state);
         // By the sine too: the cosine of a small angle has lost it.
-        let angle = |v: &Vector3<f64>| n.cross(v).norm().atan2(n.dot(v));
+        let [wobble, chi] = [l, m].map(|v| n.cross(&v).norm().atan2(n.dot(&v)));
         let precession = Precession {
-            torque: TorqueHarmonics::new(angle(&l), angle(&m)),
+            torque: TorqueHarmonics::new(wobble, chi),
             phase: about(&n, &(m - n * n.dot(&m)), &l),
             // The magnetic axis goes round n as e_x does, and psi is from it to L.
             rate: -self.precession_rates()?[0],
         };
-        Ok(Self { time: StretchedTime::new(braking, &precession)?, ..self })
+        Ok((precession, [wobble, chi]))
+    }
+
+    /// The star as a [`TimingModel`]. That has free precession and a line of sight whose angle to `L` changes evenly: it is right to `x = C |s| I^xx / |L|^2` in angles, over times in which `L` turns by a small angle.
+    ///
+    /// # Errors
+    /// As for [`TimingModel::new`] and [`precession_rates`](Self::precession_rates).
+    pub fn timing_model(&self) -> Result<TimingModel, Error> {
+        let (precession, [wobble, chi]) = self.precession()?;
+        let Braking { rate, index, torque_share } = *self.time.braking();
+        let frequency = self.turns.per_time(&self.motion);
+        let f1 = -rate * frequency.high;
+        let [inclination, inclination_rate] = self.inclination()?;
+        let parameters = [
+            (F1, f1),
+            (F2, index * f1 * f1 / frequency.high),
+            (Wobble, wobble),
+            (Chi, chi),
+            (PrecessionPhase, precession.phase),
+            (PrecessionRate, precession.rate),
+            (TorqueShare, torque_share),
+            (Inclination, inclination),
+            (InclinationRate, inclination_rate),
+            (Rho, self.beam.half_opening),
+        ];
+        let model = TimingModel::new(frequency.into(), &parameters)?;
+        let look = self.turns.look(&self.motion, [0.0; 2])?;
+        let at_zero = model.phase([0.0; 2])?;
+        model.moved(&[(Phase, look.phase / core::f64::consts::TAU - at_zero.fraction - at_zero.turns as f64)])
+    }
+
+    /// Angle of the line of sight to `L` at the time zero, and its mean rate: over the time in which `L` turns by a hundredth of a radian about its axis.
+    fn inclination(&self) -> Result<[f64; 2], Error> {
+        let angle = |t: f64| {
+            let (l, o) = (self.motion.state([t, 0.0]).momentum, self.observer.direction);
+            l.cross(&o).norm().atan2(l.dot(&o))
+        };
+        let rate = self.precession_rates()?[1].abs();
+        let half = 0.005 / rate;
+        Ok([angle(0.0), if rate > 0.0 { (angle(half) - angle(-half)) / (2.0 * half) } else { 0.0 }])
     }
 
     /// The motion, in the stretched time of a star that slows down.

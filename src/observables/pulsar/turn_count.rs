@@ -18,6 +18,7 @@ use super::Beam;
 use super::turns::phase;
 use crate::error::Error;
 use crate::numerics::angle::wrapped;
+use crate::numerics::double_double::DoubleDouble;
 use crate::propagation::PhasedMotion;
 use crate::solutions::averaged::Turns;
 
@@ -103,6 +104,12 @@ impl TurnCount {
     /// Rate (rad per unit of time) at which turns follow one another.
     pub(super) fn rate(&self, motion: &PhasedMotion) -> f64 {
         self.windings.iter().zip(motion.rates()).map(|(turns, rate)| *turns as f64 * rate).sum()
+    }
+
+    /// The same in turns, to 32 digits where they are known.
+    pub(super) fn per_time(&self, motion: &PhasedMotion) -> DoubleDouble {
+        let rates = self.windings.iter().zip(motion.turns_per_time());
+        rates.fold(DoubleDouble::default(), |sum, (turns, rate)| sum + rate * (*turns as f64))
     }
 
     /// The turn at the time `t`.

@@ -271,6 +271,11 @@ impl<S: Real> AveragedSolution<S> {
         AveragedTurns { slow: at(0), about_momentum: at(1), about_axis: at(2) }
     }
 
+    /// Rates of the phases in turns, to 32 digits: about `L`, of `L` about its axis, and of `e_x` about `n`.
+    pub(crate) fn turns_per_time(&self) -> [DoubleDouble; 3] {
+        [1, 0, 2].map(|i: usize| self.turning[i])
+    }
+
     /// Phases at the time `t[0] + t[1]`, modulo a turn.
     pub fn phases_at(&self, t: [f64; 2]) -> AveragedPhases<S> {
         let AveragedTurns { slow, about_momentum, about_axis } = self.turns(t);

@@ -13,7 +13,9 @@ fn least(work: impl FnMut()) -> f64 {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    println!("scene        set-up [ms]  states [ms]  pulses [ms]  with fit [ms]");
+    println!(
+        "scene        set-up [ms]  states [ms]  pulses [ms]  with fit [ms]  phases [ms]  with 12 derivatives [ms]"
+    );
     for built_in in PULSARS {
         let scene = Scene::named(built_in.name)?;
         let pulsar = PulsarScene::new(&scene)?;
@@ -26,7 +28,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let states = least(|| times.iter().for_each(|t| _ = black_box(motion.state(*t))));
         let pulses = least(|| times.iter().for_each(|t| _ = black_box(pulsar.clock.pulse_near(*t))));
         let with_fit = least(|| drop(black_box(pulsar.timed(&epochs, 2))));
-        println!("{:11} {set_up:12.4} {states:12.2} {pulses:12.2} {with_fit:14.2}", built_in.name);
+        let model = pulsar.clock.timing_model()?;
+        let phases = least(|| times.iter().for_each(|t| _ = black_box(model.phase(*t))));
+        let slopes = least(|| times.iter().for_each(|t| _ = black_box(model.phase_and_derivatives(*t))));
+        println!(
+            "{:11} {set_up:12.4} {states:12.2} {pulses:12.2} {with_fit:14.2} {phases:12.3} {slopes:25.2}",
+            built_in.name
+        );
     }
     Ok(())
 }

@@ -1,14 +1,16 @@
-//! The coverage campaign of docs/inference.md: `cargo run --release -p twofold-tools --bin coverage -- [FIRST] [LAST]`.
+//! The coverage campaigns of docs/inference.md: `cargo run --release -p twofold-tools --bin coverage -- [FIRST] [LAST] [pulsars]`. Motions, or pulsars with spin-down and torque.
 
 use std::time::Instant;
 
-use twofold_verify::coverage::Coverage;
+use twofold_tools::argument;
+use twofold_verify::coverage::{Case, Coverage};
 
 fn main() {
-    let mut numbers = std::env::args().skip(1).map(|text| text.parse().expect("a whole number"));
-    let seeds = numbers.next().unwrap_or(0)..numbers.next().unwrap_or(1000);
+    let seeds = argument(0, 0)..argument(1, 1000);
+    let case =
+        if std::env::args().nth(3).is_some_and(|kind| kind == "pulsars") { Case::of_pulsar } else { Case::of_motion };
     let begin = Instant::now();
-    let coverage = Coverage::of(seeds);
+    let coverage = Coverage::of(seeds, case);
     let seconds = begin.elapsed().as_secs_f64();
     for (seed, error) in &coverage.failed {
         println!("seed {seed}: {error}");

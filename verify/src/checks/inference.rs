@@ -328,15 +328,7 @@ fn directions() -> Result<Measured, String> {
 }
 
 fn coverage() -> Result<Measured, String> {
-    let coverage = Coverage::of(0..90);
-    if let Some((seed, error)) = coverage.failed.first() {
-        return Err(format!("seed {seed}: {error}"));
-    }
-    // Too few are outside of three standard deviations for a normal score.
-    let scores: Vec<_> = coverage.scores().into_iter().filter(|score| score.what != "within three").collect();
-    let listed: Vec<_> =
-        scores.iter().map(|score| format!("{} {:.3} for {:.3}", score.what, score.found, score.expected)).collect();
-    Ok(Measured::new(largest(scores.iter().map(|score| score.score.abs())), listed.join(", ")))
+    Coverage::of(0..90, crate::coverage::Case::of_motion).worst_score()
 }
 
 const TIMES_AND_WIDTHS: [Noise; 2] = [(Observable::Arrivals, 1e-4), (Observable::Widths, 1e-4)];

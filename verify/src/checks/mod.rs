@@ -34,6 +34,7 @@ mod stability;
 mod star;
 mod symbolic;
 mod symmetric;
+mod timing_model;
 mod torque;
 mod torus_motion;
 mod wave_tensor;
@@ -70,6 +71,7 @@ pub fn all() -> Vec<Check> {
         pulsar::pulse_numbers::checks,
         pulsar::clock::checks,
         spin_down::checks,
+        timing_model::checks,
         pulsar::position_angle::checks,
         pulsar::approximations::checks,
         pulsar::functions_of_gamma::checks,

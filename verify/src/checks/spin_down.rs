@@ -45,7 +45,7 @@ const WOBBLE: f64 = 0.3;
 const CHI: f64 = 1.2;
 
 /// A star with a wobble about Z.
-fn problem(oblateness: f64, wobble: f64, s: Matrix3<f64>) -> Result<Problem<f64>, String> {
+pub(super) fn problem(oblateness: f64, wobble: f64, s: Matrix3<f64>) -> Result<Problem<f64>, String> {
     let spheroid = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.0 + oblateness, constant_c: 1.0 };
     let axis = Vector3::new(wobble.sin(), 0.0, wobble.cos());
     Ok(Problem::new(spheroid, s, BodyState { axis, momentum: Vector3::z(), equatorial_axis: Vector3::y() })?)
@@ -61,7 +61,7 @@ fn clock(problem: &Problem<f64>, chi: f64, braking: &Braking) -> Result<PulsarCl
 }
 
 /// States of the integration at some times, of a star whose mean rotation at the time zero is that of the problem.
-fn integrated(
+pub(super) fn integrated(
     problem: &Problem<f64>,
     (wobble, chi): (f64, f64),
     time: &StretchedTime,

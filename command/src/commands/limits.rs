@@ -1,0 +1,217 @@
+//! `twofold limits`.
+
+use std::f64::consts::TAU;
+
+use clap::Args;
+use twofold::epoch::DAY;
+use twofold::inference::{
+    Fit, InferenceError, Observable, Prior, Residuals, TimingData, fit_timing, timing_nonlinearity, wobble_limits,
+};
+use twofold::timing_model::{TimingModel, TimingParameter};
+use twofold_scene::measurements::{DataFile, parse_noise};
+use twofold_scene::pulsar_table::{CONFIDENCE, limit_over_directions};
+use twofold_scene::pulsar_timing::{PulsarScene, decimal};
+use twofold_scene::scene_file::Columns;
+use twofold_scene::significant::significant;
+
+use super::measurement::{named, readable, uncertainties, write_csv};
+use super::run::read_with_spin_down;
+use super::{Failure, TableArgs, note, print};
+
+#[derive(Args)]
+pub(crate) struct LimitsArgs {
+    /// A built-in pulsar (see `twofold scenes`) or the path of a scene file (TOML), with `time.epoch`, [observer] and [pulsar]: the start of the fit, and what is held fixed
+    pub(crate) scene: String,
+    /// Barycentred arrival times (.tim, FORMAT 1), or tables as `twofold timing` writes them
+    #[arg(value_name = "DATA", required = true)]
+    pub(crate) data: Vec<String>,
+    /// What tables have, with the standard deviation of each in seconds: arrivals, widths. A .tim has its own
+    #[arg(long, value_name = "NAME:SIGMA,NAME:SIGMA")]
+    pub(crate) observe: Option<String>,
+    /// What is not known: phase, f0, f1, f2, wobble, chi, precession_phase, precession_rate, torque_share, inclination,
+    /// inclination_rate, rho. If not given: phase, f0 and f1 of arrivals, inclination_rate and rho of widths
+    #[arg(long, value_name = "NAME,NAME")]
+    pub(crate) parameters: Option<String>,
+    /// What is known of a parameter beforehand, its mean and standard deviation, as chi:1.2:0.05; may be given more than once
+    #[arg(long, value_name = "NAME:MEAN:SIGMA", value_parser = prior)]
+    pub(crate) prior: Vec<Prior>,
+    /// Periods of the free precession in days at which the wobble is limited, from the first to the last in equal ratios
+    #[arg(long, value_name = "FIRST:LAST:NUMBER", value_parser = periods)]
+    pub(crate) periods: Option<Periods>,
+    #[command(flatten)]
+    pub(crate) output: TableArgs,
+}
+
+/// Periods in equal ratios (d).
+#[derive(Clone, Copy)]
+pub(crate) struct Periods {
+    first: f64,
+    last: f64,
+    pub(crate) number: usize,
+}
+
+impl Periods {
+    fn rates(self) -> Vec<f64> {
+        let ratio = (self.last / self.first).ln() / (self.number.max(2) - 1) as f64;
+        (0..self.number).map(|k| TAU / (self.first * (ratio * k as f64).exp() * DAY)).collect()
+    }
+}
+
+fn periods(text: &str) -> Result<Periods, String> {
+    let wrong =
+        || "allowed are two periods in days above zero and their number from 1 to 10000, as 50:5000:40".to_owned();
+    let [first, last, number] = text.split(':').collect::<Vec<_>>()[..] else { return Err(wrong()) };
+    let day = |text: &str| text.parse().ok().filter(|day: &f64| (1e-6..=1e9).contains(day)).ok_or_else(wrong);
+    let number = number.parse().ok().filter(|number| (1..=10_000).contains(number)).ok_or_else(wrong)?;
+    Ok(Periods { first: day(first)?, last: day(last)?, number })
+}
+
+fn prior(text: &str) -> Result<Prior, String> {
+    let wrong = || "allowed is a parameter, its mean and its standard deviation above zero, as chi:1.2:0.05".to_owned();
+    let [name, mean, sigma] = text.split(':').collect::<Vec<_>>()[..] else { return Err(wrong()) };
+    let number = |text: &str| text.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(wrong);
+    let parameter = named(name, &TimingParameter::ALL)?[0];
+    let (mean, sigma) = (number(mean)?, number(sigma)?);
+    if sigma > 0.0 { Ok(Prior { parameter, mean, sigma }) } else { Err(wrong()) }
+}
+
+pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
+    use TimingParameter::{InclinationRate, Phase, Rho};
+    let scene = read_with_spin_down(&args.scene, Columns::Unused)?;
+    let refuse = |why: String| Failure::BadInput(format!("{}: {why}", args.scene));
+    let pulsar = PulsarScene::new(&scene).map_err(refuse)?;
+    let start = pulsar.clock.timing_model()?;
+    let data = read(args, &pulsar)?;
+    let unknowns = match args.parameters.as_deref() {
+        Some("all") => TimingParameter::ALL.to_vec(),
+        Some(list) => named(list, &TimingParameter::ALL).map_err(|why| refuse(format!("--parameters: {why}")))?,
+        None => {
+            let of_arrivals =
+                [Phase, TimingParameter::F0, TimingParameter::F1].into_iter().filter(|_| !data.arrivals.is_empty());
+            of_arrivals.chain([InclinationRate, Rho].into_iter().filter(|_| !data.widths.is_empty())).collect()
+        }
+    };
+    if let Some(prior) = data.priors.iter().find(|prior| !unknowns.contains(&prior.parameter)) {
+        let key = prior.parameter.key();
+        return Err(refuse(format!(
+            "--prior {key}: allowed is a parameter that is not known; --parameters has no {key}"
+        )));
+    }
+    let refused = |error: InferenceError| match error {
+        InferenceError::Model(error) => super::run::failed(error),
+        error => Failure::Failed(format!("{}: {error}", args.scene)),
+    };
+    let found = fit_timing(&start, &data, &unknowns).map_err(refused)?;
+    let model = &found.fisher.parameters;
+    let [short, all] = uncertainties(&found.fisher, |unknown| (1.0, unknown.unit().to_owned()));
+    tell_fit(&found, &data, &pulsar);
+    let mut page = readable(&short);
+    let mut tables = all;
+    if unknowns.contains(&InclinationRate) {
+        page += &limit_on_s(&found)?;
+    }
+    if let Some(periods) = args.periods {
+        let limits = wobble_limits(model, &data, &unknowns, &periods.rates(), CONFIDENCE).map_err(refused)?;
+        let mut rows = vec![
+            ["period [d]", "wobble, best [rad]", "gain of chi^2", "wobble, limit [rad]"].map(String::from).to_vec(),
+        ];
+        let mut plain = vec![["period [d]", "best [rad]", "gain", "limit [rad]"].map(String::from).to_vec()];
+        for limit in &limits {
+            let values = [TAU / limit.precession_rate / DAY, limit.best, limit.gain, limit.limit];
+            rows.push(
+                values
+                    .iter()
+                    .map(|value| if value.is_finite() { significant(*value, 4) } else { "none".to_owned() })
+                    .collect(),
+            );
+            plain.push(
+                values
+                    .iter()
+                    .map(|value| if value.is_finite() { format!("{value:?}") } else { String::new() })
+                    .collect(),
+            );
+        }
+        page += &format!("\nLimits on the wobble at {} %, for chi and the torque's share above\n", 100.0 * CONFIDENCE);
+        page += &readable(&rows);
+        tables = plain;
+    }
+    write_csv(&args.output, &tables)?;
+    print(&(page + &assumptions(model, &unknowns, &data)))
+}
+
+fn read(args: &LimitsArgs, pulsar: &PulsarScene) -> Result<TimingData, Failure> {
+    let noise = match &args.observe {
+        None => Vec::new(),
+        Some(text) => parse_noise(text, 1.0).map_err(|why| Failure::BadInput(format!("--observe: {why}")))?,
+    };
+    let allowed = [Observable::Arrivals, Observable::Widths];
+    if let Some((observable, _)) = noise.iter().find(|(observable, _)| !allowed.contains(observable)) {
+        let key = observable.key();
+        return Err(Failure::BadInput(format!("--observe {key}: allowed here are arrivals and widths")));
+    }
+    let mut data = TimingData { priors: args.prior.clone(), ..TimingData::default() };
+    for path in &args.data {
+        let file = DataFile::read(path).map_err(Failure::BadInput)?;
+        file.add_timing(&pulsar.epoch, &noise, &mut data).map_err(Failure::BadInput)?;
+    }
+    Ok(data)
+}
+
+fn tell_fit(found: &Fit<TimingModel>, data: &TimingData, pulsar: &PulsarScene) {
+    note(&format!(
+        "{} arrivals, {} widths, {} priors, {} steps; chi^2 = {} of {} degrees of freedom",
+        data.arrivals.len(),
+        data.widths.len(),
+        data.priors.len(),
+        found.iterations,
+        significant(found.chi_squared, 4),
+        found.degrees
+    ));
+    note(&format!("f0 = {} Hz at MJD {}", decimal(found.fisher.parameters.frequency()), pulsar.epoch));
+    let size = significant(found.root_mean_square(), 2);
+    match found.judged() {
+        Residuals::AsStated => {}
+        Residuals::Larger => note(&format!(
+            "the residuals are {size} times the errors stated (root mean square): the model lacks something, or the errors are larger; limits are for the errors stated"
+        )),
+        Residuals::Smaller => note(&format!("the residuals are {size} times the errors stated (root mean square)")),
+    }
+    match timing_nonlinearity(&found.fisher, data) {
+        Ok(nonlinearity) if nonlinearity < 0.3 => {}
+        Ok(nonlinearity) => note(&format!(
+            "chi^2 is off its parabola by {nonlinearity:.1} at one standard deviation: the error bars are rough"
+        )),
+        Err(why) => note(&format!("the error bars are rough: a standard deviation away, {why}")),
+    }
+}
+
+/// The limit on the size of s by how fast the line of sight moves towards `L`, Eq. (41) with `I^zz / C = 4 / Omega^2` and `Delta cos lambda / Delta t = -sin(lambda) lambda'`.
+fn limit_on_s(found: &Fit<TimingModel>) -> Result<String, Failure> {
+    let model = &found.fisher.parameters;
+    let of = |parameter: TimingParameter| model.value(parameter);
+    let rate = of(TimingParameter::InclinationRate);
+    let sigma = found.fisher.sigma(TimingParameter::InclinationRate).unwrap_or(f64::NAN);
+    let inclination = of(TimingParameter::Inclination);
+    let per_rate = 4.0 * inclination.sin() / (TAU * of(TimingParameter::F0));
+    let limit = limit_over_directions(inclination, per_rate * rate, per_rate * sigma)?;
+    Ok(format!(
+        "\n|2 s^ZZ - s^XX - s^YY| is at most {limit:.3e} at {} %: by the rate of the inclination, Eq. (41), with I^zz/C = 4/Omega^2 of a fluid star and all directions of the axes of s as likely \
+         as each other\n",
+        100.0 * CONFIDENCE
+    ))
+}
+
+/// What was held fixed, and what the model has.
+fn assumptions(model: &TimingModel, unknowns: &[TimingParameter], data: &TimingData) -> String {
+    let fixed = TimingParameter::ALL.iter().filter(|parameter| !unknowns.contains(parameter));
+    let fixed: Vec<_> = fixed
+        .map(|parameter| {
+            format!("{} = {} {}", parameter.key(), significant(model.value(*parameter), 8), parameter.unit())
+        })
+        .collect();
+    let mut text = format!("\nHeld fixed: {}\n", fixed.join(", "));
+    for Prior { parameter, mean, sigma } in &data.priors {
+        text += &format!("Known beforehand: {} = {mean:?} +- {sigma:?} {}\n", parameter.key(), parameter.unit());
+    }
+    text + "The model: free precession of a biaxial star, a braking torque along L, independent normal errors\n"
+}

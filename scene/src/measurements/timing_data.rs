@@ -1,0 +1,112 @@
+//! Arrival times and pulse widths over decades: `.tim` files, and tables as `twofold timing` writes them.
+
+use twofold::epoch::Epoch;
+use twofold::inference::{Arrival, Noise, Observable, TimingData, Width};
+
+use super::DataFile;
+use super::data_file::MOST_ROWS;
+use crate::scene_file::shortened;
+
+/// Sites of a `.tim` that are the barycentre of the solar system.
+const BARYCENTRE: [&str; 4] = ["@", "bat", "ssb", "bary"];
+
+/// Standard deviations (s) of an arrival time that are taken.
+const SIGMAS: std::ops::RangeInclusive<f64> = 1e-15..=1e6;
+
+impl DataFile {
+    /// Adds the arrival times and widths of a `.tim` (FORMAT 1, barycentred, infinite frequency), or of a table with the columns `arrival_day [MJD]`, `arrival_fraction [d]` and, for widths,
+    /// `duration [s]`; a column `pulse` numbers the pulses. `noise` has the standard deviations (s) of what a table has; a `.tim` has its own.
+    ///
+    /// # Errors
+    /// A line, column or field that is none; file, line, field and what is allowed are named.
+    pub fn add_timing(&self, epoch: &Epoch, noise: &[Noise], data: &mut TimingData) -> Result<(), String> {
+        if self.text.trim_start().starts_with("FORMAT") {
+            self.tim(epoch, data)
+        } else {
+            self.table(epoch, noise, data)
+        }
+    }
+
+    fn tim(&self, epoch: &Epoch, data: &mut TimingData) -> Result<(), String> {
+        for (place, line) in self.text.lines().enumerate() {
+            let refuse = |what: String| format!("{}:{}: {what}", self.name, place + 1);
+            let fields: Vec<_> = line.split_whitespace().collect();
+            match fields[..] {
+                [] | ["FORMAT", "1"] | ["MODE", "1"] => continue,
+                [first, ..] if first.starts_with('#') || first == "C" => continue,
+                ["FORMAT", other, ..] => {
+                    return Err(refuse(format!("`FORMAT {}`: allowed is FORMAT 1", shortened(other))));
+                }
+                [_, frequency, date, error, site, ref flags @ ..] => {
+                    if !BARYCENTRE.contains(&site.to_lowercase().as_str()) {
+                        return Err(refuse(format!(
+                            "site `{}`: allowed are {}: barycentred arrival times, as a timing program writes them",
+                            shortened(site),
+                            BARYCENTRE.join(", ")
+                        )));
+                    }
+                    if !frequency.parse::<f64>().is_ok_and(|frequency| frequency == 0.0 || frequency == f64::INFINITY) {
+                        return Err(refuse(format!(
+                            "frequency `{}`: allowed is 0, infinite: arrival times whose dispersion is taken away",
+                            shortened(frequency)
+                        )));
+                    }
+                    let sigma = error.parse::<f64>().ok().map(|sigma| sigma * 1e-6);
+                    let sigma = sigma.filter(|sigma| SIGMAS.contains(sigma)).ok_or_else(|| {
+                        refuse(format!(
+                            "uncertainty `{}`: allowed is a number of microseconds above zero",
+                            shortened(error)
+                        ))
+                    })?;
+                    let number = match flags.iter().position(|flag| *flag == "-pn") {
+                        None => None,
+                        Some(at) => {
+                            let text = flags.get(at + 1).copied().unwrap_or("");
+                            Some(self.whole(place as u64 + 1, "-pn", text)?)
+                        }
+                    };
+                    let at: Epoch = date.parse().map_err(|error| refuse(format!("`{}`: {error}", shortened(date))))?;
+                    data.arrivals.push(Arrival { time: at.seconds_since(epoch), sigma, number });
+                }
+                _ => {
+                    return Err(refuse(format!(
+                        "`{}`: allowed are lines of a name, a frequency, a date, an uncertainty and a site, FORMAT 1, MODE 1 and comments",
+                        shortened(line)
+                    )));
+                }
+            }
+            if data.arrivals.len() > MOST_ROWS {
+                return Err(refuse(format!("one arrival too many: allowed are {MOST_ROWS}")));
+            }
+        }
+        Ok(())
+    }
+
+    fn table(&self, epoch: &Epoch, noise: &[Noise], data: &mut TimingData) -> Result<(), String> {
+        let sigma =
+            |kind: Observable| noise.iter().find(|(observable, _)| *observable == kind).map(|(_, sigma)| *sigma);
+        let (of_arrival, of_width) = (sigma(Observable::Arrivals), sigma(Observable::Widths));
+        if of_arrival.is_none() && of_width.is_none() {
+            return Err(format!(
+                "{}: a table has no standard deviations: --observe gives them, as arrivals:1e-6 or widths:1e-5 in seconds",
+                self.name
+            ));
+        }
+        let has_numbers = self.columns()?.iter().any(|column| column == "pulse");
+        let mut wanted = vec!["arrival_day [MJD]".to_owned(), "arrival_fraction [d]".to_owned()];
+        wanted.extend(of_width.map(|_| "duration [s]".to_owned()));
+        wanted.extend(has_numbers.then(|| "pulse".to_owned()));
+        for (line, fields) in self.rows(&wanted)? {
+            let field = |column: usize| self.number(line, &wanted[column], &fields[column]);
+            let day = self.whole(line, &wanted[0], &fields[0])?;
+            let at = Epoch::new(day, field(1)?).map_err(|error| format!("{}:{line}: {error}", self.name))?;
+            let time = at.seconds_since(epoch);
+            let number = has_numbers.then(|| self.whole(line, "pulse", &fields[wanted.len() - 1])).transpose()?;
+            data.arrivals.extend(of_arrival.map(|sigma| Arrival { time, sigma, number }));
+            if let Some(sigma) = of_width {
+                data.widths.push(Width { time: time[0], duration: field(2)?, sigma });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,152 @@
+//! How large a wobble can be that arrival times do not show.
+
+use core::f64::consts::{FRAC_PI_2, TAU};
+
+use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+
+use super::least_squares::Comparison;
+use super::{InferenceError, TimingData};
+use crate::error::Error;
+use crate::timing_model::{TimingModel, TimingParameter};
+
+/// The wobble of a star by its arrival times, for one period of precession.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WobbleLimit {
+    /// Rate of the precession (rad/s).
+    pub precession_rate: f64,
+    /// Wobble angle of the least `chi^2` (rad).
+    pub best: f64,
+    /// By how much `chi^2` is less there than without a wobble. Of two more unknowns: 6 or more in one of twenty periods by chance.
+    pub gain: f64,
+    /// The wobble that is not exceeded with the probability asked (rad).
+    pub limit: f64,
+}
+
+/// Points over the wobble and least number over the phase.
+const POINTS: usize = 2000;
+const PHASES: usize = 512;
+
+/// Standard deviations about the best wobble that are integrated over.
+const REACH: f64 = 9.0;
+
+/// Largest wobble (rad) for which residuals are taken as in proportion to it: what is left out is of relative size `theta`.
+const LARGEST: f64 = 0.1;
+
+/// The wobble that arrival times allow at each of some rates of precession, of a star that fits them without one.
+///
+/// Residuals of a small wobble are `theta (D_c cos psi_0 + D_s sin psi_0)`, with the derivatives of the phase by the wobble at two phases: `theta cot chi sin psi / (2 pi F0)` by geometry, and the
+/// lateness by the torque. The other unknowns are projected out. The limit is the quantile of the posterior of `theta`, with a flat prior for `theta` and for `psi_0`. Where it is above 0.1 rad the
+/// data do not limit it, and it is infinite.
+///
+/// # Errors
+/// As for [`fit_timing`](super::fit_timing) by the model; [`Error::Domain`] for a probability outside 0 to 1, and where a wobble of the period does not move the pulses, as with `chi` a right angle.
+pub fn wobble_limits(
+    fitted: &TimingModel,
+    data: &TimingData,
+    unknowns: &[TimingParameter],
+    precession_rates: &[f64],
+    probability: f64,
+) -> Result<Vec<WobbleLimit>, InferenceError> {
+    use TimingParameter::{PrecessionPhase, PrecessionRate, Wobble};
+    Error::ensure((0.0..1.0).contains(&probability), "confidence", probability, "from 0 to below 1")?;
+    let without = |rate: f64, phase: f64| {
+        let [wobble, old_rate, old_phase] = [Wobble, PrecessionRate, PrecessionPhase].map(|of| fitted.value(of));
+        fitted.moved(&[(Wobble, -wobble), (PrecessionRate, rate - old_rate), (PrecessionPhase, phase - old_phase)])
+    };
+    let rest = without(0.0, 0.0)?;
+    let data = data.numbered(&rest)?;
+    let (residuals, jacobian) = data.linearised(&rest, unknowns)?;
+    let others = orthonormal(jacobian.matrix);
+    let project = |v: DVector<f64>| -> DVector<f64> { &v - &others * (others.transpose() * &v) };
+    // Twice, so that what rounding left goes too.
+    let residuals = project(project(DVector::from_vec(residuals)));
+    precession_rates
+        .iter()
+        .map(|&rate| {
+            let column = |phase: f64| -> Result<DVector<f64>, InferenceError> {
+                let (_, jacobian) = data.linearised(&without(rate, phase)?, &[Wobble])?;
+                Ok(project(project(jacobian.matrix.column(0).into_owned())))
+            };
+            let (along, across) = (column(0.0)?, column(FRAC_PI_2)?);
+            let curvature =
+                Matrix2::new(along.dot(&along), along.dot(&across), across.dot(&along), across.dot(&across));
+            let pull = -Vector2::new(along.dot(&residuals), across.dot(&residuals));
+            Ok(Posterior { curvature, pull }.limit(rate, probability))
+        })
+        .collect()
+}
+
+/// An orthonormal basis of the columns, each scaled to unit length first.
+fn orthonormal(mut matrix: DMatrix<f64>) -> DMatrix<f64> {
+    for mut column in matrix.column_iter_mut() {
+        let length = column.norm();
+        if length > 0.0 {
+            column /= length;
+        }
+    }
+    let svd = matrix.svd(true, false);
+    let rank = svd.singular_values.iter().filter(|value| **value > 1e-13).count();
+    svd.u.expect("asked for").columns(0, rank).into_owned()
+}
+
+/// `-2 ln` of the posterior of `x = theta (cos psi_0, sin psi_0)` is `x.(curvature x) - 2 pull.x`.
+struct Posterior {
+    curvature: Matrix2<f64>,
+    pull: Vector2<f64>,
+}
+
+impl Posterior {
+    fn limit(&self, precession_rate: f64, probability: f64) -> WobbleLimit {
+        let none = WobbleLimit { precession_rate, best: f64::NAN, gain: 0.0, limit: f64::INFINITY };
+        let Some(inverse) = self.curvature.try_inverse() else { return none };
+        let best = inverse * self.pull;
+        let widths = inverse.symmetric_eigenvalues().map(|value| value.max(0.0).sqrt());
+        let (widest, finest) = (widths.max(), widths.min());
+        let gain = self.pull.dot(&best);
+        let found = WobbleLimit { best: best.norm(), gain, ..none };
+        if widest.is_nan() || widest <= 0.0 || widest > LARGEST {
+            return found;
+        }
+        let low = (best.norm() - REACH * widest).max(0.0);
+        let step = (best.norm() + REACH * widest - low) / POINTS as f64;
+        let phases = PHASES.max((40.0 * best.norm() / finest).min(1e5) as usize);
+        let mut sums = vec![0.0; POINTS + 1];
+        for k in 0..phases {
+            let (sin, cos) = (TAU * k as f64 / phases as f64).sin_cos();
+            let direction = Vector2::new(cos, sin);
+            let (bend, slope) = (direction.dot(&(self.curvature * direction)), direction.dot(&self.pull));
+            for (place, sum) in sums.iter_mut().enumerate() {
+                let theta = low + step * place as f64;
+                *sum += (theta * slope - 0.5 * (theta * theta * bend + gain)).exp();
+            }
+        }
+        let mut total = vec![0.0; POINTS + 1];
+        (1..=POINTS).for_each(|place| total[place] = total[place - 1] + 0.5 * (sums[place - 1] + sums[place]));
+        let wanted = probability * total[POINTS];
+        let after = total.partition_point(|sum| *sum < wanted).clamp(1, POINTS);
+        let part = (wanted - total[after - 1]) / (total[after] - total[after - 1]);
+        let limit = low + step * ((after - 1) as f64 + part);
+        if limit > LARGEST { found } else { WobbleLimit { limit, ..found } }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Without a pull and with one width the wobble has half a normal distribution; far from zero a normal one.
+    #[test]
+    fn limits_of_known_distributions() {
+        let round = |pull: [f64; 2]| Posterior { curvature: Matrix2::identity() * 1e12, pull: pull.into() };
+        let none = round([0.0; 2]).limit(1.0, 0.95);
+        assert!((none.limit / 1.959964e-6 - 1.0).abs() < 1e-5, "{none:?}");
+        let far = round([1e9, 2e9]).limit(1.0, 0.95);
+        // The prior is flat in theta, not over the plane: a factor 1 / theta of the density, of relative size 1e-6 / theta.
+        let expected = 5.0_f64.sqrt() * 1e-3 + 1.644854e-6 - 0.5e-12 / (5.0_f64.sqrt() * 1e-3);
+        assert!((far.limit - expected).abs() < 1e-11, "{far:?} {expected:e}");
+        assert!((far.gain / 5e6 - 1.0).abs() < 1e-12);
+        assert!(round([1e9; 2]).limit(1.0, 0.5).limit < far.limit);
+        let blind = Posterior { curvature: Matrix2::new(1.0, 0.0, 0.0, 0.0), pull: Vector2::zeros() };
+        assert_eq!(blind.limit(1.0, 0.95).limit, f64::INFINITY);
+    }
+}

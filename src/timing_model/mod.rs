@@ -1,0 +1,262 @@
+//! The pulses of a wobbling pulsar that slows down, as a timing program needs them: the phase at a time, and the width of the pulse there, with
+//! derivatives by [twelve parameters](TimingParameter).
+//!
+//! ```text
+//! phase(t) = phase + F0 tau + B(psi) / 2 pi,    psi = psi_0 + w tau,    t = tau + secular part + Q(tau) - Q(0)
+//! B = arg[sin chi (1 - (1 - cos theta) cos^2 psi) - sin theta cos chi cos psi - i sin psi (sin theta cos chi + sin chi (1 - cos theta) cos psi)]
+//! ```
+//!
+//! with the [stretched time](crate::spin_down::StretchedTime) `tau` of the braking torque. `phase + F0 tau + B / 2 pi` are the turns of the magnetic axis about `L` from the
+//! line of sight: `n` goes round `L` at `2 pi F0 + w`, and the magnetic axis is ahead of `n` by `pi - psi + B(psi)`. A pulse is where the phase is a whole number.
+//!
+//! What Lorentz violation does to it: it moves `L`, and so the [inclination](TimingParameter::InclinationRate), which the width shows. That the turns are
+//! counted from a line of sight that goes round `L` adds to F0 and F1 what a fit cannot tell from these.
+//!
+//! ```
+//! use twofold::timing_model::{TimingModel, TimingParameter::*};
+//!
+//! // Ten turns a second, slowing down, with a wobble of 0.05 rad of 500 days.
+//! let rate = core::f64::consts::TAU / (500.0 * 86400.0);
+//! let star = [(F1, -3e-13), (Wobble, 0.05), (Chi, 1.3), (PrecessionRate, rate), (TorqueShare, 1.0), (Inclination, 1.2), (Rho, 0.3)];
+//! let model = TimingModel::new([10.0, 0.0], &star)?;
+//! let (phase, derivatives) = model.phase_and_derivatives([3e8, 0.0])?;
+//! assert_eq!(phase.turns, 2_999_986_500);
+//! // By F1 about t^2 / 2.
+//! assert!((derivatives[F1 as usize] / 4.5e16 - 1.0).abs() < 1e-3);
+//! # Ok::<(), twofold::Error>(())
+//! ```
+
+mod parameter;
+
+pub use parameter::TimingParameter;
+
+use core::f64::consts::{PI, TAU};
+
+use nalgebra::SVector;
+use num_dual::{Derivative, DualSVec64};
+
+use crate::error::Error;
+use crate::numerics::double_double::DoubleDouble;
+use crate::numerics::scalar::Real;
+use crate::observables::pulsar::width::{PulseWidth, pulse_width};
+use crate::spin_down::{
+    Braking, Precession, StretchedTime, TorqueHarmonics, late_by_torque, secular_lateness, slowing,
+};
+use TimingParameter::*;
+
+/// How many parameters there are.
+const COUNT: usize = TimingParameter::ALL.len();
+
+type Dual = DualSVec64<COUNT>;
+
+/// Most steps of Newton's method from a number to its time.
+const STEPS: usize = 12;
+
+/// A pulsar by its timing parameters.
+#[derive(Debug, Clone)]
+pub struct TimingModel {
+    values: [f64; COUNT],
+    /// F0 to 32 digits: over 1e12 turns a double is off by 1e-4 of one.
+    frequency: DoubleDouble,
+    time: StretchedTime,
+}
+
+/// A number of turns in two parts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turns {
+    /// Whole turns, the nearest.
+    pub turns: i64,
+    /// What is left, from -1/2 to 1/2.
+    pub fraction: f64,
+}
+
+impl TimingModel {
+    /// A model with the frequency F0 (Hz), the unevaluated sum of two doubles, and the parameters given; the others are zero, `chi` and the inclination a right angle.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for a frequency that is not above zero; a wobble that is not from 0 to a right angle; a `chi` nearer than the wobble to 0 or pi, of which the magnetic axis does not go
+    /// round `n`; F2 without F1, as no law of braking has; an angle of the beam outside 0 to pi; and as for [`StretchedTime::new`].
+    pub fn new(frequency: [f64; 2], parameters: &[(TimingParameter, f64)]) -> Result<Self, Error> {
+        let mut values = [0.0; COUNT];
+        (values[Chi as usize], values[Inclination as usize]) = (PI / 2.0, PI / 2.0);
+        for (parameter, value) in parameters {
+            values[*parameter as usize] = *value;
+        }
+        Self::of_values(values, DoubleDouble::from(frequency))
+    }
+
+    fn of_values(mut values: [f64; COUNT], frequency: DoubleDouble) -> Result<Self, Error> {
+        values[F0 as usize] = frequency.high;
+        for (parameter, value) in TimingParameter::ALL.into_iter().zip(values) {
+            Error::ensure(value.is_finite(), parameter.key(), value, "a finite number")?;
+        }
+        let of = |parameter: TimingParameter| values[parameter as usize];
+        Error::ensure(frequency.high > 0.0, "f0 (Hz)", frequency.high, "above zero")?;
+        Error::ensure((0.0..PI / 2.0).contains(&of(Wobble)), "wobble (rad)", of(Wobble), "from 0 to below pi / 2")?;
+        let least = of(Chi).min(PI - of(Chi));
+        let beyond = "above the wobble, as its distance from pi is: the magnetic axis goes round n";
+        Error::ensure(least > of(Wobble), "chi (rad)", of(Chi), beyond)?;
+        Error::ensure((0.0..=PI).contains(&of(Inclination)), "inclination (rad)", of(Inclination), "from 0 to pi")?;
+        Error::ensure((0.0..PI).contains(&of(Rho)), "rho (rad)", of(Rho), "from 0 to below pi")?;
+        let index_is_known = of(F1) != 0.0 || of(F2) == 0.0;
+        Error::ensure(index_is_known, "f2 (Hz/s^2) with f1 = 0", of(F2), "zero: the braking index is F0 F2 / F1^2")?;
+        let braking = braking(&values);
+        let time = StretchedTime::new(&braking, &precession(&values))?;
+        Ok(Self { values, frequency, time })
+    }
+
+    /// The value of a parameter.
+    pub fn value(&self, parameter: TimingParameter) -> f64 {
+        self.values[parameter as usize]
+    }
+
+    /// F0 (Hz), the unevaluated sum of two doubles.
+    pub fn frequency(&self) -> [f64; 2] {
+        self.frequency.into()
+    }
+
+    /// The model with some parameters changed. F0 keeps 32 digits, so that small changes add up.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub fn moved(&self, changes: &[(TimingParameter, f64)]) -> Result<Self, Error> {
+        let (mut values, mut frequency) = (self.values, self.frequency);
+        for (parameter, change) in changes {
+            match parameter {
+                F0 => frequency += (*change).into(),
+                other => values[*other as usize] += change,
+            }
+        }
+        Self::of_values(values, frequency)
+    }
+
+    /// The turns of the magnetic axis about `L` from the line of sight, at a time (s) since the epoch, the unevaluated sum of two doubles.
+    ///
+    /// # Errors
+    /// As for [`StretchedTime::stretched_at`].
+    pub fn phase(&self, t: [f64; 2]) -> Result<Turns, Error> {
+        Ok(self.phase_at(self.time.stretched_at(t)?))
+    }
+
+    /// When (s since the epoch) a pulse arrives: at what time the phase is its number. The unevaluated sum of two doubles, right to the rounding of the geometry, 1e-16 of a turn.
+    ///
+    /// # Errors
+    /// As for [`phase`](Self::phase).
+    pub fn arrival(&self, number: i64) -> Result<[f64; 2], Error> {
+        let wanted = DoubleDouble::sum(number as f64, (number - number as f64 as i64) as f64);
+        let mut time = (wanted - self.value(Phase).into()).over(self.frequency);
+        for _ in 0..STEPS {
+            let Turns { turns, fraction } = self.phase(time.into())?;
+            let tau = self.time.stretched_at(time.into())?[0];
+            let step = -((turns - number) as f64 + fraction) / (self.frequency.high * self.time.slowing(tau));
+            time += step.into();
+            // Newton's method squares what is left, but for the slow geometry.
+            if step.abs() * self.frequency.high < 1e-15 {
+                break;
+            }
+        }
+        Ok(time.into())
+    }
+
+    fn phase_at(&self, tau: [f64; 2]) -> Turns {
+        let turns = self.frequency * DoubleDouble::from(tau) + self.value(Phase).into();
+        let turns = turns + (geometry(&self.values, tau[0]) / TAU).into();
+        let whole = turns.high.round();
+        let rest = (turns - whole.into()).high;
+        let more = rest.round();
+        Turns { turns: whole as i64 + more as i64, fraction: rest - more }
+    }
+
+    /// The phase and its derivatives, in the order of [`TimingParameter::ALL`].
+    ///
+    /// # Errors
+    /// As for [`phase`](Self::phase).
+    pub fn phase_and_derivatives(&self, t: [f64; 2]) -> Result<(Turns, [f64; COUNT]), Error> {
+        let (seeded, moved, tau) = self.seeded(t)?;
+        let phase = seeded[Phase as usize] + seeded[F0 as usize] * moved + geometry(&seeded, moved) / TAU;
+        let mut derivatives = derivatives(&phase);
+        if self.value(F1) == 0.0 {
+            // The limit of F0 F2 / F1^2 -> 0.
+            derivatives[F2 as usize] = tau[0].powi(3) / 6.0;
+        }
+        Ok((self.phase_at(tau), derivatives))
+    }
+
+    /// The width of a pulse (s) near a time since the epoch: of the ring of the line of sight in the beam, Eq. (56) `[pulsewid]`, over the rate of turns. That rate
+    /// is taken as F0 of the time, right to `w / (2 pi F0)`.
+    ///
+    /// # Errors
+    /// As for [`phase`](Self::phase); [`Error::Domain`] where the line of sight stays inside or outside the beam.
+    pub fn width(&self, t: f64) -> Result<f64, Error> {
+        Ok(self.width_and_derivatives(t)?.0)
+    }
+
+    /// The width of a pulse and its derivatives, in the order of [`TimingParameter::ALL`].
+    ///
+    /// # Errors
+    /// As for [`width`](Self::width).
+    pub fn width_and_derivatives(&self, t: f64) -> Result<(f64, [f64; COUNT]), Error> {
+        let (seeded, moved, _) = self.seeded([t, 0.0])?;
+        let Some(azimuth) = azimuth_of_pulse(&seeded, moved, t) else {
+            let allowed = "a beam whose edge the line of sight crosses";
+            return Err(Error::Domain { quantity: "rho (rad)", value: self.value(Rho), allowed });
+        };
+        let duration = azimuth / (seeded[F0 as usize] * slowing(&braking(&seeded), &precession(&seeded), moved) * TAU);
+        Ok((duration.re, derivatives(&duration)))
+    }
+
+    /// The parameters with their derivatives, and the stretched time of a time. That moves by what the other part of the difference of both times moves.
+    fn seeded(&self, t: [f64; 2]) -> Result<([Dual; COUNT], Dual, [f64; 2]), Error> {
+        let tau = self.time.stretched_at(t)?;
+        let derivative = |k| Derivative::derivative_generic(nalgebra::Const, nalgebra::U1, k);
+        let seeded = core::array::from_fn(|k| Dual::new(self.values[k], derivative(k)));
+        let (braking, precession, at) = (braking(&seeded), precession(&seeded), Dual::from_re(tau[0]));
+        let late = secular_lateness(&braking, at) + late_by_torque(&braking, &precession, at);
+        Ok((seeded, Dual::new(tau[0], late.eps * -self.time.slowing(tau[0])), tau))
+    }
+}
+
+fn derivatives(value: &Dual) -> [f64; COUNT] {
+    let eps: SVector<f64, COUNT> = value.eps.unwrap_generic(nalgebra::Const, nalgebra::U1);
+    eps.into()
+}
+
+/// The law of braking; of a star that does not slow down with the index 3.
+fn braking<S: Real>(values: &[S; COUNT]) -> Braking<S> {
+    let [f0, f1, f2, torque_share] = [F0, F1, F2, TorqueShare].map(|parameter| values[parameter as usize]);
+    let index = if f1.re() == 0.0 { S::from_f64(3.0) } else { f0 * f2 / (f1 * f1) };
+    Braking { rate: -f1 / f0, index, torque_share }
+}
+
+fn precession<S: Real>(values: &[S; COUNT]) -> Precession<S> {
+    let [wobble, chi, phase, rate] =
+        [Wobble, Chi, PrecessionPhase, PrecessionRate].map(|parameter| values[parameter as usize]);
+    Precession { torque: TorqueHarmonics::new(wobble, chi), phase, rate }
+}
+
+/// `B(psi)` (rad): by how much the azimuth of the magnetic axis about `L` is ahead of its mean.
+fn geometry<S: Real>(values: &[S; COUNT], tau: S) -> S {
+    let [wobble, chi, phase, rate] =
+        [Wobble, Chi, PrecessionPhase, PrecessionRate].map(|parameter| values[parameter as usize]);
+    let ((sin, cos), (sin_chi, cos_chi)) = ((phase + rate * tau).sin_cos(), chi.sin_cos());
+    let (sin_wobble, half) = (wobble.sin_cos().0, (wobble * 0.5).sin_cos().0);
+    let less = half * half * 2.0;
+    let along = sin_chi * (S::one() - less * cos * cos) - sin_wobble * cos_chi * cos;
+    let across = -sin * (sin_wobble * cos_chi + sin_chi * less * cos);
+    across.atan2(along)
+}
+
+/// Azimuth (rad) about `L` from edge to edge of a pulse, Eq. (56) `[pulsewid]`.
+fn azimuth_of_pulse<S: Real>(values: &[S; COUNT], tau: S, t: f64) -> Option<S> {
+    let of = |parameter: TimingParameter| values[parameter as usize];
+    let psi = of(PrecessionPhase) + of(PrecessionRate) * tau;
+    let ((sin, cos), (sin_psi, cos_psi), (sin_chi, cos_chi)) = (of(Wobble).sin_cos(), psi.sin_cos(), of(Chi).sin_cos());
+    // The magnetic axis along L and across it: towards the azimuth of n, and a quarter turn from there.
+    let along = cos * cos_chi + sin * sin_chi * cos_psi;
+    let (towards, beside) = (sin * cos_chi - cos * sin_chi * cos_psi, sin_chi * sin_psi);
+    let colatitude = (towards * towards + beside * beside).sqrt().atan2(along);
+    match pulse_width(of(Rho), colatitude, of(Inclination) + of(InclinationRate) * t) {
+        PulseWidth::Pulsed(azimuth) => Some(azimuth),
+        PulseWidth::AlwaysOn | PulseWidth::NeverOn => None,
+    }
+}

@@ -1,0 +1,93 @@
+//! The parameters of a timing model.
+
+/// A parameter of a [`TimingModel`](super::TimingModel), in the order of [`ALL`](Self::ALL).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum TimingParameter {
+    /// Turns at the epoch, the geometry of the wobble apart.
+    Phase,
+    /// Frequency of the pulses at the epoch, averaged over a precession (Hz).
+    F0,
+    /// Its first derivative (Hz/s).
+    F1,
+    /// Its second derivative (Hz/s^2).
+    F2,
+    /// Wobble angle `theta` of the symmetry axis `n` to `L` (rad).
+    Wobble,
+    /// Angle `chi` of the magnetic axis to `n` (rad).
+    Chi,
+    /// Angle `psi` about `n` from the part of the magnetic axis across `n` to that of `L`, at the epoch (rad).
+    PrecessionPhase,
+    /// Rate of `psi` at the epoch (rad/s).
+    PrecessionRate,
+    /// Share of the braking torque that goes with `sin^2 theta_m`.
+    TorqueShare,
+    /// Angle of the line of sight to `L` at the epoch (rad).
+    Inclination,
+    /// Its rate (rad/s): what Lorentz violation makes of it.
+    InclinationRate,
+    /// Semi-open angle of the beam (rad).
+    Rho,
+}
+
+use TimingParameter::*;
+
+impl TimingParameter {
+    /// Every one.
+    pub const ALL: [Self; 12] = [
+        Phase,
+        F0,
+        F1,
+        F2,
+        Wobble,
+        Chi,
+        PrecessionPhase,
+        PrecessionRate,
+        TorqueShare,
+        Inclination,
+        InclinationRate,
+        Rho,
+    ];
+
+    fn names(self) -> [&'static str; 2] {
+        match self {
+            Phase => ["phase", "1"],
+            F0 => ["f0", "Hz"],
+            F1 => ["f1", "Hz/s"],
+            F2 => ["f2", "Hz/s^2"],
+            Wobble => ["wobble", "rad"],
+            Chi => ["chi", "rad"],
+            PrecessionPhase => ["precession_phase", "rad"],
+            PrecessionRate => ["precession_rate", "rad/s"],
+            TorqueShare => ["torque_share", "1"],
+            Inclination => ["inclination", "rad"],
+            InclinationRate => ["inclination_rate", "rad/s"],
+            Rho => ["rho", "rad"],
+        }
+    }
+
+    /// Name for commands and files.
+    pub fn key(self) -> &'static str {
+        self.names()[0]
+    }
+
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        self.names()[1]
+    }
+
+    /// Interval that a fit stays within, where there is one.
+    pub(crate) fn limits(self) -> (Option<f64>, Option<f64>) {
+        use core::f64::consts::PI;
+        match self {
+            Wobble => (Some(0.0), Some(PI / 2.0)),
+            Chi | Inclination | Rho => (Some(0.0), Some(PI)),
+            TorqueShare => (Some(0.0), Some(1.0)),
+            _ => (None, None),
+        }
+    }
+
+    /// The one with a name.
+    pub fn named(key: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|parameter| parameter.key() == key)
+    }
+}
