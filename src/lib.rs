@@ -25,6 +25,7 @@
 //! | what is computed, how, and at what cost | [`Problem::plan`], [`plan`] |
 //! | pulses, arrival times, position angles | [`pulse_train`], [`observables::pulsar`] |
 //! | pulsars that slow down | [`spin_down`], [`observables::pulsar::PulsarClock::braked`] |
+//! | phases of a pulsar for timing programs, with derivatives | [`observables::pulsar::timing_model`], [`inference::fit_timing`] |
 //! | spectral lines and fundamental frequencies | [`observables::spectrum`] |
 //! | gravitational waves | [`observables::gravitational_wave`] |
 //! | bounds on `s^IJ` from pulsars | [`observables::bound`], [`observables::eta_distribution`] |
@@ -53,7 +54,6 @@ pub mod propagation;
 pub mod solutions;
 pub mod spin_down;
 pub mod star;
-pub mod timing_model;
 pub mod units;
 
 pub use dynamics::{AxisState, BodyState, Problem, RigidSpheroid};

@@ -66,5 +66,5 @@ pub use model::{Model, Unknown};
 pub use observables::{Datum, Noise, Observable, Place, data_of};
 pub use signal::{Event, Signal};
 pub use symmetry::Symmetry;
-pub use timing::{Arrival, Prior, TimingData, Width, fit_timing, timing_fisher, timing_nonlinearity};
+pub use timing::{MeasuredArrival, MeasuredWidth, Prior, TimingData, fit_timing, timing_fisher, timing_nonlinearity};
 pub use wobble_limit::{WobbleLimit, wobble_limits};

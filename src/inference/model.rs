@@ -5,8 +5,8 @@ use core::fmt::Debug;
 use super::Symmetry;
 use super::symmetry::symmetries;
 use crate::error::Error;
+use crate::observables::pulsar::timing_model::{TimingModel, TimingParameter};
 use crate::parameters::{Parameter, Parameters};
-use crate::timing_model::{TimingModel, TimingParameter};
 
 /// The name of a number of a [`Model`].
 pub trait Unknown: Copy + PartialEq + Debug {

@@ -5,11 +5,11 @@ use nalgebra::DMatrix;
 use super::least_squares::{self, Comparison, Fit, least_squares};
 use super::{Fisher, InferenceError, Jacobian};
 use crate::error::Error;
-use crate::timing_model::{TimingModel, TimingParameter};
+use crate::observables::pulsar::timing_model::{TimingModel, TimingParameter};
 
 /// The arrival of a pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Arrival {
+pub struct MeasuredArrival {
     /// When (s since the epoch of the model), the unevaluated sum of two doubles.
     pub time: [f64; 2],
     /// Its standard deviation (s).
@@ -20,7 +20,7 @@ pub struct Arrival {
 
 /// The width of a pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Width {
+pub struct MeasuredWidth {
     /// When (s since the epoch of the model).
     pub time: f64,
     /// Time from edge to edge (s).
@@ -43,10 +43,10 @@ pub struct Prior {
 /// Measurements of the pulses of a star, with independent errors, and what is known of it beforehand.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct TimingData {
-    /// Arrival times.
-    pub arrivals: Vec<Arrival>,
+    /// MeasuredArrival times.
+    pub arrivals: Vec<MeasuredArrival>,
     /// Widths.
-    pub widths: Vec<Width>,
+    pub widths: Vec<MeasuredWidth>,
     /// What is known beforehand. A parameter that is no unknown has none.
     pub priors: Vec<Prior>,
 }
@@ -67,7 +67,7 @@ impl TimingData {
         let mut shift = None;
         let mut data = self.clone();
         for arrival in &mut data.arrivals {
-            let nearest = model.phase(arrival.time)?.turns;
+            let nearest = model.phase(arrival.time)?.whole;
             arrival.number = Some(match arrival.number {
                 None => nearest,
                 Some(number) => number + *shift.get_or_insert(nearest - number),
@@ -96,7 +96,7 @@ impl Comparison<TimingModel> for TimingData {
         let frequency = model.value(TimingParameter::F0);
         for arrival in &self.arrivals {
             let phase = model.phase(arrival.time)?;
-            let turns = (phase.turns - arrival.number.unwrap_or(phase.turns)) as f64 + phase.fraction;
+            let turns = (phase.whole - arrival.number.unwrap_or(phase.whole)) as f64 + phase.fraction;
             // A pulse that is late has gone past its turn.
             residuals.push(-turns / frequency / arrival.sigma);
         }
@@ -137,7 +137,7 @@ impl Comparison<TimingModel> for TimingData {
 
     fn rounding(&self, found: &Fit<TimingModel>) -> Result<Option<InferenceError>, InferenceError> {
         let rounding = ROUNDING / found.fisher.parameters.value(TimingParameter::F0);
-        let is_rounding = |(arrival, residual): (&Arrival, &f64)| residual.abs() * arrival.sigma <= rounding;
+        let is_rounding = |(arrival, residual): (&MeasuredArrival, &f64)| residual.abs() * arrival.sigma <= rounding;
         let all = self.widths.is_empty() && self.arrivals.iter().zip(&found.residuals).all(is_rounding);
         Ok(all.then_some(InferenceError::NotConverged { why: "the residuals are rounding", cosine: found.cosine }))
     }
@@ -150,8 +150,8 @@ impl Comparison<TimingModel> for TimingData {
 /// As for [`fit`](super::fit).
 ///
 /// ```
-/// use twofold::inference::{Arrival, TimingData, fit_timing};
-/// use twofold::timing_model::{TimingModel, TimingParameter::*};
+/// use twofold::inference::{MeasuredArrival, TimingData, fit_timing};
+/// use twofold::observables::pulsar::timing_model::{TimingModel, TimingParameter::*};
 ///
 /// // Of a star of 300 Hz 20 arrivals to 1 microsecond over 20 years, each 0.1 ms late.
 /// let star = TimingModel::new([300.0, 1e-15], &[(F1, -1e-15)])?;
@@ -160,9 +160,9 @@ impl Comparison<TimingModel> for TimingData {
 ///     let mut time = [number as f64 / 300.0, 0.0];
 ///     for _ in 0..3 {
 ///         let phase = star.phase(time).expect("a phase");
-///         time[1] -= ((phase.turns - number) as f64 + phase.fraction) / 300.0;
+///         time[1] -= ((phase.whole - number) as f64 + phase.fraction) / 300.0;
 ///     }
-///     Arrival { time: [time[0], time[1] + 1e-4], sigma: 1e-6, number: Some(number) }
+///     MeasuredArrival { time: [time[0], time[1] + 1e-4], sigma: 1e-6, number: Some(number) }
 /// };
 /// let data = TimingData { arrivals: (-10..10).map(arrival).collect(), ..TimingData::default() };
 /// let start = TimingModel::new([300.0, 0.0], &[(F1, -1.0001e-15)])?;

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use super::least_squares::Comparison;
 use super::{InferenceError, TimingData};
 use crate::error::Error;
-use crate::timing_model::{TimingModel, TimingParameter};
+use crate::observables::pulsar::timing_model::{TimingModel, TimingParameter};
 
 /// The wobble of a star by its arrival times, for one period of precession.
 #[derive(Debug, Clone, Copy, PartialEq)]

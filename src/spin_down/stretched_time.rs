@@ -86,7 +86,7 @@ impl StretchedTime {
         Error::ensure((0.0..=1.0).contains(&torque_share), share, torque_share, "from 0 to 1")?;
         let mean = 1.0 - torque_share + torque_share * precession.torque.constant;
         Error::ensure(mean > 0.0, "mean braking torque", mean, "above zero: the magnetic axis may not stay along L")?;
-        let modulation = torque_share / mean;
+        let modulation = modulation(torque_share, &precession.torque);
         let Precession { torque, rate: w, .. } = *precession;
         if modulation * (torque.once.abs() + torque.twice.abs()) > 0.0 {
             let varying = (rate * modulation * (torque.once.abs() + torque.twice.abs() / 2.0) / w).abs();
@@ -285,13 +285,18 @@ pub(crate) fn secular_lateness<S: Real>(braking: &Braking<S>, tau: S) -> S {
 fn ln_slowness<S: Real>(braking: &Braking<S>, tau: S) -> S {
     let x = braking.rate * tau;
     let small = x * (braking.index - S::from_f64(2.0));
-    // What is left out is below 1e-17 where the argument is at most 0.12 in size.
-    x * (1..=18).rev().fold(S::zero(), |sum, k| S::from_f64(1.0 / f64::from(k)) - small * sum)
+    x * (1..=terms(small.re(), 18)).rev().fold(S::zero(), |sum, k| S::from_f64(1.0 / k as f64) - small * sum)
 }
 
 /// `exp(x) - 1` for `x` at most a half in size, to rounding.
 fn exp_less_one<S: Real>(x: S) -> S {
-    (1..=15).rev().fold(S::zero(), |sum, k| (S::one() + sum) * x / f64::from(k))
+    (1..=terms(x.re(), 15)).rev().fold(S::zero(), |sum, k| (S::one() + sum) * x / k as f64)
+}
+
+/// How many terms of a power series without large coefficients come to 1e-18 of the first, and one more for its derivatives: at most so many.
+fn terms(x: f64, most: usize) -> usize {
+    let bits = -x.abs().log2();
+    if bits > 60.0 { 2 } else { ((60.0 / bits.max(1.0)) as usize + 2).min(most) }
 }
 
 /// An angle less whole multiples of `turn` (rad).

@@ -132,6 +132,42 @@ fn what_is_observed_of_a_pulsar_stands_for_its_star() {
     assert!((phase - 0.4).abs() < 1e-14 && (m.angle(&n) - 1.2).abs() < 1e-14, "{phase}");
 }
 
+/// The observer at an angle to L, and where the star's place in the sky says.
+#[test]
+fn an_observer_is_given_by_inclination_or_by_the_place_of_the_star() {
+    let toml = twofold_scene::scene_file::built_in("b1937+21").expect("built in").toml;
+    let (start, end) = (toml.find("theta_o").expect("a key"), toml.find("distance").expect("a key"));
+    let with = |lines: &str| {
+        let text = format!("{}{lines}\n{}", &toml[..start], &toml[end..]);
+        Scene::from_toml("observed", &text)
+    };
+    let scene = with("inclination = \"40 deg\"\nazimuth = 0.7").unwrap_or_else(|error| panic!("{error}"));
+    let (l, o) = (scene.problem.initial().momentum.normalize(), scene.observer.expect("an observer").basis().direction);
+    assert!((o.angle(&l) - 40.0_f64.to_radians()).abs() < 1e-14);
+    let x = (nalgebra::Vector3::x() - l * l.x).normalize();
+    let azimuth = l.dot(&x.cross(&o)).atan2(x.dot(&o));
+    assert!((azimuth - 0.7).abs() < 1e-14, "{azimuth}");
+    let scene = with("frame = \"equatorial\"").unwrap_or_else(|error| panic!("{error}"));
+    // 19:39:38.561224, +21:34:59.12570.
+    let right = (19.0 + (39.0 + 38.561224 / 60.0) / 60.0) * 15.0_f64.to_radians();
+    let up = (21.0 + (34.0 + 59.1257 / 60.0) / 60.0) * 1.0_f64.to_radians();
+    let star = nalgebra::Vector3::new(up.cos() * right.cos(), up.cos() * right.sin(), up.sin());
+    assert!((scene.observer.expect("an observer").basis().direction + star).norm() < 1e-14);
+    for (lines, reasons) in [
+        ("inclination = 4.0", ["`observer.inclination` = 4.0", "0 to pi"]),
+        (
+            "theta_o = 1.0\nphi_o = 0.0\ninclination = 1.0",
+            ["`observer.inclination` beside `observer.theta_o`", "only one"],
+        ),
+        ("theta_o = 1.0\nphi_o = 0.0\nazimuth = 1.0", ["`observer.theta_o` beside `observer.azimuth`", "only one"]),
+        ("frame = \"galactic\"", ["`observer.frame` = \"galactic\"", "equatorial"]),
+        ("azimuth = 1.0", ["`observer.theta_o`", "colatitude"]),
+    ] {
+        let error = with(lines).expect_err(lines).to_string();
+        assert!(reasons.iter().all(|reason| error.contains(reason)), "{lines}: {error}");
+    }
+}
+
 /// A physical star is the same motion in other units.
 #[test]
 fn a_physical_star_moves_as_in_its_own_units() {

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::prelude::*;
 use crate::simulation::Simulation;
-use crate::timing_simulation::TimingSimulation;
+use crate::timing_simulation::{TimingSimulation, UNKNOWNS};
 use twofold::inference::{Fit, Model, fit_timing};
 
 /// One fit against the truth.
@@ -62,8 +62,8 @@ impl Case {
 
     /// Of a pulsar over 10 to 20 years.
     pub fn of_pulsar(seed: u64) -> Result<Self, InferenceError> {
-        let TimingSimulation { truth, start, data, unknowns } = TimingSimulation::new(seed)?;
-        Ok(Self::new(seed, 0, &fit_timing(&start, &data, &unknowns)?, &truth))
+        let TimingSimulation { truth, start, data, refused } = TimingSimulation::new(seed)?;
+        Ok(Self::new(seed, refused, &fit_timing(&start, &data, &UNKNOWNS)?, &truth))
     }
 }
 

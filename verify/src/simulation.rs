@@ -46,7 +46,7 @@ const FEWEST: usize = 12;
 const MOST_DRAWN: usize = 1000;
 
 /// Largest [`nonlinearity`] of a measurement whose error bars are tried: those of others are not promised to hold.
-const LINEAR: f64 = 0.1;
+pub(crate) const LINEAR: f64 = 0.1;
 
 impl Simulation {
     /// The measurement with a number. Scenes are drawn until one is determined by data without errors; the errors come after, and

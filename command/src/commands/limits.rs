@@ -7,7 +7,7 @@ use twofold::epoch::DAY;
 use twofold::inference::{
     Fit, InferenceError, Observable, Prior, Residuals, TimingData, fit_timing, timing_nonlinearity, wobble_limits,
 };
-use twofold::timing_model::{TimingModel, TimingParameter};
+use twofold::observables::pulsar::timing_model::{TimingModel, TimingParameter};
 use twofold_scene::measurements::{DataFile, parse_noise};
 use twofold_scene::pulsar_table::{CONFIDENCE, limit_over_directions};
 use twofold_scene::pulsar_timing::{PulsarScene, decimal};

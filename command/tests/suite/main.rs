@@ -10,6 +10,7 @@ mod figures;
 mod fuzz_corpus;
 mod golden;
 mod inference;
+mod limits;
 mod notes;
 mod plans;
 mod pulses;

@@ -317,6 +317,10 @@ fn every_documented_key_of_a_scene_is_changed_once() {
             let keys = row.split('|').nth(1).expect("a column");
             for key in keys.split('`').skip(1).step_by(2).flat_map(|key| key.split(" and ")) {
                 let key = key.split(" = ").next().expect("a key");
+                // It has one value: where it stands the place of the star is changed.
+                if (name, key) == ("observer", "frame") {
+                    continue;
+                }
                 count += 1;
                 assert!(
                     changed.iter().any(|(section, found, _)| *section == name && *found == key),

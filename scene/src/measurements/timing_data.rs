@@ -1,7 +1,7 @@
-//! Arrival times and pulse widths over decades: `.tim` files, and tables as `twofold timing` writes them.
+//! MeasuredArrival times and pulse widths over decades: `.tim` files, and tables as `twofold timing` writes them.
 
 use twofold::epoch::Epoch;
-use twofold::inference::{Arrival, Noise, Observable, TimingData, Width};
+use twofold::inference::{MeasuredArrival, MeasuredWidth, Noise, Observable, TimingData};
 
 use super::DataFile;
 use super::data_file::MOST_ROWS;
@@ -66,7 +66,7 @@ impl DataFile {
                         }
                     };
                     let at: Epoch = date.parse().map_err(|error| refuse(format!("`{}`: {error}", shortened(date))))?;
-                    data.arrivals.push(Arrival { time: at.seconds_since(epoch), sigma, number });
+                    data.arrivals.push(MeasuredArrival { time: at.seconds_since(epoch), sigma, number });
                 }
                 _ => {
                     return Err(refuse(format!(
@@ -102,9 +102,9 @@ impl DataFile {
             let at = Epoch::new(day, field(1)?).map_err(|error| format!("{}:{line}: {error}", self.name))?;
             let time = at.seconds_since(epoch);
             let number = has_numbers.then(|| self.whole(line, "pulse", &fields[wanted.len() - 1])).transpose()?;
-            data.arrivals.extend(of_arrival.map(|sigma| Arrival { time, sigma, number }));
+            data.arrivals.extend(of_arrival.map(|sigma| MeasuredArrival { time, sigma, number }));
             if let Some(sigma) = of_width {
-                data.widths.push(Width { time: time[0], duration: field(2)?, sigma });
+                data.widths.push(MeasuredWidth { time: time[0], duration: field(2)?, sigma });
             }
         }
         Ok(())

@@ -23,8 +23,8 @@ pub fn par(scene: &Scene, timing: &Timing) -> Result<String, Error> {
     let name = scene.catalogued.as_ref().map_or("PULSAR", |catalogued| catalogued.name.as_str());
     line("PSR", name);
     if let Some(Catalogued { position: Some((ascension, declination)), .. }) = &scene.catalogued {
-        line("RAJ", ascension);
-        line("DECJ", declination);
+        line("RAJ", &ascension.text);
+        line("DECJ", &declination.text);
         line("POSEPOCH", &timing.epoch.to_string());
     }
     line("F0", &decimal(timing.fit.frequency));

@@ -122,9 +122,13 @@ impl Scene {
         let problem = problem.map_err(|error| initial_section.fault(format!("no motion starts so: {error}")))?;
         let spin_down_section = document.section("spin_down")?;
         let spin_down = spin_down_section.as_ref().map(|section| spin_down::read(section, &star.units)).transpose()?;
-        let observer = document.section("observer")?;
-        let observer = observer.map(|section| observation::read_observer(&section, &star.units)).transpose()?;
         let catalogued = pulsar_section.as_ref().map(observation::read_catalogued).transpose()?.flatten();
+        let observer = document.section("observer")?;
+        let read_observer = |section: Section<'_>| {
+            let l = initial.state.momentum.try_normalize(0.0);
+            observation::read_observer(&section, &star.units, l, catalogued.as_ref())
+        };
+        let observer = observer.map(read_observer).transpose()?;
         let (time_section, times, epoch, epoch_caution) = match times {
             Some(times) => (None, times.clone(), None, None),
             None => {

@@ -282,6 +282,13 @@ fn from_angles(section: &Section<'_>, star: &Star) -> Result<Initial, Fault> {
     Ok(Initial { state, angles, perturbation: Err("[initial] gives angles and no constants (`initial.kind`)") })
 }
 
+/// The direction across a unit vector `l` at an azimuth about it, counted from the one nearest to X (to Y where `l` is along X).
+pub(super) fn outwards(l: &Vector3<f64>, azimuth: f64) -> Vector3<f64> {
+    let nearest = if l.x.abs() > 0.99 { Vector3::y() } else { Vector3::x() };
+    let x = (nearest - l * l.dot(&nearest)).normalize();
+    x * azimuth.cos() + l.cross(&x) * azimuth.sin()
+}
+
 /// The state by the angle of the wobble. With `l` along `L` (along `-L` for a negative spin), `x` the direction across it nearest to X (to Y where `l` is along X) and `phi` the azimuth,
 /// `n = l cos theta + (x cos phi + l x x sin phi) sin theta`, and the part of the magnetic axis (of `e_x` without a pulsar) across `n` is turned back about `n` by the phase from that of `l`.
 fn from_wobble(section: &Section<'_>, star: &Star, beam: Option<&Pulsar>) -> Result<Initial, Fault> {
@@ -303,9 +310,7 @@ fn from_wobble(section: &Section<'_>, star: &Star, beam: Option<&Pulsar>) -> Res
     let l = if star.spin < 0.0 { -l } else { l };
     let angle = |key: &str| section.optional(key).map_or(Ok(0.0), |entry| entry.angle());
     let (azimuth, phase) = (angle("azimuth")?, angle("precession_phase")?);
-    let nearest = if l.x.abs() > 0.99 { Vector3::y() } else { Vector3::x() };
-    let x = (nearest - l * l.dot(&nearest)).normalize();
-    let outwards = x * azimuth.cos() + l.cross(&x) * azimuth.sin();
+    let outwards = outwards(&l, azimuth);
     let axis = l * theta.cos() + outwards * theta.sin();
     // The part of l across n, as a direction: also where there is no wobble.
     let of_momentum = l * theta.sin() - outwards * theta.cos();

@@ -1,7 +1,8 @@
 //! The sections that say what is observed: `[observer]`, `[pulsar]`, `[time]` and `[output]`.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use nalgebra::Vector3;
 use twofold::epoch::{DAY, Epoch};
 use twofold::observables::Observer;
 use twofold::observables::pulsar::Beam;
@@ -11,7 +12,7 @@ use twofold::units::si::KILOPARSEC;
 
 use super::Scene;
 use super::document::{Entry, Fault, Section, did_you_mean, listed};
-use super::motion::Units;
+use super::motion::{Units, outwards};
 
 /// Direction and distance of the observer, in the inertial frame of the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,15 +58,69 @@ pub struct Catalogued {
     /// Name.
     pub name: String,
     /// Right ascension (J2000), as `19:39:38.56`, and declination, as `+21:34:59.1`.
-    pub position: Option<(String, String)>,
+    pub position: Option<(Sexagesimal, Sexagesimal)>,
 }
 
-pub(super) fn read_observer(section: &Section<'_>, units: &Units) -> Result<Viewer, Fault> {
-    section.only("theta_o phi_o distance")?;
-    let theta_o = section
-        .required("theta_o", "colatitude of the observer [rad]")?
-        .angle_where("an angle from 0 to pi [rad]", |x| (0.0..=PI).contains(&x))?;
-    let phi_o = section.required("phi_o", "azimuth of the observer [rad]")?.angle()?;
+/// An angle as catalogues write it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sexagesimal {
+    /// As written.
+    pub text: String,
+    /// In rad.
+    pub angle: f64,
+}
+
+impl Sexagesimal {
+    /// Of a whole number up to `most`, minutes and decimal seconds, of units of so many degrees.
+    fn read(text: &str, most: u8, degrees: f64) -> Option<Self> {
+        let (sign, size) = text.strip_prefix('-').map_or((1.0, text), |size| (-1.0, size));
+        let parts: Vec<_> = size.strip_prefix('+').unwrap_or(size).split(':').collect();
+        let [whole, minutes, seconds] = parts[..] else { return None };
+        let plain = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
+        let below = |part: &str| part.parse().ok().filter(|x: &f64| plain(part) && *x < 60.0);
+        let whole = whole.parse().ok().filter(|x: &u8| *x <= most)?;
+        let minutes = below(minutes).filter(|_| minutes.len() == 2)?;
+        let angle = sign * (f64::from(whole) + (minutes + below(seconds)? / 60.0) / 60.0) * degrees;
+        Some(Self { text: text.to_owned(), angle: angle.to_radians() })
+    }
+}
+
+/// The observer of a star with the angular momentum along `l` (a unit vector), or anywhere if it has none.
+pub(super) fn read_observer(
+    section: &Section<'_>,
+    units: &Units,
+    l: Option<Vector3<f64>>,
+    catalogued: Option<&Catalogued>,
+) -> Result<Viewer, Fault> {
+    section.only("theta_o phi_o inclination azimuth frame distance")?;
+    section.not_both(&[("theta_o", "inclination"), ("theta_o", "frame"), ("inclination", "frame")])?;
+    section.not_both(&[("phi_o", "inclination"), ("phi_o", "frame"), ("azimuth", "theta_o"), ("azimuth", "frame")])?;
+    let (theta_o, phi_o) = if let Some(entry) = section.optional("inclination") {
+        let inclination = entry.angle_where("an angle from 0 to pi [rad]", |x| (0.0..=PI).contains(&x))?;
+        let azimuth = section.optional("azimuth").map_or(Ok(0.0), |entry| entry.angle())?;
+        let l = l.ok_or_else(|| entry.refuse_because("the star has no angular momentum, from which it is counted"))?;
+        angles_of(&(l * inclination.cos() + outwards(&l, azimuth) * inclination.sin()))
+    } else if let Some(entry) = section.optional("frame") {
+        if entry.string()? != "equatorial" {
+            return Err(entry.refuse("\"equatorial\": X to the equinox, Z to the north pole of the sky"));
+        }
+        let position = catalogued.and_then(|catalogued| catalogued.position.as_ref());
+        let (ascension, declination) = position.ok_or_else(|| {
+            entry.refuse_because(
+                "it needs `pulsar.right_ascension` and `pulsar.declination`: the observer is on the other side",
+            )
+        })?;
+        // From the star to the observer.
+        (FRAC_PI_2 + declination.angle, (ascension.angle + PI) % TAU)
+    } else {
+        let theta_o = section
+            .required(
+                "theta_o",
+                "colatitude of the observer [rad], or `observer.inclination` to L, or `observer.frame`",
+            )?
+            .angle_where("an angle from 0 to pi [rad]", |x| (0.0..=PI).contains(&x))?;
+        (theta_o, section.required("phi_o", "azimuth of the observer [rad]")?.angle()?)
+    };
     let distance = match section.optional("distance") {
         Some(entry) if !units.are_physical() => {
             return Err(entry.refuse("a distance only for a physical star: in the paper's units h is that at r = 1"));
@@ -74,6 +129,11 @@ pub(super) fn read_observer(section: &Section<'_>, units: &Units) -> Result<View
         None => None,
     };
     Ok(Viewer { theta_o, phi_o, distance })
+}
+
+/// Colatitude and azimuth of a direction.
+fn angles_of(direction: &Vector3<f64>) -> (f64, f64) {
+    (direction.x.hypot(direction.y).atan2(direction.z), direction.y.atan2(direction.x))
 }
 
 pub(super) fn read_pulsar(section: &Section<'_>) -> Result<Pulsar, Fault> {
@@ -101,26 +161,14 @@ pub(super) fn read_catalogued(section: &Section<'_>) -> Result<Option<Catalogued
         (Some(_), None) => return Err(section.missing("`pulsar.declination` beside `pulsar.right_ascension`")),
         (None, Some(_)) => return Err(section.missing("`pulsar.right_ascension` beside `pulsar.declination`")),
         (Some(ascension), Some(declination)) => {
-            if !is_sexagesimal(ascension.string()?, 24) {
-                return Err(ascension.refuse("hours, minutes and seconds as \"19:39:38.56\""));
-            }
-            let angle = declination.string()?;
-            if !is_sexagesimal(angle.strip_prefix(['+', '-']).unwrap_or(angle), 90) {
-                return Err(declination.refuse("degrees, minutes and seconds as \"+21:34:59.1\""));
-            }
-            Some((ascension.string()?.to_owned(), angle.to_owned()))
+            let hours = Some(ascension.string()?).filter(|text| !text.starts_with(['+', '-']));
+            let right = hours.and_then(|text| Sexagesimal::read(text, 24, 15.0));
+            let right = right.ok_or_else(|| ascension.refuse("hours, minutes and seconds as \"19:39:38.56\""))?;
+            let up = Sexagesimal::read(declination.string()?, 90, 1.0);
+            Some((right, up.ok_or_else(|| declination.refuse("degrees, minutes and seconds as \"+21:34:59.1\""))?))
         }
     };
     Ok(Some(Catalogued { name: name.string()?.to_owned(), position }))
-}
-
-/// Whether a text is a whole number up to `most`, minutes and decimal seconds.
-fn is_sexagesimal(text: &str, most: u8) -> bool {
-    let parts: Vec<_> = text.split(':').collect();
-    let [whole, minutes, seconds] = parts[..] else { return false };
-    let plain = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
-    let below = |part: &str| plain(part) && part.parse::<f64>().is_ok_and(|x| x < 60.0);
-    whole.parse::<u8>().is_ok_and(|x| x <= most) && minutes.len() == 2 && below(minutes) && below(seconds)
 }
 
 pub(crate) const MOST_SAMPLES: usize = 10_000_000;

@@ -6,6 +6,7 @@ use super::edge_search::{EdgeSearch, Event};
 use super::margin::{ByStates, Margin};
 use super::position_angle::{position_angle, position_angle_rate};
 use super::rate_bounds::{RateBounds, rate_bounds};
+use super::timing_model::{TimingModel, TimingParameter::*};
 use super::train::{PulseTrain, check_beam};
 use super::turn_count::TurnCount;
 use super::{Beam, Pulse};
@@ -19,7 +20,6 @@ use crate::observables::spectrum::QuasiPeriodicMotion;
 use crate::propagation::{Motion, PhasedMotion, Turning, largest_torque};
 use crate::solutions::averaged::AveragingOrder;
 use crate::spin_down::{Braking, Precession, StretchedTime, TorqueHarmonics};
-use crate::timing_model::{TimingModel, TimingParameter::*};
 
 /// Largest `x = C |s| I^xx / |L|^2` with a torque that goes with the magnetic axis: its two harmonics are those of free precession with the angles at the start, which are right to `x`.
 const STRONGEST: f64 = 1e-3;
@@ -203,7 +203,7 @@ impl PulsarClock {
         let model = TimingModel::new(frequency.into(), &parameters)?;
         let look = self.turns.look(&self.motion, [0.0; 2])?;
         let at_zero = model.phase([0.0; 2])?;
-        model.moved(&[(Phase, look.phase / core::f64::consts::TAU - at_zero.fraction - at_zero.turns as f64)])
+        model.moved(&[(Phase, look.phase / core::f64::consts::TAU - at_zero.fraction - at_zero.whole as f64)])
     }
 
     /// Angle of the line of sight to `L` at the time zero, and its mean rate: over the time in which `L` turns by a hundredth of a radian about its axis.

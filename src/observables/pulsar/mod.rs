@@ -13,6 +13,7 @@ pub mod rate_bounds;
 mod root;
 pub mod spin_fit;
 pub mod timing;
+pub mod timing_model;
 pub mod train;
 mod turn_count;
 mod turns;

@@ -23,8 +23,8 @@ class Scene:
         self._coefficients(document["lorentz_violation"])
         self._times(document["time"])
         self._initial(document["initial"])
-        self.observer = _observer(document["observer"]) if "observer" in document else None
         self.pulsar = document.get("pulsar")
+        self.observer = self._observer(document["observer"]) if "observer" in document else None
         self.tolerance = document.get("output", {}).get("tolerance", 1e-13)
 
     @staticmethod
@@ -136,11 +136,27 @@ class Scene:
         self.axes, self.omega = axes, omega
 
 
+    def _observer(self, given):
+        distance = float(given["distance"] * 1000 * PARSEC) if "distance" in given else None
+        if "inclination" in given:
+            # At that angle to L, in the plane of L and the direction across it at the azimuth.
+            inertia = np.array([self.inertia_xx, self.inertia_xx, self.inertia_zz])
+            momentum = (self.omega * inertia) @ self.axes
+            l = momentum / np.linalg.norm(momentum)
+            nearest = np.eye(3)[1 if abs(l[0]) > 0.99 else 0]
+            across = nearest - l * (l @ nearest)
+            outwards = turned(across / np.linalg.norm(across), l, given.get("azimuth", 0.0))
+            direction = l * np.cos(given["inclination"]) + outwards * np.sin(given["inclination"])
+            return Observer(np.arctan2(np.hypot(*direction[:2]), direction[2]), np.arctan2(direction[1], direction[0]), distance)
+        if given.get("frame") == "equatorial":
+            hours, degrees = ([float(x) for x in self.pulsar[key].lstrip("+-").split(":")] for key in ("right_ascension", "declination"))
+            ascension, declination = (np.radians(x[0] + x[1] / 60 + x[2] / 3600) for x in (hours, degrees))
+            declination *= -1 if self.pulsar["declination"].startswith("-") else 1
+            return Observer(np.pi / 2 + declination, 15 * ascension + np.pi, distance)
+        return Observer(float(given["theta_o"]), float(given["phi_o"]), distance)
+
     def _of_wobble(self, given):
         """L along `momentum`, the axis n at the angle of the wobble to it (to -L for a negative spin), the magnetic axis by its angle about n."""
-
-        def turned(vector, axis, angle):
-            return vector * np.cos(angle) + np.cross(axis, vector) * np.sin(angle) + axis * (axis @ vector) * (1 - np.cos(angle))
 
         momentum = np.array(given.get("momentum", [0.0, 0.0, 1.0]), float)
         l = np.sign(self.spin) * momentum / np.linalg.norm(momentum)
@@ -202,6 +218,11 @@ class Constants:
         return alpha, beta, alpha_rate, beta_rate
 
 
+def turned(vector, axis, angle):
+    """A vector turned about a unit vector."""
+    return vector * np.cos(angle) + np.cross(axis, vector) * np.sin(angle) + axis * (axis @ vector) * (1 - np.cos(angle))
+
+
 class Observer:
     """`direction` from the star to the observer, Eq. (46); `theta` and `phi` the basis normal to it, Eq. (70); distance in m."""
 
@@ -212,11 +233,6 @@ class Observer:
         self.theta = np.array([cos_t * cos_p, cos_t * sin_p, -sin_t])
         self.phi = np.array([-sin_p, cos_p, 0.0])
         self.distance = distance
-
-
-def _observer(given):
-    distance = float(given["distance"] * 1000 * PARSEC) if "distance" in given else None
-    return Observer(float(given["theta_o"]), float(given["phi_o"]), distance)
 
 
 def body_axes(alpha, beta, gamma):

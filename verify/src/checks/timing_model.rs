@@ -2,10 +2,10 @@
 
 use twofold::inference::{Model, TimingData, fit_timing, timing_fisher, wobble_limits};
 use twofold::observables::pulsar::PulsarClock;
+use twofold::observables::pulsar::timing_model::TimingParameter::{self, *};
+use twofold::observables::pulsar::timing_model::{TimingModel, Turns};
 use twofold::propagation::PhasedMotion;
 use twofold::spin_down::Braking;
-use twofold::timing_model::TimingParameter::{self, *};
-use twofold::timing_model::{TimingModel, Turns};
 
 use super::spin_down::{integrated, problem};
 use crate::coverage::{Case, Coverage};
@@ -72,8 +72,8 @@ fn of_clock() -> Result<Measured, String> {
         let mut worst = 0.0_f64;
         for k in -20..=20 {
             let Some(pulse) = clock.pulse_near([f64::from(k) * YEAR, 0.0])? else { return Err("dark".to_owned()) };
-            let Turns { turns, fraction } = model.phase(pulse.midpoint)?;
-            worst = worst.max(((turns - pulse.number) as f64 + fraction).abs());
+            let Turns { whole, fraction } = model.phase(pulse.midpoint)?;
+            worst = worst.max(((whole - pulse.number) as f64 + fraction).abs());
         }
         Ok(worst)
     })
@@ -126,8 +126,8 @@ fn slopes() -> Result<Measured, String> {
         let mut worst = 0.0_f64;
         for t in [-90.0, -7.0, 0.5, 31.0, 100.0] {
             let phase = |model: &TimingModel| {
-                let Turns { turns, fraction } = model.phase([t, 0.0])?;
-                Ok((turns - star.phase([t, 0.0])?.turns) as f64 + fraction)
+                let Turns { whole, fraction } = model.phase([t, 0.0])?;
+                Ok((whole - star.phase([t, 0.0])?.whole) as f64 + fraction)
             };
             let (_, of_phase) = star.phase_and_derivatives([t, 0.0])?;
             let (_, of_width) = star.width_and_derivatives(t)?;

@@ -13,14 +13,14 @@
 //! counted from a line of sight that goes round `L` adds to F0 and F1 what a fit cannot tell from these.
 //!
 //! ```
-//! use twofold::timing_model::{TimingModel, TimingParameter::*};
+//! use twofold::observables::pulsar::timing_model::{TimingModel, TimingParameter::*};
 //!
 //! // Ten turns a second, slowing down, with a wobble of 0.05 rad of 500 days.
 //! let rate = core::f64::consts::TAU / (500.0 * 86400.0);
 //! let star = [(F1, -3e-13), (Wobble, 0.05), (Chi, 1.3), (PrecessionRate, rate), (TorqueShare, 1.0), (Inclination, 1.2), (Rho, 0.3)];
 //! let model = TimingModel::new([10.0, 0.0], &star)?;
 //! let (phase, derivatives) = model.phase_and_derivatives([3e8, 0.0])?;
-//! assert_eq!(phase.turns, 2_999_986_500);
+//! assert_eq!(phase.whole, 2_999_986_500);
 //! // By F1 about t^2 / 2.
 //! assert!((derivatives[F1 as usize] / 4.5e16 - 1.0).abs() < 1e-3);
 //! # Ok::<(), twofold::Error>(())
@@ -35,10 +35,11 @@ use core::f64::consts::{PI, TAU};
 use nalgebra::SVector;
 use num_dual::{Derivative, DualSVec64};
 
+use super::width::{PulseWidth, pulse_width};
 use crate::error::Error;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::scalar::Real;
-use crate::observables::pulsar::width::{PulseWidth, pulse_width};
+pub use crate::solutions::averaged::Turns;
 use crate::spin_down::{
     Braking, Precession, StretchedTime, TorqueHarmonics, late_by_torque, secular_lateness, slowing,
 };
@@ -59,15 +60,6 @@ pub struct TimingModel {
     /// F0 to 32 digits: over 1e12 turns a double is off by 1e-4 of one.
     frequency: DoubleDouble,
     time: StretchedTime,
-}
-
-/// A number of turns in two parts.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Turns {
-    /// Whole turns, the nearest.
-    pub turns: i64,
-    /// What is left, from -1/2 to 1/2.
-    pub fraction: f64,
 }
 
 impl TimingModel {
@@ -146,9 +138,9 @@ impl TimingModel {
         let wanted = DoubleDouble::sum(number as f64, (number - number as f64 as i64) as f64);
         let mut time = (wanted - self.value(Phase).into()).over(self.frequency);
         for _ in 0..STEPS {
-            let Turns { turns, fraction } = self.phase(time.into())?;
+            let Turns { whole, fraction } = self.phase(time.into())?;
             let tau = self.time.stretched_at(time.into())?[0];
-            let step = -((turns - number) as f64 + fraction) / (self.frequency.high * self.time.slowing(tau));
+            let step = -((whole - number) as f64 + fraction) / (self.frequency.high * self.time.slowing(tau));
             time += step.into();
             // Newton's method squares what is left, but for the slow geometry.
             if step.abs() * self.frequency.high < 1e-15 {
@@ -159,12 +151,7 @@ impl TimingModel {
     }
 
     fn phase_at(&self, tau: [f64; 2]) -> Turns {
-        let turns = self.frequency * DoubleDouble::from(tau) + self.value(Phase).into();
-        let turns = turns + (geometry(&self.values, tau[0]) / TAU).into();
-        let whole = turns.high.round();
-        let rest = (turns - whole.into()).high;
-        let more = rest.round();
-        Turns { turns: whole as i64 + more as i64, fraction: rest - more }
+        Turns::at(self.value(Phase) + geometry(&self.values, tau[0]) / TAU, self.frequency, tau.into())
     }
 
     /// The phase and its derivatives, in the order of [`TimingParameter::ALL`].

@@ -1,0 +1,128 @@
+//! The command `twofold limits` as a user meets it: values, limits, refusals.
+
+use std::f64::consts::TAU;
+
+use crate::common::{Folder, ends, has_all, is_refused, stderr, stdout};
+
+/// A folder with the files of a pulsar.
+fn timed(pulsar: &str) -> Folder {
+    let folder = Folder::new();
+    folder.succeeds(&["timing", pulsar, "--epochs", "400", "--out", "."]);
+    folder
+}
+
+/// Rows of a table of the command: the fields of a line by its first one.
+fn row<'t>(page: &'t str, name: &str) -> Vec<&'t str> {
+    let line = page.lines().find(|line| line.split_whitespace().next() == Some(name));
+    line.unwrap_or_else(|| panic!("{name} in {page}")).split_whitespace().collect()
+}
+
+#[test]
+fn arrival_times_of_a_wobbling_star_give_it_back() {
+    let folder = timed("b1828-11");
+    let unknowns = "phase,f0,f1,f2,wobble,precession_phase,precession_rate";
+    let found = folder.succeeds(&["limits", "b1828-11", "b1828-11.tim", "--parameters", unknowns]);
+    let page = stdout(&found);
+    // 3 degrees and 500 days are what the scene states.
+    for (name, expected) in [("wobble", 3.0_f64.to_radians()), ("precession_rate", TAU / (500.0 * 86_400.0))] {
+        let fields = row(&page, name);
+        let [value, sigma] = [1, 2].map(|k| fields[k].parse::<f64>().expect("a number"));
+        assert!((value - expected).abs() < 1e-2 * sigma + 1e-9 * expected, "{name}: {value} for {expected}");
+    }
+    assert!(page.contains("Held fixed: chi = ") && page.contains("torque_share = 1"), "{page}");
+    assert!(stderr(&found).contains("400 arrivals, 0 widths, 0 priors"), "{}", stderr(&found));
+    // A prior is one more datum, and as sharp as it is it holds.
+    let prior = ["limits", "b1828-11", "b1828-11.tim", "--parameters", unknowns, "--prior", "wobble:0.0523:1e-9"];
+    let with_prior = stdout(&folder.succeeds(&prior));
+    assert!((row(&with_prior, "wobble")[1].parse::<f64>().expect("a number") - 0.0523).abs() < 1e-8, "{with_prior}");
+}
+
+/// Of `N` times with the error `sigma` an amplitude has the error `sigma (2 / N)^(1/2)`, an amplitude of a small wobble is `theta cot chi / (2 pi F0)`, and half a normal distribution has its
+/// quantile of 95 % at 1.96.
+#[test]
+fn the_limit_on_a_wobble_is_that_of_an_amplitude() {
+    let folder = timed("b1937+21");
+    let args = ["limits", "b1937+21", "b1937+21.tim", "--periods", "20:200:3", "--out", "limits.csv"];
+    let page = stdout(&folder.succeeds(&args));
+    assert!(page.contains("Limits on the wobble at 95 %"), "{page}");
+    let table = folder.read("limits.csv");
+    let rows: Vec<Vec<f64>> =
+        table.lines().skip(1).map(|line| line.split(',').map(|x| x.parse().expect("a number")).collect()).collect();
+    assert_eq!(rows.len(), 3, "{table}");
+    let chi = 75.0_f64.to_radians();
+    let expected = 1.96 * 1e-6 * (2.0_f64 / 400.0).sqrt() * TAU * 641.928 * chi.tan();
+    for (row, period) in rows.iter().zip([20.0, 63.245_553, 200.0]) {
+        assert!((row[0] / period - 1.0).abs() < 1e-6, "{table}");
+        assert!((row[3] / expected - 1.0).abs() < 0.05, "{} for {expected}", row[3]);
+    }
+}
+
+/// Over a span `T` the error of a slope of `N` widths is `sigma (12 / N)^(1/2) / T`.
+#[test]
+fn widths_limit_the_motion_of_the_axis_and_s() {
+    let folder = timed("b1937+21");
+    let args = ["limits", "b1937+21", "b1937+21.csv", "--observe", "widths:1e-6"];
+    let page = stdout(&folder.succeeds(&args));
+    let sigma: f64 = row(&page, "inclination_rate")[2].parse().expect("a number");
+    let times: Vec<f64> = folder
+        .read("b1937+21.csv")
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').nth(1).and_then(|day| day.parse().ok()).expect("a day"))
+        .collect();
+    let span = (times[times.len() - 1] - times[0]) * 86_400.0;
+    // cos rho = cos Theta cos i + sin Theta sin i cos(W / 2), with the angles of the scene: dW/di at a fixed rho.
+    let (theta, i, rho) =
+        (75.0_f64.to_radians(), 80.0_f64.to_radians(), row(&page, "rho")[1].parse::<f64>().expect("rho"));
+    let half = ((rho.cos() - theta.cos() * i.cos()) / (theta.sin() * i.sin())).acos();
+    let slope =
+        2.0 * (theta.sin() * i.cos() * half.cos() - theta.cos() * i.sin()) / (theta.sin() * i.sin() * half.sin());
+    let expected = 1e-6 * (12.0_f64 / 400.0).sqrt() / span * TAU * 641.928 / slope.abs();
+    assert!((sigma / expected - 1.0).abs() < 0.02, "{sigma} for {expected}");
+    // A normal number of mean zero times eta of unknown directions has its quantile of 95 % at 103.08 of its deviation where the spin axis is at 40 deg to the line of sight, by the quadratures of
+    // another program, and in inverse proportion to the sine of that angle.
+    let limit = page.split("|2 s^ZZ - s^XX - s^YY| is at most ").nth(1).expect("a limit").split(' ').next();
+    let limit: f64 = limit.and_then(|limit| limit.parse().ok()).expect("a number");
+    let expected = 103.08 * 40.0_f64.to_radians().sin() / i.sin() * 4.0 * i.sin() * sigma / (TAU * 641.928);
+    assert!((limit / expected - 1.0).abs() < 0.02, "{limit} for {expected}");
+}
+
+#[test]
+fn what_is_wrong_is_named() {
+    let folder = timed("b1937+21");
+    let line = |text: &str| format!("FORMAT 1\n{text}\n");
+    for (name, text) in [
+        ("site.tim", line("a 0.0 55321.5 1.0 ao")),
+        ("frequency.tim", line("a 1400 55321.5 1.0 @")),
+        ("error.tim", line("a 0.0 55321.5 -1.0 @")),
+        ("date.tim", line("a 0.0 5532l.5 1.0 @")),
+        ("number.tim", line("a 0.0 55321.5 1.0 @ -pn x")),
+        ("fields.tim", line("a 0.0 55321.5")),
+        ("old.tim", "FORMAT 2\n".to_owned()),
+        ("no.csv", "x,y\n1,2\n".to_owned()),
+    ] {
+        std::fs::write(folder.at(name), text).expect("a file");
+    }
+    let refusals: [(&[&str], &[&str]); 14] = [
+        (&["site.tim"], &["site.tim:2: site `ao`", "allowed are @"]),
+        (&["frequency.tim"], &["frequency.tim:2: frequency `1400`", "allowed is 0"]),
+        (&["error.tim"], &["error.tim:2: uncertainty `-1.0`", "above zero"]),
+        (&["date.tim"], &["date.tim:2: `5532l.5`", "decimal number"]),
+        (&["number.tim"], &["number.tim:2: `-pn` is `x`", "whole number"]),
+        (&["fields.tim"], &["fields.tim:2: `a 0.0 55321.5`", "allowed are lines"]),
+        (&["old.tim"], &["old.tim:1: `FORMAT 2`", "FORMAT 1"]),
+        (&["no.csv", "--observe", "arrivals:1e-6"], &["no.csv: no column `arrival_day [MJD]`"]),
+        (&["b1937+21.csv"], &["a table has no standard deviations", "--observe"]),
+        (&["b1937+21.csv", "--observe", "periods:1"], &["--observe periods", "arrivals and widths"]),
+        (&["b1937+21.tim", "--parameters", "fO"], &["--parameters: `fO` is no parameter", "f0"]),
+        (&["b1937+21.tim", "--prior", "chi:1.2:0.1"], &["--prior chi", "--parameters has no chi"]),
+        (&["b1937+21.tim", "--prior", "chi:1.2:0"], &["chi:1.2:0", "above zero"]),
+        (&["b1937+21.tim", "--periods", "50:20"], &["50:20", "two periods"]),
+    ];
+    for (args, reasons) in refusals {
+        let all: Vec<&str> = ["limits", "b1937+21"].into_iter().chain(args.iter().copied()).collect();
+        is_refused(&folder.run(&all), reasons);
+    }
+    let blind = ends(folder.run(&["limits", "b1937+21", "b1937+21.tim", "--parameters", "phase,rho"]), 1);
+    has_all(&stderr(&blind), &["do not determine", "d(rho) alone"]);
+}
