@@ -137,15 +137,17 @@ impl TimingModel {
     pub fn arrival(&self, number: i64) -> Result<[f64; 2], Error> {
         let wanted = DoubleDouble::sum(number as f64, (number - number as f64 as i64) as f64);
         let mut time = (wanted - self.value(Phase).into()).over(self.frequency);
+        let mut last = f64::INFINITY;
         for _ in 0..STEPS {
-            let Turns { whole, fraction } = self.phase(time.into())?;
-            let tau = self.time.stretched_at(time.into())?[0];
-            let step = -((whole - number) as f64 + fraction) / (self.frequency.high * self.time.slowing(tau));
-            time += step.into();
-            // Newton's method squares what is left, but for the slow geometry.
-            if step.abs() * self.frequency.high < 1e-15 {
+            let tau = self.time.stretched_at(time.into())?;
+            let Turns { whole, fraction } = self.phase_at(tau);
+            let off = (whole - number) as f64 + fraction;
+            time -= (off / (self.frequency.high * self.time.slowing(tau[0]))).into();
+            // Newton's method squares what is left, but for the slow geometry, down to rounding.
+            if off.abs() < 1e-15 || off.abs() >= last {
                 break;
             }
+            last = off.abs();
         }
         Ok(time.into())
     }
