@@ -35,7 +35,7 @@ pub(crate) struct LimitsArgs {
     /// What is known of a parameter beforehand, its mean and standard deviation, as chi:1.2:0.05; may be given more than once
     #[arg(long, value_name = "NAME:MEAN:SIGMA", value_parser = prior)]
     pub(crate) prior: Vec<Prior>,
-    /// Periods of the free precession in days at which the wobble is limited, from the first to the last in equal ratios
+    /// Periods of the free precession in days at which the wobble is limited, from the first to the last in equal ratios; --out then writes these limits
     #[arg(long, value_name = "FIRST:LAST:NUMBER", value_parser = periods)]
     pub(crate) periods: Option<Periods>,
     #[command(flatten)]

@@ -2,7 +2,7 @@
 
 use super::{Failure, print};
 use clap::Args;
-use twofold_scene::scene_file::{BUILT_IN, BuiltIn, PULSARS, Scene, SceneError, did_you_mean, listed};
+use twofold_scene::scene_file::{BUILT_IN, BuiltIn, PULSARS, Scene, SceneError, TEMPLATES, did_you_mean, listed};
 use twofold_scene::sweep::{SWEEPS, Sweep, SweepText};
 
 #[derive(Args)]
@@ -25,6 +25,8 @@ pub(super) fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
     text += &list(BUILT_IN, about_scene)?;
     text += "\nPulsars over decades, for `twofold timing NAME`:\n\n";
     text += &list(PULSARS, about_scene)?;
+    text += "\nStars as files to start from:\n\n";
+    text += &list(TEMPLATES, about_scene)?;
     text += "\nSweeps, as files to start from:\n\n";
     text += &list(SWEEPS, about_sweep)?;
     text += "\n`twofold scenes --print NAME > FILE` writes the file of one, to be changed; docs/scenes.md and docs/sweep.md describe the \
@@ -33,7 +35,7 @@ pub(super) fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
 }
 
 fn all() -> impl Iterator<Item = &'static BuiltIn> {
-    BUILT_IN.iter().chain(PULSARS).chain(SWEEPS)
+    BUILT_IN.iter().chain(PULSARS).chain(TEMPLATES).chain(SWEEPS)
 }
 
 fn file_called(name: &str) -> Result<&'static BuiltIn, Failure> {

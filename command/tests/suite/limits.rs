@@ -37,6 +37,25 @@ fn arrival_times_of_a_wobbling_star_give_it_back() {
     assert!((row(&with_prior, "wobble")[1].parse::<f64>().expect("a number") - 0.0523).abs() < 1e-8, "{with_prior}");
 }
 
+/// Comments, times without numbers, and a table of the same times.
+#[test]
+fn the_same_times_in_other_files_are_the_same_data() {
+    let folder = timed("b1937+21");
+    let tim = folder.read("b1937+21.tim");
+    let lines = tim.lines().skip(1).map(|line| line.split(" -pn").next().expect("a line").replace('@', "BAT"));
+    let bare: Vec<_> =
+        ["# a comment".to_owned(), "C another".to_owned(), "FORMAT 1".to_owned()].into_iter().chain(lines).collect();
+    folder.write("bare.tim", bare.join("\n"));
+    let page = |args: &[&str]| {
+        let all: Vec<_> = ["limits", "b1937+21"].iter().chain(args).copied().collect();
+        stdout(&folder.succeeds(&all))
+    };
+    let expected = page(&["b1937+21.tim"]);
+    assert_eq!(page(&["bare.tim"]), expected);
+    let fields = |page: &str| row(page, "f1")[2].to_owned();
+    assert_eq!(fields(&page(&["b1937+21.csv", "--observe", "arrivals:1e-6"])), fields(&expected));
+}
+
 /// Of `N` times with the error `sigma` an amplitude has the error `sigma (2 / N)^(1/2)`, an amplitude of a small wobble is `theta cot chi / (2 pi F0)`, and half a normal distribution has its
 /// quantile of 95 % at 1.96.
 #[test]

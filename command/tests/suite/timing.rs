@@ -4,13 +4,35 @@ use crate::common::{Folder, altered, cells, ends, has_all, names_in, numbers, st
 use twofold::epoch::Epoch;
 use twofold::observables::pulsar::SpinFit;
 use twofold_scene::pulsar_timing::PulsarScene;
-use twofold_scene::scene_file::{PULSARS, Scene};
+use twofold_scene::scene_file::{PULSARS, Scene, TEMPLATES};
 use twofold_scene::trajectory;
 use twofold_verify::double_double::DoubleDouble;
 
 /// The value of a key of a .par.
 fn value<'p>(par: &'p str, key: &str) -> Option<&'p str> {
     par.lines().find_map(|line| line.strip_prefix(&format!("{key} "))).map(str::trim)
+}
+
+/// Each template runs as it is; those with a beam have a pulse at every epoch, and the fit of their own data begins at its end.
+#[test]
+fn every_template_does_what_it_is_for() {
+    for template in TEMPLATES {
+        let name = template.name;
+        let scene = Scene::named(name).unwrap_or_else(|error| panic!("{error}"));
+        assert!(scene.about.starts_with("template: ") && scene.about.len() < 100, "{name}");
+        let folder = Folder::new();
+        let table = stdout(&folder.succeeds(&["run", name]));
+        assert!(table.lines().count() > scene.times.count(), "{name}");
+        if scene.pulsar.is_some() {
+            folder.succeeds(&["timing", name, "--epochs", "50", "--out", "."]);
+            assert_eq!(numbers(&folder.read(&format!("{name}.csv"))).len(), 50, "{name}: the pulse is always seen");
+            let tim = format!("{name}.tim");
+            let fitted = folder.succeeds(&["limits", name, &tim, "--parameters", "phase,f0,f1,f2"]);
+            let chi_squared =
+                stderr(&fitted).split("chi^2 = ").nth(1).and_then(|rest| rest.split(' ').next()?.parse().ok());
+            assert!(chi_squared.is_some_and(|chi_squared: f64| chi_squared < 1e-3), "{name}: {}", stderr(&fitted));
+        }
+    }
 }
 
 #[test]

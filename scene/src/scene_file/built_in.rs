@@ -1,4 +1,4 @@
-//! Scenes that come with the command: the paper's four examples, six other kinds of motion, and pulsars.
+//! Scenes that come with the command: the paper's four examples, six other kinds of motion, pulsars, and templates.
 
 /// A scene inside the program.
 #[derive(Debug, Clone, Copy)]
@@ -32,6 +32,9 @@ pub const BUILT_IN: &[BuiltIn] = built_in![
 /// Pulsars, over decades.
 pub const PULSARS: &[BuiltIn] = built_in!["b1937+21", "j1744-1134", "b1828-11", "b1642-03"];
 
+/// Stars as an astronomer knows them, to start from.
+pub const TEMPLATES: &[BuiltIn] = built_in!["isolated-pulsar", "millisecond-pulsar", "wave-source"];
+
 /// The built-in scene of a name.
 pub fn built_in(name: &str) -> Option<&'static BuiltIn> {
     all().find(|scene| scene.name == name)
@@ -43,5 +46,5 @@ pub(super) fn names() -> Vec<&'static str> {
 }
 
 fn all() -> impl Iterator<Item = &'static BuiltIn> {
-    BUILT_IN.iter().chain(PULSARS)
+    BUILT_IN.iter().chain(PULSARS).chain(TEMPLATES)
 }

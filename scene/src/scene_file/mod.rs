@@ -16,7 +16,7 @@ use twofold::euler_angles::EulerAngles;
 use twofold::plan::{Method, Output};
 use twofold::solutions::perturbation::Perturbation;
 
-pub use built_in::{BUILT_IN, BuiltIn, PULSARS, built_in};
+pub use built_in::{BUILT_IN, BuiltIn, PULSARS, TEMPLATES, built_in};
 pub(crate) use document::{Entry, Fault, FileFormat, Replaced, Section};
 pub use document::{SceneError, did_you_mean, listed, nearest, shortened};
 pub use motion::Units;
