@@ -115,7 +115,7 @@ fn scenes_are_listed_and_each_listed_name_runs() {
     let names = |list: &str| -> Vec<String> {
         list.lines().filter_map(|line| Some(line.strip_prefix("  ")?.split("  ").next()?.to_owned())).collect()
     };
-    assert_eq!((names(scenes).len(), names(sweeps)), (14, vec!["grid".to_owned()]), "{text}");
+    assert_eq!((names(scenes).len(), names(sweeps)), (17, vec!["grid".to_owned()]), "{text}");
     for name in names(scenes) {
         assert_eq!(twofold(&["run", &name]).status.code(), Some(0), "{name}");
     }

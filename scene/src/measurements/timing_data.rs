@@ -20,7 +20,9 @@ impl DataFile {
     /// # Errors
     /// A line, column or field that is none; file, line, field and what is allowed are named.
     pub fn add_timing(&self, epoch: &Epoch, noise: &[Noise], data: &mut TimingData) -> Result<(), String> {
-        if self.text.trim_start().starts_with("FORMAT") {
+        let is_comment = |line: &&str| line.is_empty() || line.starts_with('#') || line.starts_with("C ");
+        let first = self.text.lines().map(str::trim).find(|line| !is_comment(line));
+        if self.name.ends_with(".tim") || first.is_some_and(|line| line.starts_with("FORMAT")) {
             self.tim(epoch, data)
         } else {
             self.table(epoch, noise, data)
