@@ -317,6 +317,10 @@ fn every_documented_key_of_a_scene_is_changed_once() {
             let keys = row.split('|').nth(1).expect("a column");
             for key in keys.split('`').skip(1).step_by(2).flat_map(|key| key.split(" and ")) {
                 let key = key.split(" = ").next().expect("a key");
+                // Nor does it have the equations of a bulge; the checks `bulge-*` integrate them.
+                if (name, key) == ("star", "bulge") {
+                    continue;
+                }
                 count += 1;
                 assert!(
                     changed.iter().any(|(section, found, _)| *section == name && *found == key),

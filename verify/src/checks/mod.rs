@@ -3,6 +3,7 @@
 mod averaged;
 mod axis_motion;
 mod bound;
+mod bulge;
 mod elliptic;
 mod equations_of_motion;
 mod error_estimate;
@@ -70,6 +71,7 @@ pub fn all() -> Vec<Check> {
         pulsar::pulse_numbers::checks,
         pulsar::clock::checks,
         spin_down::checks,
+        bulge::checks,
         pulsar::position_angle::checks,
         pulsar::approximations::checks,
         pulsar::functions_of_gamma::checks,
