@@ -185,6 +185,25 @@ mod tests {
         assert!(!is_refused(f64::NAN, 0.0, 1.0));
     }
 
+    /// With `n` and `L` on a principal axis of `s` a bulge adds its part to a uniform rotation.
+    #[test]
+    fn the_bounds_have_the_turning_of_a_bulge() {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.9, constant_c: 0.0 };
+        let state = BodyState { axis: Vector3::z(), momentum: Vector3::z() * 1.9, equatorial_axis: Vector3::x() };
+        for value in [0.2, -0.2] {
+            let s = Matrix3::from_diagonal(&Vector3::new(-0.5 * value, -0.5 * value, value));
+            let bounds = |bulge: f64| rate_bounds(&spheroid, &s, bulge, &state);
+            // Omega = 1 + 2 b s L.
+            let (found, omega) = (bounds(0.2), 1.0 + 2.0 * 0.2 * value * 1.9_f64);
+            let all = [found.first, found.second, found.third, found.fourth, found.sixth];
+            for (bound, order) in all.into_iter().zip([1, 2, 3, 4, 6]) {
+                assert!(bound >= omega.powi(order), "{order}: {bound} {omega}");
+            }
+            assert!(found.first < 2.0, "{found:?}");
+            assert!(bounds(0.0).first < 1.0 + 1e-6 && bounds(20.0).first == f64::INFINITY);
+        }
+    }
+
     /// About its own axis, without a torque, a star turns uniformly: the derivative of order `k` is that power of the rate.
     #[test]
     fn uniform_rotation_has_the_powers_of_its_rate_for_bounds() {
