@@ -1,8 +1,9 @@
 //! The columns of a table: the header of each group and its values at a sample of the motion.
 
-use twofold::dynamics::AxisState;
+use twofold::dynamics::bulge::{bulge_potential, kinematic_momentum};
 use twofold::dynamics::equations_of_motion::{angular_velocity, euler_rates_of_axis};
 use twofold::dynamics::first_integrals::first_integrals;
+use twofold::dynamics::{AxisState, RotationState};
 use twofold::observables::pulsar::position_angle::{position_angle, position_angle_rate};
 use twofold::observables::spin_axis::cos_lambda_rate;
 use twofold::plan::{Output, State};
@@ -42,19 +43,23 @@ pub fn header(group: Output, units: &Units) -> Vec<String> {
 /// As many values as the [`header`] has names, in the units of the output; none where they do not exist.
 pub fn values(group: Output, scene: &Scene, sample: &Sample) -> Option<Vec<f64>> {
     let (body, s, units) = (scene.problem.spheroid(), scene.problem.coefficients(), &scene.units);
+    let bulge = scene.problem.bulge();
+    let moving = |state: &AxisState<f64>| kinematic_momentum(body, s, bulge, state);
     Some(match group {
         Output::EulerAngles => sample.angles.map(|a| vec![a.alpha, a.beta, a.gamma])?,
         Output::EulerRates => {
-            let AxisState { axis, momentum } = sample.axis();
-            let rates = euler_rates_of_axis(body, &axis, &momentum).ok()?;
+            let state = sample.axis();
+            let rates = euler_rates_of_axis(body, &state.axis, &moving(&state)).ok()?;
             [rates.alpha, rates.beta, rates.gamma].map(|rate| rate / units.time).to_vec()
         }
         Output::EquatorialAxis => sample.orientation().equatorial_axis.as_slice().to_vec(),
         Output::SymmetryAxis => sample.axis().axis.as_slice().to_vec(),
         Output::AngularMomentum => (sample.axis().momentum * units.momentum).as_slice().to_vec(),
         Output::FirstIntegrals => {
-            let found = first_integrals(body, s, &sample.axis());
-            vec![found.energy * units.energy, found.spin / units.time, found.clebsch * units.momentum * units.momentum]
+            let state = sample.axis();
+            let found = first_integrals(body, s, &state);
+            let energy = found.energy + bulge_potential(bulge, s, &state.momentum);
+            vec![energy * units.energy, found.spin / units.time, found.clebsch * units.momentum * units.momentum]
         }
         // Eq. (33) as printed: it starts with the motion, which the corrected solution of the same constants does not.
         Output::PerturbationAngles => {
@@ -64,14 +69,14 @@ pub fn values(group: Output, scene: &Scene, sample: &Sample) -> Option<Vec<f64>>
         // Eq. (37): the angle between the symmetry axis and the direction to the observer.
         Output::SpinAxisAngle => {
             let direction = scene.observer?.basis().direction;
-            let AxisState { axis, momentum } = sample.axis();
-            let rate = cos_lambda_rate(body, &direction, &axis, &momentum);
-            vec![direction.dot(&axis), rate / units.time]
+            let state = sample.axis();
+            let rate = cos_lambda_rate(body, &direction, &state.axis, &moving(&state));
+            vec![direction.dot(&state.axis), rate / units.time]
         }
         // Eq. (47).
         Output::PulseProfile => {
             let (beam, direction) = (scene.pulsar?.beam(), scene.observer?.basis().direction);
-            let [_, rate, ..] = beam.margin_rates(body, s, sample.orientation(), &direction);
+            let [_, rate, ..] = beam.margin_rates(body, s, bulge, sample.orientation(), &direction);
             vec![beam.direction(sample.orientation()).dot(&direction), rate / units.time]
         }
         // Eq. (49), by the components of `m`, which are regular where the Euler angles are not.
@@ -84,7 +89,7 @@ pub fn values(group: Output, scene: &Scene, sample: &Sample) -> Option<Vec<f64>>
         Output::PositionAngle => {
             let state = sample.orientation();
             let (observer, m) = (scene.observer?.basis(), scene.pulsar?.beam().direction(state));
-            let omega = angular_velocity(body, &state.axis, &state.momentum);
+            let omega = angular_velocity(body, &state.axis, &moving(&state.axis_state()));
             let rate = position_angle_rate(&m, &omega, &observer);
             vec![position_angle(&m, &observer).ok()?, rate / units.time]
         }

@@ -77,8 +77,14 @@ impl Scene {
     /// Refuses a span of too many turns for what goes through all of them.
     pub(crate) fn check_rotation(&self, outputs: &[Output]) -> Result<(), String> {
         let rotation = self.rotation();
-        if rotation <= LARGEST_ROTATION || self.plan(outputs).is_ok() {
+        if rotation <= LARGEST_ROTATION {
             return Ok(());
+        }
+        match self.plan(outputs) {
+            Ok(_) => return Ok(()),
+            // No shorter span has another method.
+            Err(error) if self.problem.bulge() != 0.0 => return Err(error.to_string()),
+            Err(_) => {}
         }
         Err(format!(
             "[time] asks for a rotation by {rotation:.1e} rad: allowed is at most {LARGEST_ROTATION:.0e} rad, which takes \

@@ -241,6 +241,7 @@ impl<'s, X: SegmentState> Segments<'s, X> {
         let count = if whole { 1 } else { (total.abs() * scene.turning_rate() / most).ceil().max(1.0) as usize };
         let initial = X::from_vectors(scene.problem.initial().vectors());
         let problem = Problem::new(*scene.problem.spheroid(), *scene.problem.coefficients(), initial)?;
+        let problem = problem.with_bulge(scene.problem.bulge())?;
         Ok(Self { scene, method, total, count, next: 0, from: 0.0, problem, state: initial, work: Work::default() })
     }
 

@@ -1,6 +1,7 @@
 //! Forces and equations of motion of a rigid body under Lorentz violation. Eqs. (2), (4), (11), (21)-(25), (59)-(68).
 
 pub mod angular_acceleration;
+pub mod bulge;
 pub mod equations_of_motion;
 pub mod euler_angle_equations;
 pub mod first_integrals;

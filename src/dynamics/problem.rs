@@ -1,4 +1,4 @@
-//! The problem that every motion solves: a spheroid, the tensor `s^IJ` and the initial state.
+//! The problem that every motion solves: a spheroid, perhaps with a centrifugal bulge, the tensor `s^IJ` and the initial state.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -27,6 +27,7 @@ use crate::numerics::scalar::{Real, Scalar, real_part};
 pub struct Problem<S, X = BodyState<S>> {
     spheroid: RigidSpheroid<S>,
     coefficients: Matrix3<S>,
+    bulge: S,
     initial: X,
 }
 
@@ -39,6 +40,11 @@ impl<S: Scalar, X: RotationState<S>> Problem<S, X> {
     /// The tensor `s^IJ`.
     pub fn coefficients(&self) -> &Matrix3<S> {
         &self.coefficients
+    }
+
+    /// The coefficient `b` of the energy `b L.(s L)` of a centrifugal bulge ([`bulge`](crate::dynamics::bulge)); zero for a rigid spheroid.
+    pub fn bulge(&self) -> S {
+        self.bulge
     }
 
     /// The state at the start.
@@ -59,15 +65,20 @@ impl<S: Scalar, X: RotationState<S>> Problem<S, X> {
 
     /// With what a state of another type needs of this one.
     pub(crate) fn carrying<Y: RotationState<S>>(&self) -> Problem<S, Y> {
-        Problem::unchecked(self.spheroid, self.coefficients, Y::from_vectors(self.initial.vectors()))
+        Problem {
+            spheroid: self.spheroid,
+            coefficients: self.coefficients,
+            bulge: self.bulge,
+            initial: Y::from_vectors(self.initial.vectors()),
+        }
     }
 
     /// Seen from another inertial frame: vectors multiplied by the rotation `other_from_this`.
     pub fn rotated(&self, other_from_this: &Matrix3<S>) -> Self {
         Self {
-            spheroid: self.spheroid,
             coefficients: other_from_this * self.coefficients * other_from_this.transpose(),
             initial: self.initial.rotated(other_from_this),
+            ..*self
         }
     }
 
@@ -76,13 +87,14 @@ impl<S: Scalar, X: RotationState<S>> Problem<S, X> {
         Problem {
             spheroid: self.spheroid.map(&convert),
             coefficients: self.coefficients.map(&convert),
+            bulge: convert(self.bulge),
             initial: X::In::<T>::from_vectors(self.initial.vectors().map(|vector| vector.map(&convert))),
         }
     }
 
     /// From parts that have been checked, or are checked by what is made of them.
     pub(crate) fn unchecked(spheroid: RigidSpheroid<S>, coefficients: Matrix3<S>, initial: X) -> Self {
-        Self { spheroid, coefficients, initial }
+        Self { spheroid, coefficients, bulge: S::zero(), initial }
     }
 }
 
@@ -94,7 +106,28 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
     /// moments of inertia that are not positive, and a tensor that is not symmetric (to 1e-12).
     pub fn new(spheroid: RigidSpheroid<S>, coefficients: Matrix3<S>, initial: X) -> Result<Self, Error> {
         check(&spheroid, &coefficients, &initial)?;
-        Ok(Self { spheroid, coefficients, initial })
+        Ok(Self::unchecked(spheroid, coefficients, initial))
+    }
+
+    /// With a centrifugal bulge of the energy `b L.(s L)` in place of the one that it had; `b` in units of one over a moment of inertia, `1 / (4 I^xx)` for a fluid. Only the averaged motion, and within its
+    /// bound the free one, follow a star with a bulge: the others are refused.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for a number that is not finite.
+    pub fn with_bulge(self, b: S) -> Result<Self, Error> {
+        Error::ensure(b.re().is_finite(), "coefficient b of the bulge", b.re(), "a finite number")?;
+        Ok(Self { bulge: b, ..self })
+    }
+
+    /// Refuses a star with a bulge.
+    pub(crate) fn require_rigid(&self) -> Result<(), Error> {
+        if self.bulge.re() == 0.0 {
+            return Ok(());
+        }
+        Err(Error::Unsupported {
+            what: "a star with a centrifugal bulge",
+            why: "only the method \"averaged\" follows it",
+        })
     }
 
     /// The same star from another state.
@@ -102,7 +135,7 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
     /// # Errors
     /// As for [`new`](Self::new).
     pub fn starting_from(&self, initial: X) -> Result<Self, Error> {
-        Self::new(self.spheroid, self.coefficients, initial)
+        Self::new(self.spheroid, self.coefficients, initial)?.with_bulge(self.bulge)
     }
 
     /// With `e_x`; any one where the state does not have it.

@@ -183,8 +183,8 @@ impl Term {
         state: &impl Fn([f64; 2]) -> BodyState<Dual64>,
     ) -> Result<Dual64, Error> {
         let (beam, n) = (parameters.beam(), parameters.observer().direction);
-        let star = (&parameters.spheroid, &parameters.coefficients);
-        let margin = |event: &Event, t: f64| beam.margin_rates(star.0, star.1, &state([event.epoch, t]), &n);
+        let Parameters { spheroid, coefficients: s, bulge, .. } = parameters;
+        let margin = |event: &Event, t: f64| beam.margin_rates(spheroid, s, *bulge, &state([event.epoch, t]), &n);
         let edge = |event: &Event, t: f64| {
             let [value, rate, ..] = margin(event, t);
             event_time(t, value, rate.re)

@@ -50,6 +50,8 @@ pub struct Parameters<S> {
     pub spheroid: RigidSpheroid<S>,
     /// `s^IJ`.
     pub coefficients: Matrix3<S>,
+    /// Coefficient `b` of the energy `b L.(s L)` of a centrifugal [`bulge`](crate::dynamics::bulge), zero at first; not a parameter.
+    pub bulge: S,
     /// By how much `s^IJ` has been multiplied, one at first.
     pub s_scale: S,
     /// Euler angles at the start.
@@ -89,6 +91,7 @@ impl<S: Scalar> Parameters<S> {
         Self {
             spheroid,
             coefficients,
+            bulge: zero,
             s_scale: one,
             angles,
             alpha_rate: rates.alpha,
@@ -153,7 +156,7 @@ impl<S: Real> Parameters<S> {
     /// # Errors
     /// As for [`Problem::new`].
     pub fn problem(&self) -> Result<Problem<S>, Error> {
-        Problem::new(self.spheroid, self.coefficients, self.state())
+        Problem::new(self.spheroid, self.coefficients, self.state())?.with_bulge(self.bulge)
     }
 }
 
@@ -165,6 +168,7 @@ impl Parameters<f64> {
         Parameters {
             spheroid: spheroid.map(of),
             coefficients: self.coefficients.map(of),
+            bulge: of(self.bulge),
             s_scale: of(self.s_scale),
             angles: EulerAngles { alpha: of(angles.alpha), beta: of(angles.beta), gamma: of(angles.gamma) },
             alpha_rate: of(self.alpha_rate),

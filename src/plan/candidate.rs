@@ -128,6 +128,9 @@ fn refuse_derivatives(request: &Request, why: &'static str) -> Result<(), Error>
 
 fn free(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Result<Forecast, Error> {
     refuse_derivatives(request, "free rotation does not depend on s^IJ")?;
+    if !request.derivatives.is_empty() {
+        problem.require_rigid()?;
+    }
     let torque = largest_torque(problem.spheroid(), problem.coefficients());
     Error::ensure(
         request.derivatives.is_empty() || torque == 0.0,
@@ -173,7 +176,7 @@ fn averaged(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Resu
     if !request.derivatives.is_empty() {
         motion.mean.require_derivatives()?;
         // A derivative by s^IJ has one order less, in its own unit.
-        truncation /= motion.mean.relative_strength;
+        truncation /= motion.mean.relative_strength + motion.mean.bulge_strength();
         truncation += error_of_principal_frame_along(principal_frame(problem.coefficients())?.coefficients);
     }
     Ok(Forecast::closed(Promise::Estimate, truncation, rounding))

@@ -113,11 +113,27 @@ impl Plan {
                 {
                     best = Some((*method, *prediction));
                 }
+                // A star with a bulge has no Taylor series.
+                Err(Error::Unsupported { .. }) if !self.forced => {}
                 Err(error) if self.forced || *method == Method::Taylor => return Err(error.clone()),
                 _ => {}
             }
         }
-        Ok(best.expect("the Taylor series meets any tolerance in its range"))
+        best.ok_or_else(|| self.why_none())
+    }
+
+    /// What the averaged motion lacks: without it only the Taylor series meets any tolerance.
+    fn why_none(&self) -> Error {
+        let averaged = self.considered.iter().find(|candidate| candidate.method == Method::Averaged);
+        match averaged.map(|candidate| &candidate.prediction) {
+            Some(Err(error)) => error.clone(),
+            Some(Ok(prediction)) => Error::Domain {
+                quantity: "what the averaged motion, the only one of a star with a bulge, leaves out at the end",
+                value: prediction.truncation,
+                allowed: "at most the tolerance: a weaker violation, a shorter span or a larger tolerance",
+            },
+            None => Error::Unsupported { what: "motion of the plan", why: "no method was considered" },
+        }
     }
 
     fn left_out(&self, request: &Request, for_events: bool) -> Vec<Skipped> {
@@ -187,6 +203,7 @@ fn turning_rate<X: RotationState<f64>>(problem: &Problem<f64, X>) -> f64 {
 mod tests {
     use super::*;
     use crate::dynamics::fixture::problem;
+    use crate::propagation::Motion;
 
     const S: [f64; 3] = [0.02, 0.01, -0.03];
 
@@ -204,6 +221,35 @@ mod tests {
         assert!(plan.admits(&best) && plan.admits(&admitted) && !plan.admits(&refused));
         plan.tolerance = 100.4;
         assert!(plan.admits(&refused));
+    }
+
+    #[test]
+    fn a_star_with_a_bulge_has_the_averaged_motion_alone() {
+        let star = |s: [f64; 3]| problem(s).with_bulge(0.2).unwrap();
+        let request = Request::new(&[Output::EquatorialAxis], (0.0, 50.0), 7, 1e-9);
+        let weak = star([2e-6, 1e-6, -3e-6]);
+        assert_eq!(weak.plan(&request).unwrap().method, Some(Method::Averaged));
+        let refused = |problem: &Problem<f64>, request: &Request| match problem.plan(request) {
+            Err(Error::Domain { quantity, .. }) => quantity,
+            other => panic!("{other:?}"),
+        };
+        assert!(refused(&star([0.02, 0.01, -0.03]), &request).starts_with("what the averaged motion"));
+        assert!(refused(&star([0.7, 0.1, -0.8]), &request).starts_with("|C| (s_max"));
+        assert!(refused(&weak.with_bulge(1e6).unwrap(), &request).ends_with("with a bulge"));
+        for method in [Method::Steady, Method::Symmetric, Method::Torus, Method::Splitting, Method::Taylor] {
+            assert!(matches!(weak.motion_by(method, (0.0, 1.0), 1e-9), Err(Error::Unsupported { .. })), "{method:?}");
+            let forced = Request { method: Some(method), ..request.clone() };
+            assert!(matches!(weak.plan(&forced), Err(Error::Unsupported { .. })), "{method:?}");
+        }
+        let derivatives = Request { derivatives: vec![Parameter::Beta], method: Some(Method::Free), ..request };
+        assert!(matches!(weak.plan(&derivatives), Err(Error::Unsupported { .. }) | Err(Error::Domain { .. })));
+        // Free rotation leaves it out, and has it in its bound.
+        let [free, averaged] =
+            [Method::Free, Method::Averaged].map(|method| weak.motion_by(method, (0.0, 50.0), 1e-9).unwrap());
+        let off = (free.state(50.0).unwrap().axis - averaged.state(50.0).unwrap().axis).norm();
+        let rigid = problem([2e-6, 1e-6, -3e-6]).motion_by(Method::Free, (0.0, 50.0), 1e-9).unwrap();
+        assert!(off < free.error_estimate(50.0), "{off:e}");
+        assert!(free.error_estimate(50.0) > rigid.error_estimate(50.0) + 1e-5);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationStat
 use crate::error::Error;
 use crate::propagation::splitting::SplittingMotion;
 use crate::propagation::{
-    AveragedMotion, Motion, SeriesProjection, SymmetricMotion, TaylorMotion, TorusMotion, UniformMotion,
+    AveragedMotion, Motion, SeriesProjection, SymmetricMotion, TaylorMotion, TorusMotion, Turning, UniformMotion,
 };
 use crate::solutions::averaged::AveragingOrder;
 
@@ -140,6 +140,10 @@ impl<X: RotationState<f64>> Motion<f64> for PlannedMotion<X> {
 
     fn error_estimate(&self, t: f64) -> f64 {
         by_any!(self, motion => motion.error_estimate(t))
+    }
+
+    fn turning(&self) -> Turning<'_> {
+        by_any!(self, motion => motion.turning())
     }
 
     fn projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<SeriesProjection<'_>> {

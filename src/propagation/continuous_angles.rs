@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::euler_angles::EulerAngles;
 use crate::numerics::angle::whole_turns;
 use crate::numerics::scalar::{Real, real_part};
-use crate::propagation::Motion;
+use crate::propagation::{Motion, Turning};
 
 /// Largest rotation (rad) of which the turns are counted in one call; it takes minutes.
 pub const MOST_COUNTED: f64 = 1e9;
@@ -135,13 +135,20 @@ impl<'m, S: Real, M: Motion<S, State = BodyState<S>>> ContinuousAngles<'m, S, M>
         let s = self.motion.coefficients().map(S::re);
         let (xx, t) = (spheroid.inertia_xx, duration.abs());
         let (axis_rate, torque) = reduced_rates(&spheroid, &s, &state.axis, &state.momentum);
-        let acceleration = torque.norm() / xx;
-        let k = 4.0 * spheroid.constant_c.abs() * s.norm() / xx;
-        let w = state.momentum.norm() / xx + k * t;
-        let axis_path = (axis_rate.norm() * t + acceleration * t * t / 2.0) * ((w + k.sqrt()) * t).exp();
+        let rate = state.momentum.norm() / xx;
+        // A bulge turns everything by no more than this share of the rate.
+        let share = match self.motion.turning() {
+            Turning::Equations { bulge } => 2.0 * bulge.abs() * s.norm() * xx,
+            Turning::Given { .. } => 0.0,
+        };
+        let turned = share * rate;
+        let acceleration = (torque.norm() / xx + turned * rate) * (1.0 + share);
+        let k = 4.0 * spheroid.constant_c.abs() * s.norm() / xx * (1.0 + share);
+        let w = rate * (1.0 + share) + k * t;
+        let axis_path = ((axis_rate.norm() + turned) * t + acceleration * t * t / 2.0) * ((w + k.sqrt()) * t).exp();
         let spin = state.momentum.dot(&state.axis) / spheroid.inertia_zz;
         let z_rate = angular_velocity(&spheroid, &state.axis, &state.momentum).cross(&Vector3::z()).norm();
-        let z_path = z_rate * t
+        let z_path = (z_rate + turned) * t
             + acceleration * t * t / 2.0
             + (k * t * t / 2.0 + (spheroid.oblateness() * spin).abs() * t) * axis_path;
         axis_path.max(z_path) < off_pole(state)

@@ -56,10 +56,10 @@ pub trait Motion<S: Scalar> {
     /// of `L` at the start and what the torque makes of it), at time `t` of the span.
     fn error_estimate(&self, t: f64) -> f64;
 
-    /// What turns the body: [`Turning::Equations`], or the rates of another law with their bounds. A search for pulses misses none if
+    /// What turns the body: [`Turning::Equations`] of a rigid spheroid unless a motion says so, as one of a star with a bulge does, or the rates of another law with their bounds. A search for pulses misses none if
     /// this is right.
     fn turning(&self) -> Turning<'_> {
-        Turning::Equations
+        Turning::Equations { bulge: 0.0 }
     }
 
     /// What gives the component along a fixed `direction` of a vector fixed in the body (its components there) for less than a

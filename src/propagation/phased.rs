@@ -29,7 +29,7 @@ use crate::dynamics::{BodyState, Problem, RotationState};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
 use crate::numerics::double_double::DoubleDouble;
-use crate::propagation::{UniformMotion, largest_torque};
+use crate::propagation::UniformMotion;
 use crate::solutions::averaged::{AveragedPhases, AveragedSolution, AveragingOrder, Turns};
 use crate::solutions::torus::TorusSolution;
 
@@ -54,7 +54,7 @@ enum Solution {
 }
 
 impl PhasedMotion {
-    /// The motion from the initial state at the time zero, for times up to `longest` in size: averaged to second order where what that leaves out is below
+    /// The motion from the initial state at the time zero, for times up to `longest` in size: averaged to second order for a star with a bulge, where what that leaves out is below
     /// its rounding, or where the torus is refused, else [`exact`](Self::exact).
     ///
     /// # Errors
@@ -62,6 +62,7 @@ impl PhasedMotion {
     pub fn new(problem: &Problem<f64>, longest: f64) -> Result<Self, Error> {
         let averaged = Self::averaged(problem, AveragingOrder::Second);
         match averaged {
+            averaged if problem.require_rigid().is_err() => averaged,
             Ok(motion) if motion.truncation(longest) <= motion.rounding(longest) => Ok(motion),
             averaged => Self::exact(problem, longest).or_else(|refused| averaged.map_err(|_| refused)),
         }
@@ -75,8 +76,9 @@ impl PhasedMotion {
     pub fn exact(problem: &Problem<f64>, longest: f64) -> Result<Self, Error> {
         let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
         let uniform = |motion| Self { problem: *problem, solution: Solution::Uniform(motion) };
-        if largest_torque(problem.spheroid(), problem.coefficients()) == 0.0 {
-            return Ok(uniform(UniformMotion::free(problem, everywhere)));
+        let free = UniformMotion::free(problem, everywhere);
+        if free.truncation(1.0) == 0.0 {
+            return Ok(uniform(free));
         }
         let is_exact = |motion: &Self| motion.truncation(0.0) <= motion.rounding(0.0);
         Self::torus(problem, longest).or_else(|refused| {
@@ -95,6 +97,7 @@ impl PhasedMotion {
         let frame = principal_frame(problem.coefficients())?;
         let turned = initial.rotated(&frame.principal_from_given);
         let principal = Problem::new(*problem.spheroid(), frame.coefficients.tensor(), turned)?;
+        let principal = principal.with_bulge(problem.bulge())?;
         let mean = AveragedSolution::with_free_rotation_of(initial, &principal, order)?;
         let complement = mean.top().complement();
         Error::ensure(

@@ -46,7 +46,10 @@ use crate::error::Error;
 pub enum Turning<'m> {
     /// The equations of motion of this package, [`body_state_rates`](crate::dynamics::equations_of_motion::body_state_rates), with the
     /// spheroid, the tensor and the states of the motion.
-    Equations,
+    Equations {
+        /// With what a [`bulge`](crate::dynamics::bulge) of this coefficient adds to them.
+        bulge: f64,
+    },
     /// Another law, as of a star with a torque of its own.
     Given {
         /// `Omega`, `Omega'` and `Omega''` at a time of the span. The body axes `u` of the states turn by `u' = Omega x u`.

@@ -53,7 +53,7 @@ impl<F: Fn(f64) -> Result<BodyState<f64>, Error>> Motion<f64> for GivenStates<F>
 
     fn turning(&self) -> Turning<'_> {
         match self.law {
-            None => Turning::Equations,
+            None => Turning::Equations { bulge: 0.0 },
             Some((rates, bounds)) => Turning::Given { rates: Box::new(move |t| Ok(rates(t))), bounds },
         }
     }

@@ -21,11 +21,21 @@ fn unpack<const N: usize>(y: &Vector<f64, N>) -> BodyState<f64> {
 
 /// State after `duration` by the regular equations.
 pub(crate) fn regular_motion(problem: &Problem<f64>, duration: f64, tolerance: f64) -> Result<BodyState<f64>, String> {
-    let (spheroid, s) = (problem.spheroid(), problem.coefficients());
-    let rates = |_: f64, y: &Vector<f64, 9>| pack(&body_state_rates(spheroid, s, &unpack(y)));
+    let rates = |_: f64, y: &Vector<f64, 9>| pack(&rates_of(problem, problem.spheroid(), &unpack(y)));
     let end = RKV98NoInterp::integrate(0.0, duration, &pack(problem.initial()), rates, &settings(tolerance))
         .map_err(|e| e.to_string())?;
     Ok(unpack(&end.y))
+}
+
+/// The equations of motion of the problem with another spheroid. `{u, b L.(s L)} = 2 b (s L) x u` for any axis `u` of the body, and for `L`.
+fn rates_of(problem: &Problem<f64>, spheroid: &RigidSpheroid<f64>, state: &BodyState<f64>) -> BodyState<f64> {
+    let s = problem.coefficients();
+    let mut rates = body_state_rates(spheroid, s, state);
+    let turn = (s * state.momentum - state.momentum * (s.trace() / 3.0)) * (2.0 * problem.bulge());
+    rates.axis += turn.cross(&state.axis);
+    rates.momentum += turn.cross(&state.momentum);
+    rates.equatorial_axis += turn.cross(&state.equatorial_axis);
+    rates
 }
 
 /// A star under a braking torque along `L`: its states at times in ascending order from zero. Beside the equations of motion, with `C a^2` in place of `C` as for a bulge,
@@ -49,7 +59,7 @@ pub(crate) fn braked_states(
     let rates = |_: f64, y: &Vector<f64, 10>| {
         let (state, a) = (unpack(y), y[9]);
         let spheroid = RigidSpheroid { constant_c: problem.spheroid().constant_c * a * a, ..*problem.spheroid() };
-        let mut rates = body_state_rates(&spheroid, problem.coefficients(), &state);
+        let mut rates = rates_of(problem, &spheroid, &state);
         let cos = beam.direction(&state).dot(&state.momentum) / state.momentum.norm();
         let lambda = rate * a.powf(index - 1.0) * (1.0 + modulation * (1.0 - cos * cos - mean));
         rates.momentum -= state.momentum * lambda;

@@ -161,7 +161,8 @@ pub(super) fn train(start: &Start, table: &Table) -> Result<(PulseTrain, f64), E
     let mut slowest = f64::INFINITY;
     for pulse in train.pulses.iter().filter(|pulse| pulse.is_whole()) {
         for edge in [pulse.start, pulse.end] {
-            let [_, rate, ..] = beam.margin_rates(motion.spheroid(), motion.coefficients(), &motion.state(edge)?, &n);
+            let [_, rate, ..] =
+                beam.margin_rates(motion.spheroid(), motion.coefficients(), 0.0, &motion.state(edge)?, &n);
             slowest = slowest.min(rate.abs());
         }
     }

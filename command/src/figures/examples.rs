@@ -3,6 +3,7 @@
 use std::sync::OnceLock;
 
 use twofold::euler_angles::EulerAngles;
+use twofold::plan::Method;
 use twofold::solutions::perturbation::{Form, Perturbation};
 
 use super::scale::Scale;
@@ -33,7 +34,7 @@ fn subject(example: &PaperExample) -> Result<Subject, twofold::Error> {
     let shown = Shown { angles, equatorial_axis: angles.min(40.0), beam: 200.0, waves: 100.0, pulses: 400.0 };
     Ok(Subject {
         name: example.name.to_owned(),
-        motion: problem.taylor((0.0, 500.0), TOLERANCE)?,
+        motion: problem.motion_by(Method::Taylor, (0.0, 500.0), TOLERANCE)?,
         problem,
         initial_angles,
         scale: Scale::PAPER,

@@ -38,7 +38,8 @@ impl Timed {
     pub(super) fn new(factor: f64) -> Result<Self, String> {
         let mut scene = Scene::named(SCENE).map_err(|error| error.to_string())?;
         let problem = &scene.problem;
-        scene.problem = Problem::new(*problem.spheroid(), problem.coefficients() * factor, *problem.initial())?;
+        scene.problem = Problem::new(*problem.spheroid(), problem.coefficients() * factor, *problem.initial())?
+            .with_bulge(problem.bulge())?;
         let pulsar = PulsarScene::new(&scene)?;
         let start = scene.times.start();
         let epochs = scene.times.iter().map(|t| pulsar.epoch.after([t - start, 0.0])).collect::<Result<Vec<_>, _>>()?;

@@ -173,8 +173,8 @@ fn violation_adds_the_difference_of_residuals() {
     assert!(off < 1e-11 + 5e-5 * size, "{off:e} of {size:e}");
     for (k, (factor, ..)) in (3..5).zip(SIZES) {
         for (less, more) in column(table, k).into_iter().zip(&added) {
-            // The precession of the largest is out of step by 2.4e-3 rad at the end, the square of which is seen.
-            assert!((less * SIZES[2].0 / factor - more).abs() < 2.4e-3 * size, "{less:e} {more:e}");
+            // The precession of the largest is out of step by 2.4e-5 rad at the end, the square of which is seen, and L has turned by 0.03 rad, the cube of which is.
+            assert!((less * SIZES[2].0 / factor - more).abs() < 1e-4 * size, "{less:e} {more:e}");
         }
     }
     let [rms, largest] = sizes(&column(table, 3));

@@ -6,7 +6,8 @@ use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::euler_angles::EulerAngles;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::spectrum::QuasiPeriodicMotion;
-use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion};
+use twofold::plan::{Method, PlannedMotion};
+use twofold::propagation::{ContinuousAngles, Motion};
 use twofold::solutions::perturbation::{Form, Perturbation, constants_from_initial_values};
 
 use super::scale::Scale;
@@ -46,7 +47,7 @@ pub struct Subject {
     pub observer: Option<Viewer>,
     pub pulsar: Option<Pulsar>,
     pub shown: Shown,
-    pub motion: TaylorMotion<f64>,
+    pub motion: PlannedMotion,
     /// Rate of rotation, rad/t_c.
     pub(super) rotation_rate: f64,
     pub(super) quasi_periodic: OnceLock<Result<QuasiPeriodicMotion, String>>,
@@ -78,7 +79,8 @@ impl Subject {
             waves: at_most(0.25 * MOST_ROTATION),
             pulses: all,
         };
-        let motion = problem.taylor((0.0, all), TOLERANCE).map_err(|error| format!("{name}: {error}"))?;
+        let method = if problem.bulge() == 0.0 { Method::Taylor } else { Method::Averaged };
+        let motion = problem.motion_by(method, (0.0, all), TOLERANCE).map_err(|error| format!("{name}: {error}"))?;
         Ok(Self {
             name: name.to_owned(),
             problem,

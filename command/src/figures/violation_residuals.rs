@@ -11,8 +11,8 @@ pub(super) const LIMIT: f64 = 1.6e-9;
 /// `s` of the scene, which is that of the limit, times these; how each is drawn and named.
 pub(super) const SIZES: [(f64, Line, &str); 3] = [
     (1.0, solid(BLUE, 1.2), "limit"),
-    (1e3, dashed(BLUE, 1.1), "limit × 10^{3}"),
-    (1e6, dash_dotted(BLUE, 1.1), "limit × 10^{6}"),
+    (1e2, dashed(BLUE, 1.1), "limit × 10^{2}"),
+    (1e4, dash_dotted(BLUE, 1.1), "limit × 10^{4}"),
 ];
 
 const TORQUE: Line = solid(VERMILION, 1.2);

@@ -317,8 +317,8 @@ fn every_documented_key_of_a_scene_is_changed_once() {
             let keys = row.split('|').nth(1).expect("a column");
             for key in keys.split('`').skip(1).step_by(2).flat_map(|key| key.split(" and ")) {
                 let key = key.split(" = ").next().expect("a key");
-                // It has one value: where it stands the place of the star is changed.
-                if (name, key) == ("observer", "frame") {
+                // `frame` has one value: where it stands the place of the star is changed. The second program has no bulge; the checks `bulge-*` integrate its equations.
+                if [("observer", "frame"), ("star", "bulge")].contains(&(name, key)) {
                     continue;
                 }
                 count += 1;

@@ -81,7 +81,7 @@ fn columns_are_sums_of_their_lines() {
     assert!((lines[0].0[0] / expected - 1.0).abs() < 1e-14, "{lines:?}");
 }
 
-/// The slow precession of a pulsar takes longer than the universe is old, and is a line all the same.
+/// The slow precession of a pulsar takes twenty million years, and is a line all the same.
 #[test]
 fn lines_of_a_pulsar_are_told_apart() {
     let output = twofold(&["spectrum", "b1828-11", "--of", "m.n", "--hertz"]);
@@ -89,7 +89,7 @@ fn lines_of_a_pulsar_are_told_apart() {
     let named = |wanted: &str| lines.iter().find(|(_, name)| name == wanted).map(|(line, _)| line[0]).expect(wanted);
     assert!(stdout(&output).starts_with("frequency [Hz],"));
     let (slow, spin) = (named("-alpha'"), named("gamma'"));
-    assert!(slow > 0.0 && slow < 1e-16 && (spin - 2.47).abs() < 0.01, "{lines:?}");
+    assert!(slow > 0.0 && slow < 1e-14 && (spin - 2.47).abs() < 0.01, "{lines:?}");
     assert!(noted(&output, "alpha' = ") == -slow);
     // Frequencies are right to their last digits, though they are small differences of large ones.
     let apart = named("-alpha' - gamma' + nu'") - named("-gamma' + nu'");

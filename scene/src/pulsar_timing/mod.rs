@@ -34,7 +34,7 @@ const ARRIVAL_ROUNDING: f64 = 1e-16 * DAY;
 /// A scene with all that its pulses need, in seconds.
 #[derive(Debug, Clone)]
 pub struct PulsarScene {
-    /// The scene's problem with `I^xx = 1`, `C` in 1/s^2 and `L` in 1/s; the state is that at the epoch.
+    /// The scene's problem with `I^xx = 1`, `C` in 1/s^2 and `L` in 1/s; the state is that at the epoch, and the bulge as in the scene.
     pub problem: Problem<f64>,
     /// Direction to the observer.
     pub observer: Observer<f64>,
@@ -70,6 +70,7 @@ impl PulsarScene {
         }
         let observer = viewer.basis();
         let problem = Problem::new(spheroid, *scene.problem.coefficients(), initial)?;
+        let problem = problem.with_bulge(scene.problem.bulge())?;
         let motion = PhasedMotion::new(&problem, scene.times.last() - scene.times.start())?;
         let clock = PulsarClock::on(motion, &beam, &observer)?;
         let clock = match &scene.spin_down {

@@ -41,7 +41,13 @@ fn angles_to_line_of_sight(pulsar: &PulsarScene, epochs: &[Epoch]) -> Result<[f6
         let near = pulsar.clock.near(epoch.seconds_since(&pulsar.epoch));
         let at = |t: f64| -> Result<[f64; 4], Error> {
             let state = near(t)?;
-            Ok(beam.margin_rates(problem.spheroid(), problem.coefficients(), &state, &pulsar.observer.direction))
+            Ok(beam.margin_rates(
+                problem.spheroid(),
+                problem.coefficients(),
+                problem.bulge(),
+                &state,
+                &pulsar.observer.direction,
+            ))
         };
         let step = period / LOOKS as f64;
         for k in 0..LOOKS {

@@ -119,6 +119,7 @@ impl Scene {
         let initial_section = document.required_section("initial", "the initial orientation and motion")?;
         let initial = motion::read_initial(&initial_section, &star, &violation, pulsar.as_ref())?;
         let problem = Problem::new(star.spheroid, violation.tensor, initial.state);
+        let problem = problem.and_then(|problem| problem.with_bulge(star.bulge));
         let problem = problem.map_err(|error| initial_section.fault(format!("no motion starts so: {error}")))?;
         let spin_down_section = document.section("spin_down")?;
         let spin_down = spin_down_section.as_ref().map(|section| spin_down::read(section, &star.units)).transpose()?;
@@ -150,7 +151,7 @@ impl Scene {
             pulsar,
             catalogued,
             spin_down,
-            perturbation: initial.perturbation,
+            perturbation: if star.bulge == 0.0 { initial.perturbation } else { Err(OF_RIGID_STARS) },
             columns: observation::columns_of_the_motion(),
             tolerance: observation::DEFAULT_TOLERANCE,
             method: None,
@@ -171,6 +172,9 @@ impl Scene {
         Ok(scene)
     }
 }
+
+/// Why a star with a bulge has no printed perturbation solution.
+const OF_RIGID_STARS: &str = "the paper's solution is that of a rigid star, and this one has a bulge (`star.bulge`)";
 
 fn sources(entry: &Entry<'_>) -> Result<Vec<String>, Fault> {
     let list = entry.list("a list of strings")?;

@@ -56,14 +56,18 @@ pub(super) struct Star {
     pub(super) spheroid: RigidSpheroid<f64>,
     /// `Omega^z` in 1/t_c.
     pub(super) spin: f64,
+    /// Coefficient of the bulge in units of `1 / I^xx`.
+    pub(super) bulge: f64,
     pub(super) units: Units,
 }
 
 /// The star, and a sentence if it spins faster than gravity can hold it. The angles of the wobble and of the magnetic axis are needed for what is observed of it.
 pub(super) fn read_star(section: &Section<'_>, angles: &WobbleAngles) -> Result<(Star, Option<String>), Fault> {
-    section.only("inertia_ratio spin mass radius density oblateness precession_period spin_frequency frequency")?;
+    section
+        .only("inertia_ratio spin mass radius density oblateness precession_period spin_frequency frequency bulge")?;
     section.not_both(&[("oblateness", "precession_period"), ("spin_frequency", "frequency")])?;
-    for physical in ["mass", "radius", "density", "oblateness", "precession_period", "spin_frequency", "frequency"] {
+    let physical_keys = "mass radius density oblateness precession_period spin_frequency frequency bulge";
+    for physical in physical_keys.split(' ') {
         section.not_both(&[("inertia_ratio", physical), ("spin", physical)])?;
     }
     section.not_both(&[("radius", "density")])?;
@@ -79,7 +83,7 @@ fn in_units_of_tc(section: &Section<'_>) -> Result<Star, Fault> {
         .required("inertia_ratio", "I^zz / I^xx")?
         .number_in("from 1e-3 to 2: I^zz <= I^xx + I^yy for any distribution of mass", 1e-3..=2.0)?;
     let spin = section.required("spin", "Omega^z in 1/t_c")?.number()?;
-    Ok(Star { spheroid: RigidSpheroid::in_units_of_tc(ratio), spin, units: Units::PAPER })
+    Ok(Star { spheroid: RigidSpheroid::in_units_of_tc(ratio), spin, bulge: 0.0, units: Units::PAPER })
 }
 
 fn physical(section: &Section<'_>, angles: &WobbleAngles) -> Result<(Star, Option<String>), Fault> {
@@ -119,6 +123,7 @@ fn physical(section: &Section<'_>, angles: &WobbleAngles) -> Result<(Star, Optio
     let star = Star {
         spheroid: RigidSpheroid::in_units_of_tc(1.0 + oblateness),
         spin: TAU * frequency * time,
+        bulge: section.optional("bulge").map_or(Ok(0.0), |entry| bulge(&entry))?,
         units: Units {
             time,
             momentum: inertia.xx / (GRAM * CENTIMETRE * CENTIMETRE) / time,
@@ -129,6 +134,17 @@ fn physical(section: &Section<'_>, angles: &WobbleAngles) -> Result<(Star, Optio
         },
     };
     Ok((star, caution))
+}
+
+/// That of a fluid is `1 / (4 I^xx)`: `C_f` is half of the energy of rotation.
+fn bulge(entry: &Entry<'_>) -> Result<f64, Fault> {
+    let allowed = "\"fluid\", or the size of the bulge over that of a fluid, from 0 to 10";
+    let size = match entry.string() {
+        Ok("fluid") => 1.0,
+        Ok(_) => return Err(entry.refuse(allowed)),
+        Err(_) => entry.number_in(allowed, 0.0..=10.0)?,
+    };
+    Ok(0.25 * size)
 }
 
 /// Rotation frequency (Hz) at which the centrifugal acceleration at the equator of a uniform spheroid, `Omega^2 a1`, is that of

@@ -116,6 +116,9 @@ impl<'t> Sweep<'t> {
                 section.fault("[spin_down] is for `twofold timing`: allowed in a sweep is a scene without it"),
             ));
         }
+        if let Some(entry) = scene.section("star").map_err(in_scene)?.as_ref().and_then(|star| star.optional("bulge")) {
+            return Err(in_scene(entry.refuse_because("a sweep takes rigid stars: allowed is a scene without it")));
+        }
         // The scene's own times, if it has any, are not used; they are checked all the same.
         let own = scene.has("time").then(|| with(None)).transpose()?;
         let mut scene = with(Some(&times))?;

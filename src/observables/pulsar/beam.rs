@@ -14,6 +14,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::dynamics::bulge::bulge_turning;
 use crate::dynamics::equations_of_motion::{angular_velocity, reduced_rates};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::euler_angles::EulerAngles;
@@ -55,20 +56,23 @@ impl<S: Scalar> Beam<S> {
         self.direction(state).dot(line_of_sight) - edge
     }
 
-    /// The [`margin`](Self::margin) and its first three time derivatives, for a spheroid under the tensor `s^IJ`.
+    /// The [`margin`](Self::margin) and its first three time derivatives, for a spheroid under the tensor `s^IJ`, with a [`bulge`](crate::dynamics::bulge) of that coefficient or zero.
     ///
     /// ```text
     /// dm/dt = Omega x m,   d2m/dt2 = Omega' x m + Omega x dm/dt,   d3m/dt3 = Omega'' x m + 2 Omega' x dm/dt + Omega x d2m/dt2,
     /// I^xx Omega' = dL/dt - (I^zz - I^xx) Omega^z dn/dt,   dL/dt = -2 C n x (s n),   I^xx dn/dt = L x n        (here n = e_z)
     /// ```
+    ///
+    /// A bulge adds `T = 2 b s L` to `Omega` and `T x` to the rates of `L` and `n`.
     pub fn margin_rates(
         &self,
         spheroid: &RigidSpheroid<S>,
         s: &Matrix3<S>,
+        bulge: S,
         state: &BodyState<S>,
         line_of_sight: &Vector3<S>,
     ) -> [S; 4] {
-        self.margin_rates_turning(&angular_velocity_rates(spheroid, s, state), state, line_of_sight)
+        self.margin_rates_turning(&angular_velocity_rates(spheroid, s, bulge, state), state, line_of_sight)
     }
 
     /// The [`margin`](Self::margin) and its first three time derivatives, for `Omega`, `Omega'`, `Omega''` known.
@@ -91,18 +95,25 @@ impl<S: Scalar> Beam<S> {
 fn angular_velocity_rates<S: Scalar>(
     spheroid: &RigidSpheroid<S>,
     s: &Matrix3<S>,
+    bulge: S,
     state: &BodyState<S>,
 ) -> [Vector3<S>; 3] {
-    let (n, xx) = (&state.axis, spheroid.inertia_xx);
-    let omega = angular_velocity(spheroid, n, &state.momentum);
-    let (axis_rate, torque) = reduced_rates(spheroid, s, n, &state.momentum);
-    let axis_second = (torque.cross(n) + state.momentum.cross(&axis_rate)) / xx;
+    let (n, momentum, xx) = (&state.axis, &state.momentum, spheroid.inertia_xx);
+    let turning = |momentum: &Vector3<S>| bulge_turning(bulge, s, momentum);
+    let turn = turning(momentum);
+    let (axis_rate, torque) = reduced_rates(spheroid, s, n, momentum);
+    let (axis_rate, momentum_rate) = (axis_rate + turn.cross(n), torque + turn.cross(momentum));
+    let turn_rate = turning(&momentum_rate);
+    let axis_second =
+        (momentum_rate.cross(n) + momentum.cross(&axis_rate)) / xx + (turn_rate.cross(n) + turn.cross(&axis_rate));
     let pulls = axis_rate.cross(&(s * n)) + n.cross(&(s * axis_rate));
-    let torque_rate = pulls * (spheroid.constant_c * -2.0);
-    let spin = state.momentum.dot(n) / spheroid.inertia_zz;
+    let momentum_second =
+        pulls * (spheroid.constant_c * -2.0) + (turn_rate.cross(momentum) + turn.cross(&momentum_rate));
+    let spin = momentum.dot(n) / spheroid.inertia_zz;
     let along_axis = (spheroid.inertia_zz - xx) * spin;
-    let acceleration = (torque - axis_rate * along_axis) / xx;
-    let jerk = (torque_rate - axis_second * along_axis) / xx;
+    let omega = angular_velocity(spheroid, n, momentum) + turn;
+    let acceleration = (momentum_rate - axis_rate * along_axis) / xx + turn_rate;
+    let jerk = (momentum_second - axis_second * along_axis) / xx + turning(&momentum_second);
     [omega, acceleration, jerk]
 }
 

@@ -10,8 +10,9 @@ use super::timing_model::{TimingModel, TimingParameter::*};
 use super::train::{PulseTrain, check_beam};
 use super::turn_count::TurnCount;
 use super::{Beam, Pulse};
+use crate::dynamics::bulge::kinematic_momentum;
 use crate::dynamics::equations_of_motion::angular_velocity;
-use crate::dynamics::{BodyState, Problem, RigidSpheroid};
+use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::numerics::angle::{about, wrapped};
 use crate::numerics::double_double::DoubleDouble;
@@ -112,6 +113,10 @@ impl Motion<f64> for Near<'_> {
     fn error_estimate(&self, t: f64) -> f64 {
         self.motion.error_estimate(self.t[0] + t)
     }
+
+    fn turning(&self) -> Turning<'_> {
+        Turning::Equations { bulge: self.motion.problem.bulge() }
+    }
 }
 
 impl PulsarClock {
@@ -137,7 +142,7 @@ impl PulsarClock {
         check_beam(beam, &observer.direction)?;
         let turns = TurnCount::new(&motion, beam, &observer.direction)?;
         let problem = &motion.problem;
-        let bounds = rate_bounds(problem.spheroid(), problem.coefficients(), problem.initial());
+        let bounds = rate_bounds(problem.spheroid(), problem.coefficients(), problem.bulge(), problem.initial());
         let rotation = core::f64::consts::TAU * bounds.first / turns.rate(&motion);
         Error::ensure(
             (0.0..=MOST_ROTATION).contains(&rotation),
@@ -305,7 +310,7 @@ impl PulsarClock {
         let near = Near { motion: &self.motion, t };
         let margin = ByStates {
             motion: &near,
-            turning: Turning::Equations,
+            turning: near.turning(),
             beam: &self.beam,
             line_of_sight: &self.observer.direction,
         };
@@ -326,7 +331,9 @@ impl PulsarClock {
 
     fn described(&self, near: &Near<'_>, number: i64, pulse: &Pulse) -> ClockPulse {
         let state = near.at(pulse.midpoint());
-        let omega = angular_velocity(near.spheroid(), &state.axis, &state.momentum);
+        let bulge = self.motion.problem.bulge();
+        let momentum = kinematic_momentum(near.spheroid(), near.coefficients(), bulge, &state.axis_state());
+        let omega = angular_velocity(near.spheroid(), &state.axis, &momentum);
         let m = self.beam.direction(&state);
         let angle = |m: &Vector3<f64>| position_angle(m, &self.observer).unwrap_or(f64::NAN);
         let middle = angle(&m);

@@ -61,8 +61,9 @@ impl<M: Motion<f64, State = BodyState<f64>>> Margin for ByStates<'_, M> {
     fn at(&self, t: f64) -> Result<[f64; 4], Error> {
         let (state, motion) = (self.motion.state(t)?, self.motion);
         match &self.turning {
-            Turning::Equations => {
-                Ok(self.beam.margin_rates(motion.spheroid(), motion.coefficients(), &state, self.line_of_sight))
+            Turning::Equations { bulge } => {
+                let (spheroid, s) = (motion.spheroid(), motion.coefficients());
+                Ok(self.beam.margin_rates(spheroid, s, *bulge, &state, self.line_of_sight))
             }
             Turning::Given { rates, bounds } => {
                 let rates = rates(t)?;

@@ -6,7 +6,7 @@
 //! use twofold::{BodyState, RigidSpheroid};
 //!
 //! let state = BodyState { axis: Vector3::z(), momentum: Vector3::z() * 2.2, equatorial_axis: Vector3::x() };
-//! let bounds = rate_bounds(&RigidSpheroid::in_units_of_tc(1.1), &Matrix3::zeros(), &state);
+//! let bounds = rate_bounds(&RigidSpheroid::in_units_of_tc(1.1), &Matrix3::zeros(), 0.0, &state);
 //! assert!(bounds.first >= 2.0 && bounds.second >= 4.0 && bounds.first < 2.0001); // Omega = 2
 //! ```
 
@@ -55,8 +55,11 @@ impl RateBounds {
         turning: &Turning<'_>,
         t: f64,
     ) -> Result<Self, Error> {
-        let Turning::Given { bounds, .. } = turning else {
-            return Ok(rate_bounds(motion.spheroid(), motion.coefficients(), &motion.state(t)?));
+        let bounds = match turning {
+            Turning::Equations { bulge } => {
+                return Ok(rate_bounds(motion.spheroid(), motion.coefficients(), *bulge, &motion.state(t)?));
+            }
+            Turning::Given { bounds, .. } => bounds,
         };
         for &bound in bounds {
             let allowed = "a number, zero or above";
@@ -108,7 +111,11 @@ const HIGHEST: usize = 6;
 /// n_0 = 1,   n_1 = v,   n_(k+1) = sum_j (k over j) l_j n_(k-j)   I^xx n' = L x n
 /// w_0 = w,   w_k = l_k + e n_k                                 Omega = L / I^xx - (I^zz - I^xx) Omega^z n / I^xx
 /// ```
-pub fn rate_bounds<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, state: &BodyState<S>) -> RateBounds {
+///
+/// A bulge of the energy `b L.(s L)` turns everything by `2 b s L`, at most `B |L| / I^xx` with `B = 2 |b| |s| I^xx`. The energy then keeps
+/// `(1 - B) g^2 <= (1 + B) g^2(now) + 2 T`, and `v^2` grows by `2 T + B (g^2(now) + g^2)`; in the rate of `n` and in `w` stands `(1 + B) l` in place of `l`, and `l_(k+1)` has `B sum_j (k over j) l_j l_(k-j)` more.
+/// From `B = 1` on the bounds are infinite.
+pub fn rate_bounds<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, bulge: S, state: &BodyState<S>) -> RateBounds {
     let (xx, zz) = (spheroid.inertia_xx.re(), spheroid.inertia_zz.re());
     let s = s.map(S::re);
     let anisotropic = s - Matrix3::from_diagonal_element(s.trace() / 3.0);
@@ -116,17 +123,23 @@ pub fn rate_bounds<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, state: 
     let omega = real_part(&angular_velocity(spheroid, &state.axis, &state.momentum));
     let axis = real_part(&state.axis);
     let spin = omega.dot(&axis).abs();
-    let v = (omega.cross(&axis).norm_squared() + 2.0 * torque).sqrt();
-    let w = v.hypot(spin);
+    let of_bulge = 2.0 * bulge.re().abs() * anisotropic.norm() * xx;
+    // Without a bulge also of what is infinite.
+    let by_bulge = |size: f64| if of_bulge > 0.0 { of_bulge * size } else { 0.0 };
+    let (across, along) = (omega.cross(&axis).norm_squared(), zz / xx * spin);
+    let now = across + along * along;
+    let most = if of_bulge < 1.0 { (now * (1.0 + of_bulge) + 2.0 * torque) / (1.0 - of_bulge) } else { f64::INFINITY };
+    let v = (across + 2.0 * torque + by_bulge(now + most)).sqrt();
     let e = ((zz - xx) / xx).abs() * spin;
-    let g = v.hypot(zz / xx * spin);
+    let g = v.hypot(along);
+    let w = v.hypot(spin) + by_bulge(g);
 
     let ([mut l, mut n], mut omega) = ([[0.0; HIGHEST]; 2], [0.0; HIGHEST]);
     (l[0], n[0], omega[0]) = (g, 1.0, w);
     for k in 0..HIGHEST - 1 {
-        l[k + 1] = torque * leibniz(k, &n, &n);
-        n[k + 1] = if k == 0 { v } else { leibniz(k, &l, &n) };
-        omega[k + 1] = l[k + 1] + e * n[k + 1];
+        l[k + 1] = torque * leibniz(k, &n, &n) + by_bulge(leibniz(k, &l, &l));
+        n[k + 1] = if k == 0 { v + by_bulge(g) } else { (1.0 + of_bulge) * leibniz(k, &l, &n) };
+        omega[k + 1] = (1.0 + of_bulge) * l[k + 1] + e * n[k + 1];
     }
     RateBounds::of_angular_velocity(&omega)
 }
@@ -172,6 +185,25 @@ mod tests {
         assert!(!is_refused(f64::NAN, 0.0, 1.0));
     }
 
+    /// With `n` and `L` on a principal axis of `s` a bulge adds its part to a uniform rotation.
+    #[test]
+    fn the_bounds_have_the_turning_of_a_bulge() {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.9, constant_c: 0.0 };
+        let state = BodyState { axis: Vector3::z(), momentum: Vector3::z() * 1.9, equatorial_axis: Vector3::x() };
+        for value in [0.2, -0.2] {
+            let s = Matrix3::from_diagonal(&Vector3::new(-0.5 * value, -0.5 * value, value));
+            let bounds = |bulge: f64| rate_bounds(&spheroid, &s, bulge, &state);
+            // Omega = 1 + 2 b s L.
+            let (found, omega) = (bounds(0.2), 1.0 + 2.0 * 0.2 * value * 1.9_f64);
+            let all = [found.first, found.second, found.third, found.fourth, found.sixth];
+            for (bound, order) in all.into_iter().zip([1, 2, 3, 4, 6]) {
+                assert!(bound >= omega.powi(order), "{order}: {bound} {omega}");
+            }
+            assert!(found.first < 2.0, "{found:?}");
+            assert!(bounds(0.0).first < 1.0 + 1e-6 && bounds(20.0).first == f64::INFINITY);
+        }
+    }
+
     /// About its own axis, without a torque, a star turns uniformly: the derivative of order `k` is that power of the rate.
     #[test]
     fn uniform_rotation_has_the_powers_of_its_rate_for_bounds() {
@@ -180,7 +212,7 @@ mod tests {
         let equatorial_axis = axis.cross(&Vector3::x()).normalize();
         let rate = 1.7_f64;
         let state = BodyState { axis, momentum: axis * (-1.9 * rate), equatorial_axis };
-        let found = rate_bounds(&spheroid, &Matrix3::zeros(), &state);
+        let found = rate_bounds(&spheroid, &Matrix3::zeros(), 0.0, &state);
         for (bound, order) in
             [(found.first, 1), (found.second, 2), (found.third, 3), (found.fourth, 4), (found.sixth, 6)]
         {
@@ -190,7 +222,7 @@ mod tests {
         // A torque has a size whatever the sign of C.
         let s = Matrix3::new(0.02, 0.01, 0.0, 0.01, -0.03, 0.004, 0.0, 0.004, 0.01);
         let opposite = RigidSpheroid { constant_c: -0.7, ..spheroid };
-        assert_eq!(rate_bounds(&opposite, &s, &state), rate_bounds(&spheroid, &s, &state));
-        assert!(rate_bounds(&spheroid, &s, &state).first > 1.001 * rate);
+        assert_eq!(rate_bounds(&opposite, &s, 0.0, &state), rate_bounds(&spheroid, &s, 0.0, &state));
+        assert!(rate_bounds(&spheroid, &s, 0.0, &state).first > 1.001 * rate);
     }
 }

@@ -147,7 +147,7 @@ impl Problem<f64> {
         line_of_sight: &Vector3<f64>,
     ) -> Result<(PulseTrain, Samples<BodyState<f64>>), Error> {
         check_beam(beam, line_of_sight)?;
-        let bounds = rate_bounds(self.spheroid(), self.coefficients(), self.initial());
+        let bounds = rate_bounds(self.spheroid(), self.coefficients(), self.bulge(), self.initial());
         bounds.check_countable(span.0, span.1)?;
         let (mut train, mut node) = (Unfinished::default(), None);
         let end = projected_by_segments(self, span, tolerance, (&beam.axis, line_of_sight), |projection, end| {

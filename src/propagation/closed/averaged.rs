@@ -7,8 +7,8 @@ use crate::error::Error;
 use crate::lorentz_violation::{PrincipalCoefficients, principal_frame_with_derivatives};
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::scalar::Real;
-use crate::propagation::Motion;
 use crate::propagation::input::check_time;
+use crate::propagation::{Motion, Turning};
 use crate::solutions::averaged::{AveragedPhases, AveragedSolution, AveragingOrder};
 
 /// A motion by [`AveragedSolution`], whatever the frame in which the tensor is given: for a body that turns fast against the torque, over any
@@ -47,6 +47,7 @@ impl<S: Real> AveragedMotion<S> {
         let initial = problem.initial();
         let turned = initial.rotated(&principal_from_given);
         let principal = Problem::unchecked(*problem.spheroid(), coefficients.tensor(), turned);
+        let principal = principal.with_bulge(problem.bulge())?;
         Ok(Self {
             problem: *problem,
             span,
@@ -114,6 +115,10 @@ impl<S: Real> Motion<S> for AveragedMotion<S> {
 
     fn axis_state_in_parts(&self, t: [f64; 2]) -> Result<AxisState<S>, Error> {
         self.state_in_parts(t).map(|state| AxisState::from(&state))
+    }
+
+    fn turning(&self) -> Turning<'_> {
+        Turning::Equations { bulge: self.problem.bulge().re() }
     }
 
     /// That of the [averaged motion](AveragedSolution::error_estimate); the rounding of `t` itself is not counted.

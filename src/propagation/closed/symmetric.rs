@@ -49,8 +49,9 @@ impl<S: Real> SymmetricMotion<S> {
     /// # Errors
     /// [`Error::Domain`] for a tensor that is not symmetric, for a state within 1e-9 of a pole of the symmetry axis at the start or
     /// at any time, and for what [`SymmetricSolution::new`] refuses. Eigenvalues that differ are not refused: see
-    /// [`truncation`](Self::truncation).
+    /// [`truncation`](Self::truncation). [`Error::Unsupported`] for a star with a bulge.
     pub fn new(problem: &Problem<S>, span: (f64, f64)) -> Result<Self, Error> {
+        problem.require_rigid()?;
         let (spheroid, s, initial) = (problem.spheroid(), problem.coefficients(), problem.initial());
         let symmetry = SymmetryOfTensor::of(&s.map(S::re))?;
         let principal_from_given = symmetry.principal_from_given.map(S::from_f64);

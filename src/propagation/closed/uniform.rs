@@ -26,6 +26,8 @@ pub struct UniformMotion<S> {
     momentum_is_constant: bool,
     /// Largest torque that the motion leaves out.
     neglected_torque: f64,
+    /// Bound on the rate over `|L|` at which a bulge, which the motion leaves out, turns everything.
+    neglected_bulge: f64,
     /// By how much a rounding of the initial state counts.
     condition: f64,
     /// Rate at which the state leaves the uniform motion: what a steady one was accepted with.
@@ -38,9 +40,11 @@ impl<S: Real> UniformMotion<S> {
     ///
     /// With `T` the largest torque ([`largest_torque`]), `|dL| <= T t`, and since free rotation keeps the length of what it
     /// turns, `|dn| <= T t^2 / (2 I^xx)` and `|d e_x| <= T t^2 / (2 I^xx) (1 + |epsilon Omega^z| t / 3)`: these bounds are
-    /// rigorous and part of the error estimate.
+    /// rigorous and part of the error estimate. A bulge turns everything together, at `2 |b| |s| |L|` at most, by as much as which all of them are off.
     pub fn free(problem: &Problem<S>, span: (f64, f64)) -> Self {
         let (spheroid, initial) = (problem.spheroid(), problem.initial());
+        let s = problem.coefficients().map(S::re);
+        let anisotropic = s - Matrix3::from_diagonal_element(s.trace() / 3.0);
         let turn = initial.momentum / spheroid.inertia_xx;
         let spin = initial.momentum.dot(&initial.axis) / spheroid.inertia_zz;
         Self {
@@ -50,6 +54,7 @@ impl<S: Real> UniformMotion<S> {
             body_rate: -(spheroid.oblateness() * spin),
             momentum_is_constant: true,
             neglected_torque: largest_torque(spheroid, problem.coefficients()),
+            neglected_bulge: 2.0 * problem.bulge().re().abs() * anisotropic.norm(),
             condition: 1.0,
             residual: 0.0,
         }
@@ -61,8 +66,9 @@ impl<S: Real> UniformMotion<S> {
     /// # Errors
     /// [`Error::Domain`] unless the state satisfies `p x n = L x n / I^xx` and `p x L = Gamma` for some `p` along the symmetry
     /// axis to 32 roundings of the turning rate, and where that precession is not stable (rounding would grow
-    /// exponentially). A body that neither turns its axis nor feels a torque must do so exactly.
+    /// exponentially). A body that neither turns its axis nor feels a torque must do so exactly. [`Error::Unsupported`] for a star with a bulge.
     pub fn steady(problem: &Problem<S>, span: (f64, f64)) -> Result<Self, Error> {
+        problem.require_rigid()?;
         let (spheroid, s, initial) = (problem.spheroid(), problem.coefficients(), problem.initial());
         let BodyState { axis, momentum, .. } = initial;
         let axis_rate = momentum.cross(axis) / spheroid.inertia_xx;
@@ -108,6 +114,7 @@ impl<S: Real> UniformMotion<S> {
             body_rate: (omega - turn).dot(axis),
             momentum_is_constant: false,
             neglected_torque: 0.0,
+            neglected_bulge: 0.0,
             condition,
             residual,
         })
@@ -119,16 +126,19 @@ impl<S: Real> UniformMotion<S> {
         Ok(t - S::from_f64(self.span.0))
     }
 
-    /// Bound on the components of `n`, `L` and `e_x` of what the torque left out does within a time.
+    /// Bound on the components of `n`, `L` and `e_x` of what the torque and the bulge left out do within a time.
     pub fn truncation(&self, elapsed: f64) -> f64 {
         let (inertia, t) = (self.problem.spheroid().inertia_xx.re(), elapsed.abs());
-        let size = real_part(&self.problem.initial().momentum).norm() + (inertia * self.neglected_torque).sqrt();
+        let momentum = real_part(&self.problem.initial().momentum).norm();
+        // L grows by the torque times the time at most.
+        let turned = self.neglected_bulge * (momentum + self.neglected_torque * t) * t;
         if self.neglected_torque == 0.0 {
-            return 0.0;
+            return turned.min(2.0);
         }
+        let size = momentum + (inertia * self.neglected_torque).sqrt();
         let axes = self.neglected_torque * t * t / (2.0 * inertia) * (1.0 + self.body_rate.re().abs() * t / 3.0);
         // Directions are at most two apart.
-        axes.min(2.0).max(self.neglected_torque * t / size)
+        (axes + turned).min(2.0).max(self.neglected_torque * t / size + turned)
     }
 
     /// Rounding of the state and of the angles within a time, and the distance of the state from a steady one.

@@ -45,6 +45,7 @@ pub(super) struct PrincipalProblem<const V: usize = 2> {
 
 impl<const V: usize> PrincipalProblem<V> {
     pub(super) fn new<X: RotationState<f64>>(problem: &Problem<f64, X>) -> Result<Self, Error> {
+        problem.require_rigid()?;
         let (spheroid, initial) = (problem.spheroid(), problem.start::<V>());
         let frame = principal_frame(problem.coefficients())?;
         let turn = frame.principal_from_given;

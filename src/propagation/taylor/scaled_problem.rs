@@ -41,6 +41,7 @@ impl<S: Real, const V: usize> ScaledProblem<S, V> {
         tolerance: f64,
     ) -> Result<Self, Error> {
         check_request(span, tolerance)?;
+        problem.require_rigid()?;
         let (spheroid, s, start) = (problem.spheroid(), problem.coefficients(), problem.start::<V>());
         let duration = (span.1 - span.0).abs();
         // An isotropic part of s^IJ exerts no torque; left in, its rounding would.

@@ -8,6 +8,8 @@
 //! of the tensor that moves l, relative                of x^p
 //! ```
 //!
+//! The motion of a bulge alone is exact ([`bulge`](crate::dynamics::bulge)): with one, of strength `y = |b| (s_max - s_min) I^xx`, a power `x^k` becomes `x (x + y)^(k - 1)`.
+//!
 //! What it makes of `l` after a time is the smaller of two: neighbours part at most at the rate `kappa = (k_1 - k_3) / 2` (half the largest
 //! `l.(d x k d)`, for unit `d`), or, as they stay near their own closed curves, by the difference of their periods. The latter is taken from two
 //! tops beside it, towards either axis, and holds only where they are on the same side of the separatrix.
@@ -45,16 +47,17 @@ impl<S: Real> AveragedSolution<S> {
 
     /// What the order leaves out, at the time `t`.
     pub fn truncation(&self, t: f64) -> f64 {
-        let x = self.relative_strength.re();
+        let (x, y) = (self.relative_strength.re(), self.bulge_strength().re());
         // The terms of higher order as a geometric series.
-        let x = x / (1.0 - x);
+        let series = 1.0 - (x + y);
+        let (x, both) = (x / series, (x + y) / series);
         let power = match self.order {
             AveragingOrder::First => x,
-            AveragingOrder::Second => x * x,
+            AveragingOrder::Second => x * both,
         };
         let fault = Fault {
-            constant: PERIODIC * x * x,
-            rate: SECULAR * power * x * self.turning_rate(),
+            constant: PERIODIC * x * both,
+            rate: SECULAR * power * both * self.turning_rate(),
             neighbour: TENSOR * power,
         };
         self.consequence(&fault, self.elapsed(t))

@@ -10,6 +10,9 @@
 //!
 //! The first line's second term is the average of the potential `V`; the next is `<{V + <V>, W}> / 2` with the generator `W`
 //! ([`generator`](super::generator())) and the bracket `{f, g} = L.(f_L x g_L) + n.(f_L x g_n + f_n x g_L)`.
+//!
+//! A centrifugal bulge ([`bulge`](crate::dynamics::bulge)) adds `b G^2 h`. Nothing else: `b L.(s L)` has a vanishing bracket with `L.L`, so that it is its own average, and its bracket with `W`
+//! has none, as `W` has none.
 
 use nalgebra::Vector3;
 
@@ -25,7 +28,7 @@ pub enum AveragingOrder {
     Second,
 }
 
-/// The mean potential to the given order: the mean Hamiltonian without `G^2 / (2 I^xx)`, for traceless principal values `s`, the size `G` of the
+/// The mean potential of a rigid spheroid to the given order: the mean Hamiltonian without `G^2 / (2 I^xx)`, for traceless principal values `s`, the size `G` of the
 /// angular momentum, `c = n.l` and the direction `l` of the angular momentum in the principal frame.
 pub fn mean_potential<S: Real>(
     spheroid: &RigidSpheroid<S>,
@@ -69,8 +72,13 @@ fn slopes_along<S: Real>(
     order: AveragingOrder,
 ) -> MeanSlopes<S> {
     let pulled = s.component_mul(direction);
-    let potential =
-        MeanPotential { order, constant_c: spheroid.constant_c, inertia: spheroid.inertia_xx, square: s.dot(s) };
+    let potential = MeanPotential {
+        order,
+        constant_c: spheroid.constant_c,
+        inertia: spheroid.inertia_xx,
+        bulge: S::zero(),
+        square: s.dot(s),
+    };
     potential.at(size, c, direction.dot(&pulled), pulled.dot(&pulled))
 }
 
@@ -82,6 +90,8 @@ pub(super) struct MeanPotential<S> {
     pub(super) constant_c: S,
     /// `I^xx`.
     pub(super) inertia: S,
+    /// `b`.
+    pub(super) bulge: S,
     /// `tr s^2`.
     pub(super) square: S,
 }
@@ -97,8 +107,9 @@ pub(super) struct MeanSlopes<S> {
     pub(super) by_c: S,
     pub(super) by_c_h: S,
     pub(super) by_c_m: S,
-    /// By `G` where `l` and `c` stay, and its slope by `m`.
+    /// By `G` where `l` and `c` stay, and its slopes by `h` and `m`.
     pub(super) by_size: S,
+    pub(super) by_size_h: S,
     pub(super) by_size_m: S,
 }
 
@@ -107,14 +118,17 @@ impl<S: Real> MeanPotential<S> {
         let c2 = c * c;
         let constant = self.constant_c;
         let p2 = (c2 * 3.0 - S::one()) * 0.5;
+        let of_bulge = self.bulge * size;
+        let first_by_h = constant * p2 + of_bulge * size;
         let first = MeanSlopes {
-            value: constant * p2 * h,
-            by_h: constant * p2,
+            value: first_by_h * h,
+            by_h: first_by_h,
             by_m: S::zero(),
             by_c: constant * c * h * 3.0,
             by_c_h: constant * c * 3.0,
             by_c_m: S::zero(),
-            by_size: S::zero(),
+            by_size: of_bulge * h * 2.0,
+            by_size_h: of_bulge * 2.0,
             by_size_m: S::zero(),
         };
         if self.order == AveragingOrder::First {
@@ -136,7 +150,8 @@ impl<S: Real> MeanPotential<S> {
             by_c: first.by_c + strength * (slope_1 * h * h + slope_2 * m + slope_3 * self.square),
             by_c_h: first.by_c_h,
             by_c_m: strength * slope_2,
-            by_size: -(second * 2.0 / size),
+            by_size: first.by_size - second * 2.0 / size,
+            by_size_h: first.by_size_h,
             by_size_m: -(strength * a2 * 2.0 / size),
         }
     }

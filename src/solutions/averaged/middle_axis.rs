@@ -34,7 +34,7 @@ pub fn middle_axis_growth(
     s.as_mut_slice().sort_by(f64::total_cmp);
     let along = inertia_zz * spin;
     let hamiltonian = energy - constant_c * mean - along * spin / 2.0 + along * along / (2.0 * inertia_xx);
-    let potential = MeanPotential { order, constant_c, inertia: inertia_xx, square: s.norm_squared() };
+    let potential = MeanPotential { order, constant_c, inertia: inertia_xx, bulge: 0.0, square: s.norm_squared() };
     let (h, m) = (s.y, s.y * s.y);
     let mut size = (2.0 * inertia_xx * (hamiltonian - constant_c * h)).sqrt();
     let mut change = f64::NAN;

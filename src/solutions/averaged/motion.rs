@@ -50,6 +50,8 @@ pub struct AveragedSolution<S> {
     /// Principal values of the tensor of the asymmetric top as which `l` moves.
     tensor: Vector3<S>,
     pub(crate) relative_strength: S,
+    /// `|b| (s_max - s_min) I^xx`.
+    bulge_strength: S,
     /// Time from the initial state to the time zero.
     since_start: f64,
 }
@@ -81,16 +83,21 @@ impl<S: Real> AveragedSolution<S> {
     }
 
     /// `|C| (s_max - s_min) I^xx / |L|^2` at the start, whose powers the orders are in: errors are of its size (first order) or of its square
-    /// (second), and grow with its square, or its cube, times the angle turned.
+    /// (second), and grow with its square, or its cube, times the angle turned. That of a bulge is [`bulge_strength`](Self::bulge_strength).
     pub fn relative_strength(&self) -> S {
         self.relative_strength
+    }
+
+    /// `|b| (s_max - s_min) I^xx`, of a star with a bulge. It goes with the strength of the torque only: the motion of a bulge alone is exact.
+    pub fn bulge_strength(&self) -> S {
+        self.bulge_strength
     }
 
     /// The motion of a problem in the principal frame of its `s`, from its initial state at the time zero.
     ///
     /// # Errors
     /// [`Error::Domain`] for `s` that is not diagonal, and where the motion is not a fast rotation with a slow precession:
-    /// `|C| (s_max - s_min) I^xx / |L|^2` must be below 0.2, and the mean energy must determine `G`. With derivatives (duals), also where `L`
+    /// `(|C| / |L|^2 + |b|) (s_max - s_min) I^xx` must be below 0.2, and the mean energy must determine `G`. With derivatives (duals), also where `L`
     /// rests or is on a separatrix: there the elliptic functions have none.
     pub fn new(problem: &Problem<S>, order: AveragingOrder) -> Result<Self, Error> {
         Self::with_free_rotation_of(problem.initial(), problem, order)
@@ -130,15 +137,25 @@ impl<S: Real> AveragedSolution<S> {
             relative_strength.re(),
             "below 0.2: the body must turn fast against the torque",
         )?;
+        let bulge = problem.bulge();
+        let bulge_strength = bulge.abs() * spread * inertia_xx;
+        let together = (relative_strength + bulge_strength).re();
+        Error::ensure(
+            together < LARGEST_STRENGTH,
+            "(|C| / |L|^2 + |b|) (s_max - s_min) I^xx of a star with a bulge",
+            together,
+            "below 0.2: the body must turn fast against what turns L",
+        )?;
         let strength = constant_c * inertia_xx;
-        let pull = constant_c * initial.axis.dot(&s.component_mul(&initial.axis));
+        let pull = constant_c * initial.axis.dot(&s.component_mul(&initial.axis))
+            + bulge * initial.momentum.dot(&s.component_mul(&initial.momentum));
         let along_axis = given.momentum.dot(&given.axis);
         let start = [initial.axis, initial.momentum, initial.equatorial_axis];
         let change = transformation(strength, &s, &start, -1.0);
         let [n, momentum, equatorial] = [0, 1, 2].map(|i| start[i] + change[i]);
         let l = momentum / length(&momentum);
         let (h, m) = (l.dot(&s.component_mul(&l)), s.component_mul(&l).dot(&s.component_mul(&l)));
-        let potential = MeanPotential { order, constant_c, inertia: inertia_xx, square: s.dot(&s) };
+        let potential = MeanPotential { order, constant_c, inertia: inertia_xx, bulge, square: s.dot(&s) };
         // G - |L|: small, and known to its own digits. The mean energy is that of the motion, and tells G one order better than the
         // transformation does. To first order that would only bring in what the mean energy lacks.
         let mut excess = change[1].dot(&(initial.momentum * S::from_f64(2.0) + change[1])) / (length(&momentum) + size);
@@ -186,7 +203,7 @@ impl<S: Real> AveragedSolution<S> {
         let product = top.product_of_differences(&s) * 2.0 / g;
         let (by_h, by_m) = (here.by_m * product, -(here.by_h * product));
         let periodic = [
-            -(mean.by_c_h * c / g) * by_h + (mean.by_size_m - mean.by_c_m * c / g) * by_m,
+            (mean.by_size_h - mean.by_c_h * c / g) * by_h + (mean.by_size_m - mean.by_c_m * c / g) * by_m,
             (mean.by_c_h * by_h + mean.by_c_m * by_m) / g,
         ];
         let shape = top.at(top.start);
@@ -208,6 +225,7 @@ impl<S: Real> AveragedSolution<S> {
             order,
             tensor,
             relative_strength,
+            bulge_strength,
             since_start: 0.0,
             top,
         })

@@ -69,8 +69,9 @@ impl TorusSolution {
     ///
     /// # Errors
     /// [`Error::Domain`] for isotropic `s`; [`Error::NotConverged`] where the closed ways are not found, or need more coefficients than a table may have: near the
-    /// separatrix.
+    /// separatrix; [`Error::Unsupported`] for a star with a bulge.
     pub fn new(problem: &Problem<f64>, tolerance: f64, longest: f64) -> Result<Self, Error> {
+        problem.require_rigid()?;
         let tolerance = tolerance.max(ROUNDING);
         let torus = Torus::of(problem)?;
         let near = phases(&torus.spheroid, &torus.initial, &torus.ways);

@@ -3,6 +3,7 @@
 mod averaged;
 mod axis_motion;
 mod bound;
+mod bulge;
 mod elliptic;
 mod equations_of_motion;
 mod error_estimate;
@@ -72,6 +73,7 @@ pub fn all() -> Vec<Check> {
         pulsar::clock::checks,
         spin_down::checks,
         timing_model::checks,
+        bulge::checks,
         pulsar::position_angle::checks,
         pulsar::approximations::checks,
         pulsar::functions_of_gamma::checks,

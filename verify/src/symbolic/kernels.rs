@@ -129,7 +129,7 @@ kernels! {
     };
     "margin-rates" => |p| {
         let tensor = p.coefficients().tensor();
-        beam(p).margin_rates(&p.spheroid(), &tensor, &p.state(), &observer(p).direction)
+        beam(p).margin_rates(&p.spheroid(), &tensor, F::zero(), &p.state(), &observer(p).direction)
     };
     "axis-in-azimuth" => |p| {
         let [theta, phi, theta_o, phi_o] = ["colatitude", "azimuth", "theta_o", "phi_o"].map(|name| p.at(name));

@@ -16,7 +16,7 @@ impl Case {
     pub(super) fn margin(&self, t: f64) -> [f64; 4] {
         let motion = &self.motion;
         let state = motion.state(t).expect("a time of the span");
-        self.beam.margin_rates(motion.spheroid(), motion.coefficients(), &state, &self.observer)
+        self.beam.margin_rates(motion.spheroid(), motion.coefficients(), 0.0, &state, &self.observer)
     }
 
     pub(super) fn train(&self) -> Result<PulseTrain, String> {

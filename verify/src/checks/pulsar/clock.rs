@@ -238,7 +238,7 @@ impl Exact {
         let c = frame.coefficients;
         let s = PrincipalCoefficients::new([c.xx, c.yy, c.zz].map(number));
         let start = *given.map(number).initial();
-        let turned = Problem::new(*turned.spheroid(), s.tensor(), *turned.initial())?;
+        let turned = Problem::new(*turned.spheroid(), s.tensor(), *turned.initial())?.with_bulge(turned.bulge())?;
         let mean = AveragedSolution::with_free_rotation_of(&start, &turned, AveragingOrder::Second)?;
         Ok(Self {
             rates: mean.rates(),

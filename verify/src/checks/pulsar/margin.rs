@@ -31,12 +31,12 @@ fn high_rates_within_bounds() -> Result<Measured, String> {
     const STEP: f64 = 0.04;
     worst_over(45, 40, &scenes(), |scene| {
         let problem = scene.problem();
-        let bounds = rate_bounds(problem.spheroid(), problem.coefficients(), problem.initial());
+        let bounds = rate_bounds(problem.spheroid(), problem.coefficients(), 0.0, problem.initial());
         let motion = problem.taylor((0.0, 20.0), 1e-15)?;
         let (beam, observer) = beam_and_observer(scene);
         let third = |i: u32| {
             let state = motion.state(STEP * f64::from(i))?;
-            Ok::<_, String>(beam.margin_rates(problem.spheroid(), problem.coefficients(), &state, &observer)[3])
+            Ok::<_, String>(beam.margin_rates(problem.spheroid(), problem.coefficients(), 0.0, &state, &observer)[3])
         };
         let thirds = (0..500).map(third).collect::<Result<Vec<_>, _>>()?;
         let fourth = largest(thirds.windows(2).map(|f| (f[1] - f[0]).abs())) / STEP;
@@ -59,7 +59,7 @@ fn along_motions(figure: fn([f64; 3], [f64; 4], [f64; 4]) -> f64) -> Result<Meas
 
 fn of_motion(scene: &RandomScene, figure: fn([f64; 3], [f64; 4], [f64; 4]) -> f64) -> Result<f64, twofold::Error> {
     let problem = scene.problem();
-    let bounds = rate_bounds(problem.spheroid(), problem.coefficients(), problem.initial());
+    let bounds = rate_bounds(problem.spheroid(), problem.coefficients(), 0.0, problem.initial());
     let motion = problem.map(Dual3_64::from).taylor((0.0, 20.0), 1e-16)?;
     let (beam, observer) = beam_and_observer(scene);
     let beam_lifted = Beam { axis: beam.axis.map(Dual3_64::from), half_opening: Dual3_64::from(0.7) };
@@ -68,7 +68,7 @@ fn of_motion(scene: &RandomScene, figure: fn([f64; 3], [f64; 4], [f64; 4]) -> f6
         let Ok(state) = motion.state(Dual3_64::new(t, 1.0, 0.0, 0.0)) else { return f64::NAN };
         let by_duals = beam_lifted.margin(&state, &observer.map(Dual3_64::from));
         let real = BodyState::from_vectors(state.vectors().map(|vector| vector.map(|x| x.re)));
-        let kernel = beam.margin_rates(problem.spheroid(), problem.coefficients(), &real, &observer);
+        let kernel = beam.margin_rates(problem.spheroid(), problem.coefficients(), 0.0, &real, &observer);
         figure(
             [bounds.first, bounds.second, bounds.third],
             kernel,

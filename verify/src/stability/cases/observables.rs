@@ -118,7 +118,7 @@ functions! {
     // rho, chi, delta, s (6), state (9), line of sight (3), body (3)
     MarginRates: "Beam::margin_rates".composite(), (x) {
         let beam = Beam::new(x[1], x[2], x[0]);
-        beam.margin_rates(&body(&x[21..]), &symmetric(&x[3..]), &state(&x[9..]), &vector(&x[18..])).to_vec()
+        beam.margin_rates(&body(&x[21..]), &symmetric(&x[3..]), S::zero(), &state(&x[9..]), &vector(&x[18..])).to_vec()
     }
     // beta, alpha, gamma, chi, delta, theta_o, phi_o
     Along: "axis_along_line_of_sight", (x) {
@@ -263,7 +263,7 @@ fn observer_along_z<S: Real>(_: &[S]) -> Observer<S> {
 fn times<S: Real>(x: &[S]) -> Vec<S> {
     let beam = Beam::new(x[1], x[2], x[0]);
     let (spheroid, s, state, sight) = (body(&x[21..]), symmetric(&x[3..]), state(&x[9..]), vector(&x[18..]));
-    let [margin, rate, second, _] = beam.margin_rates(&spheroid, &s, &state, &sight);
+    let [margin, rate, second, _] = beam.margin_rates(&spheroid, &s, S::zero(), &state, &sight);
     [result(event_time(0.0, margin, rate.re())), result(event_time(0.0, rate, second.re()))].concat()
 }
 
