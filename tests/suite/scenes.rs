@@ -136,9 +136,9 @@ fn what_is_observed_of_a_pulsar_stands_for_its_star() {
 #[test]
 fn an_observer_is_given_by_inclination_or_by_the_place_of_the_star() {
     let toml = twofold_scene::scene_file::built_in("b1937+21").expect("built in").toml;
-    let (start, end) = (toml.find("theta_o").expect("a key"), toml.find("distance").expect("a key"));
+    let (start, end) = (toml.find("\ntheta_o").expect("a key"), toml.find("\ndistance").expect("a key"));
     let with = |lines: &str| {
-        let text = format!("{}{lines}\n{}", &toml[..start], &toml[end..]);
+        let text = format!("{}\n{lines}{}", &toml[..start], &toml[end..]);
         Scene::from_toml("observed", &text)
     };
     let scene = with("inclination = \"40 deg\"\nazimuth = 0.7").unwrap_or_else(|error| panic!("{error}"));
