@@ -29,28 +29,60 @@ pub(crate) fn about<S: Real>(axis: &Vector3<S>, from: &Vector3<S>, to: &Vector3<
     axis.dot(&from.cross(to)).atan2(from.dot(to))
 }
 
-/// Sine and cosine of a part of a turn, at most one in size: the nearest quarter turn is taken off exactly, and the rest, at most an eighth, has short Taylor series.
+/// Added to a double below a quarter of it this rounds it to a whole number, whose last bits are then those of the sum.
+const WHOLE: f64 = 6_755_399_441_055_744.0;
+
+/// Sines and cosines of two parts of a turn, at most one in size: the nearest quarter turn is taken off exactly, and the rest, at most an eighth, has short Taylor series.
 /// Each to an ulp of one.
 #[inline(always)]
-pub(crate) fn sin_cos_of_turns<F: FourLanes>(turns: f64) -> (f64, f64) {
-    let quarters = (4.0 * turns).round_ties_even();
-    let x = core::f64::consts::TAU * (turns - 0.25 * quarters);
-    let square = x * x;
-    let horner = |divisors: [f64; 8]| {
-        divisors.into_iter().rev().fold(1.0, |sum: f64, divisor| {
-            let next = square * (-1.0 / divisor);
-            if F::FUSED { sum.mul_add(next, 1.0) } else { sum * next + 1.0 }
-        })
-    };
+pub(crate) fn sines_of_turns<F: FourLanes>(four: F, turns: [f64; 2]) -> [(f64, f64); 2] {
+    let (first, second) = (QuarterTurns::nearest(turns[0]), QuarterTurns::nearest(turns[1]));
+    let (a, b) = (first.rest, second.rest);
+    let (zero, one) = (four.all(0.0), four.all(1.0));
+    let x = four.load(&[a, a, b, b]);
+    let square = four.multiply_add(x, x, zero);
     // 2 3, 4 5, ... and 1 2, 3 4, ...: what is left out is below (pi / 4)^18 / 18! = 2e-18.
-    let sin = x * horner([6.0, 20.0, 42.0, 72.0, 110.0, 156.0, 210.0, 272.0]);
-    let cos = horner([2.0, 12.0, 30.0, 56.0, 90.0, 132.0, 182.0, 240.0]);
-    // Without branches, which random phases would mispredict.
-    let quarters = quarters as i64 as u64;
-    let swap = (quarters & 1).wrapping_neg();
-    let either = |a: f64, b: f64| a.to_bits() & !swap | b.to_bits() & swap;
-    let signed = |bits: u64, sign: u64| f64::from_bits(bits ^ (sign & 2) << 62);
-    (signed(either(sin, cos), quarters), signed(either(cos, sin), quarters.wrapping_add(1)))
+    let divisors = [
+        [272.0, 240.0],
+        [210.0, 182.0],
+        [156.0, 132.0],
+        [110.0, 90.0],
+        [72.0, 56.0],
+        [42.0, 30.0],
+        [20.0, 12.0],
+        [6.0, 2.0],
+    ];
+    let series = divisors.into_iter().fold(one, |sum, [of_sin, of_cos]: [f64; 2]| {
+        let (of_sin, of_cos) = (-1.0 / of_sin, -1.0 / of_cos);
+        let next = four.multiply_add(square, four.load(&[of_sin, of_cos, of_sin, of_cos]), zero);
+        four.multiply_add(sum, next, one)
+    });
+    let [sin_a, cos_a, sin_b, cos_b] = four.store(series);
+    [first.added(a * sin_a, cos_a), second.added(b * sin_b, cos_b)]
+}
+
+/// Quarters of a turn, and what is left of an angle (rad).
+struct QuarterTurns {
+    /// The last two bits are those of their number.
+    bits: u64,
+    rest: f64,
+}
+
+impl QuarterTurns {
+    #[inline(always)]
+    fn nearest(turns: f64) -> Self {
+        let sum = 4.0 * turns + WHOLE;
+        Self { bits: sum.to_bits(), rest: TAU * (turns - 0.25 * (sum - WHOLE)) }
+    }
+
+    /// Sine and cosine of the whole angle from those of the rest, without branches, which random phases would mispredict.
+    #[inline(always)]
+    fn added(&self, sin: f64, cos: f64) -> (f64, f64) {
+        let swap = (self.bits & 1).wrapping_neg();
+        let either = |a: f64, b: f64| a.to_bits() & !swap | b.to_bits() & swap;
+        let signed = |bits: u64, sign: u64| f64::from_bits(bits ^ (sign & 2) << 62);
+        (signed(either(sin, cos), self.bits), signed(either(cos, sin), self.bits.wrapping_add(1)))
+    }
 }
 
 #[cfg(test)]
@@ -68,17 +100,18 @@ mod tests {
 
     #[test]
     fn sines_of_turns_are_those_of_angles() {
-        use crate::numerics::arithmetic::Componentwise;
+        use crate::numerics::arithmetic::plain;
         for k in -1000..=1000 {
             let turns = f64::from(k) / 1000.0;
-            let (sin, cos) = sin_cos_of_turns::<Componentwise<f64>>(turns);
+            let [(sin, cos), other] = sines_of_turns(plain(), [turns, -turns]);
+            assert_eq!(other, (-sin, cos));
             let (expected_sin, expected_cos) = (TAU * turns).sin_cos();
             // The rounding of the angle itself is in what is expected.
             assert!((sin - expected_sin).abs() < 1e-15 && (cos - expected_cos).abs() < 1e-15, "{turns}: {sin} {cos}");
         }
         for (quarters, expected) in [(0.0, (0.0, 1.0)), (1.0, (1.0, 0.0)), (2.0, (0.0, -1.0)), (-1.0, (-1.0, 0.0))] {
-            let (sin, cos) = sin_cos_of_turns::<Componentwise<f64>>(quarters / 4.0);
-            assert!(sin == expected.0 && cos == expected.1, "{quarters}: {sin} {cos}");
+            let [found, _] = sines_of_turns(plain(), [quarters / 4.0, 0.0]);
+            assert_eq!(found, expected, "{quarters}");
         }
     }
 }

@@ -31,8 +31,8 @@ impl Cost {
             (Method::Steady, _) => closed(400.0, 75.0),
             (Method::Symmetric, _) => closed(3900.0, 622.0),
             (Method::Averaged, _) => closed(2500.0, 260.0),
-            (Method::Torus, State::Orientation) => closed(550_000.0, 225.0),
-            (Method::Torus, _) => closed(550_000.0, 131.0),
+            (Method::Torus, State::Orientation) => closed(610_000.0, 163.0),
+            (Method::Torus, _) => closed(610_000.0, 90.0),
             (Method::Splitting, State::Orientation) => {
                 Self { setup: 2500.0, step: [6.0, 10.5, 0.0], evaluation: [240.0, 6.0] }
             }

@@ -44,6 +44,12 @@ impl TorusMotion {
         Ok(move |t| Ok(derivative.state(self.elapsed(t)?)))
     }
 
+    /// Since the start, of a time that is one number.
+    fn since(&self, t: f64) -> Result<[f64; 2], Error> {
+        check_time(self.span, t)?;
+        Ok(DoubleDouble::sum(t, -self.span.0).into())
+    }
+
     fn elapsed(&self, t: [f64; 2]) -> Result<[f64; 2], Error> {
         check_time(self.span, t[0] + t[1])?;
         Ok((DoubleDouble::sum(t[0], t[1]) - DoubleDouble::from(self.span.0)).into())
@@ -66,11 +72,11 @@ impl Motion<f64> for TorusMotion {
     }
 
     fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
-        self.state_in_parts([t, 0.0])
+        Ok(self.solution.state(self.since(t)?))
     }
 
     fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
-        self.axis_state_in_parts([t, 0.0])
+        Ok(self.solution.axis_state(self.since(t)?))
     }
 
     fn state_in_parts(&self, t: [f64; 2]) -> Result<BodyState<f64>, Error> {

@@ -54,7 +54,11 @@ pub(super) fn phases<S: Real + Into<DoubleDouble>>(
     // 2 pi, to the digits of the number.
     let tau = S::zero().atan2(-S::one()) * 2.0;
     let spin = spheroid.oblateness() * momentum.dot(n) / spheroid.inertia_zz;
-    let phase = |rate: S, offset: S| Phase { rate: rate.into(), offset: offset.into() };
+    let phase = |rate: S, offset: S| {
+        let offset: DoubleDouble = offset.into();
+        // Whole turns, which the way to the plane of a thin torus may have, would take digits of a sum of doubles.
+        Phase { rate: rate.into(), offset: offset - DoubleDouble::from(offset.high.round_ties_even()) }
+    };
     [
         phase(f1, a),
         phase(f2, b),

@@ -12,7 +12,7 @@ pub(super) const ROUNDING: f64 = 2e-16;
 const LARGEST_ROUNDING: f64 = 1e-12;
 
 /// Points of the first angle and of a quarter turn of the second one: of the first grid, and at most, also of both together.
-const FIRST_GRID: QuarterGrid = QuarterGrid { points: 16, quarter: 4 };
+pub(super) const FIRST_GRID: QuarterGrid = QuarterGrid { points: 16, quarter: 4 };
 const LARGEST_GRID: QuarterGrid = QuarterGrid { points: 1024, quarter: 512 };
 const MOST_POINTS: usize = 1 << 17;
 
@@ -21,12 +21,21 @@ pub(super) type Coefficients = Vec<Vec<Pair>>;
 
 /// Coefficients of the motion on a torus.
 pub(super) struct Sampled {
+    pub(super) grid: QuarterGrid,
     /// Of `n_X, L_X, n_Y, L_Y, n_Z, L_Z`, with `L` in its unit.
     pub(super) axes: [Coefficients; 6],
     /// Of `Re V_X, Im V_Y, Re V_Y, Im V_X, Re V_Z, Im V_Z`, where `V = (u + i n x u) exp i (theta_1 psi_1 + theta_2 psi_2) / (2 pi)`.
     pub(super) vector: [Coefficients; 6],
     /// Rounding of the states that they come from.
     pub(super) open: f64,
+    /// States between the points of the grid, half-way in both angles: they show what the grid takes for coefficients that it has.
+    pub(super) between: [OnTorus; 4],
+}
+
+/// A state of a torus, and turns of its angles.
+pub(super) struct OnTorus {
+    pub(super) turns: [f64; 2],
+    pub(super) axes: Axes<f64>,
 }
 
 /// What a reflection and half a turn of the second angle do to the twelve functions.
@@ -37,7 +46,7 @@ const SYMMETRY: [(Reflection, usize); 12] = {
     [a, b, c, d, e, e, a, b, c, d, e, (Odd, 0)]
 };
 
-/// Coefficients on a grid so fine that the last ones are below the tolerance. `starts` has the states at the points of the second angle; None where it has none.
+/// Coefficients on a grid as fine as the coarsest allowed, and so fine that the last ones are below the tolerance. `starts` has the states at the points of the second angle; None where it has none.
 ///
 /// # Errors
 /// [`Error::NotConverged`] where that takes more points than it may.
@@ -45,8 +54,9 @@ pub(super) fn coefficients(
     torus: &Torus,
     starts: impl Fn(usize) -> Option<Vec<Axes<f64>>>,
     tolerance: f64,
+    coarsest: QuarterGrid,
 ) -> Result<Option<Sampled>, Error> {
-    let mut grid = FIRST_GRID;
+    let mut grid = coarsest;
     let fits = |grid: &QuarterGrid| {
         grid.points <= LARGEST_GRID.points
             && grid.quarter <= LARGEST_GRID.quarter
@@ -60,7 +70,8 @@ pub(super) fn coefficients(
             None => {
                 let mut all = functions.into_iter();
                 let mut six = || core::array::from_fn(|_| all.next().unwrap_or_default());
-                return Ok(Some(Sampled { axes: six(), vector: six(), open }));
+                let between = [1, 3, 5, 7].map(|eighth| between(torus, &starts, &grid, eighth));
+                return Ok(Some(Sampled { grid, axes: six(), vector: six(), open, between }));
             }
         }
     }
@@ -81,8 +92,7 @@ fn sampled(torus: &Torus, starts: &[Axes<f64>], grid: &QuarterGrid) -> (Vec<Coef
         let places = (0..points / 2).chain((points / 2..points).rev());
         for (j, [n, momentum, u]) in places.zip(forwards.into_iter().chain(backwards)) {
             let part = if j < points / 2 { j as f64 } else { j as f64 - points as f64 } / points as f64;
-            let turned = 2.0 * ways.fast.turn * part + ways.slow.turn * m as f64 / (2 * quarter) as f64;
-            let (sin, cos) = turned.sin_cos();
+            let (sin, cos) = ways.turned([part, m as f64 / (4 * quarter) as f64]).sin_cos();
             let v = n.cross(&u);
             let (l, real, imaginary) = (momentum / unit, u * cos - v * sin, v * cos + u * sin);
             let all = [n.x, l.x, n.y, l.y, n.z, l.z, real.x, imaginary.y, real.y, imaginary.x, real.z, imaginary.z];
@@ -93,6 +103,16 @@ fn sampled(torus: &Torus, starts: &[Axes<f64>], grid: &QuarterGrid) -> (Vec<Coef
     }
     let functions = values.iter().zip(SYMMETRY);
     (functions.map(|(values, (reflection, parity))| grid.coefficients(values, reflection, parity)).collect(), open)
+}
+
+/// The state half-way between points of the grid some eighths of a quarter turn of the second angle on, and as many of a turn of the first from its half.
+fn between(torus: &Torus, starts: &[Axes<f64>], grid: &QuarterGrid, eighth: usize) -> OnTorus {
+    let [i, m] = [eighth * grid.points / 8, eighth * grid.quarter / 8];
+    let half = 0.5 / (4 * grid.quarter) as f64;
+    let turns = [(i as f64 + 0.5) / grid.points as f64 - 0.5, m as f64 / (4 * grid.quarter) as f64 + half];
+    // From the start of the row before: the flow from the plane has more rounding.
+    let times = [0, 1].map(|i| 2.0 * (torus.ways.fast.times[i] * turns[0] + torus.ways.slow.times[i] * half));
+    OnTorus { turns, axes: torus.integrals.moved(times, &starts[m]) }
 }
 
 /// States half a turn of the first angle on from one, or back: with the first of them those ahead, without it those behind, up to half a turn; and the state there.

@@ -4,14 +4,16 @@ use core::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::flow::Axes;
 use super::found::{THINNEST, Torus};
+use super::fourier::{QuarterGrid, Reflection};
 use super::phase::{Phase, phases};
-use super::sampling::{ROUNDING, Sampled, coefficients};
-use super::table::{Multiples, Table};
+use super::sampling::{FIRST_GRID, OnTorus, ROUNDING, Sampled, coefficients};
+use super::table::{FourMultiples, Multiples, Table};
 use super::wide::WideTorus;
 use crate::dynamics::{AxisState, BodyState, Problem};
 use crate::error::Error;
-use crate::numerics::angle::sin_cos_of_turns;
+use crate::numerics::angle::sines_of_turns;
 use crate::numerics::arithmetic::plain;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::four_lanes::FourLanes;
@@ -20,14 +22,17 @@ use crate::numerics::fused::{Fused, detect_fused, run_fused};
 /// What the rounding of the flow and of the initial state leaves at the end of half a closed way.
 const END_OF_HALF_WAY: f64 = 5e-16;
 
+/// Rounding of the principal values and axes of `s`, in units of its largest component: eigenvalues that are nearly equal have no more digits than that.
+const ROUNDING_OF_VALUES: f64 = 5e-16;
+
 /// What may be left between the series and the flow beside its estimated error, where its torus has the symmetries assumed.
 const CLOSED: f64 = 1e-12;
 
 /// What rounding leaves of derivatives where both flows differ most: that of some ten steps of the flow, and of their sum.
 const ROUNDING_OF_DERIVATIVES: f64 = 1e-14;
 
-/// So many blocks of multiples of both angles fit on the stack: of cosines and of sines.
-const FEW: usize = 16;
+/// So many blocks of multiples of the second angle fit on the stack: of cosines and of sines.
+const FEW: usize = 8;
 
 /// The exact motion from an initial state: `n`, `L` and `e_x` as Fourier series of two angles that grow in proportion to time, and a third one that turns
 /// `e_x` about `n`.
@@ -52,9 +57,11 @@ pub struct TorusSolution {
     axes: Table,
     /// Of `V`, from which `e_x` is turned.
     vector: Table,
-    /// Blocks of four multiples of both angles that are needed.
-    blocks: [usize; 2],
+    /// Blocks of four multiples of the second angle that are needed.
+    blocks: usize,
     pub(super) given_from_torus: Matrix3<f64>,
+    /// Its columns, each with a zero.
+    columns: [[f64; 4]; 3],
     truncation: f64,
     /// Difference of the series from the flow, and the rounding of so many terms.
     off: f64,
@@ -68,37 +75,65 @@ impl TorusSolution {
     /// the closed ways are found to 32 digits, which takes a few ms.
     ///
     /// # Errors
-    /// [`Error::Domain`] for isotropic `s`; [`Error::NotConverged`] where the closed ways are not found, or need more coefficients than a table may have: near the
+    /// [`Error::Domain`] for isotropic `s` and a time that is not finite; [`Error::NotConverged`] where the closed ways are not found, or need more coefficients than a table may have: near the
     /// separatrix; [`Error::Unsupported`] for a star with a bulge.
     pub fn new(problem: &Problem<f64>, tolerance: f64, longest: f64) -> Result<Self, Error> {
         problem.require_rigid()?;
+        Error::ensure(longest.is_finite(), "longest time", longest, "a finite number")?;
         let tolerance = tolerance.max(ROUNDING);
         let torus = Torus::of(problem)?;
         let near = phases(&torus.spheroid, &torus.initial, &torus.ways);
-        let drift = rate_of_ways(&near) * 2.0 * END_OF_HALF_WAY;
+        let torque = 2.0 * torus.spheroid.constant_c.abs() * ROUNDING_OF_VALUES * problem.coefficients().amax();
+        let drift = rate_of_ways(&near) * 2.0 * END_OF_HALF_WAY + torque / torus.unit;
         if longest.abs() * drift <= 0.3 * tolerance
-            && let Some(functions) = coefficients(&torus, |quarter| torus.starts(quarter), tolerance)?
+            && let Some(solution) = Self::of(&torus, near, drift, tolerance, |quarter| torus.starts(quarter))?
         {
-            return Self::on(&torus, near, drift, tolerance, functions);
+            return Ok(solution);
         }
         let wide = WideTorus::near(&torus, problem)?;
         let torus = wide.rounded(&torus);
-        let starts = |quarter: usize| torus.starts(quarter).unwrap_or_else(|| wide.starts(quarter));
-        let functions = coefficients(&torus, |quarter| Some(starts(quarter)), tolerance)?;
+        let starts = |quarter: usize| Some(torus.starts(quarter).unwrap_or_else(|| wide.starts(quarter)));
         let what = "Fourier series on the torus";
-        let functions = functions.ok_or(Error::NotConverged { what, iterations: 1, residual: f64::NAN })?;
-        Self::on(&torus, wide.phases, wide.drift, tolerance, functions)
+        Self::of(&torus, wide.phases, wide.drift, tolerance, starts)?.ok_or(Error::NotConverged {
+            what,
+            iterations: 1,
+            residual: f64::NAN,
+        })
     }
 
-    /// The series on a torus with these phases.
+    /// The series on a torus with these phases, from states at the points of the second angle; None where there are none.
     ///
     /// # Errors
-    /// [`Error::NotConverged`] if they are not those of the motion.
-    fn on(torus: &Torus, phases: [Phase; 3], drift: f64, tolerance: f64, sampled: Sampled) -> Result<Self, Error> {
+    /// [`Error::NotConverged`] if it is not that of the motion.
+    fn of(
+        torus: &Torus,
+        phases: [Phase; 3],
+        drift: f64,
+        tolerance: f64,
+        starts: impl Fn(usize) -> Option<Vec<Axes<f64>>>,
+    ) -> Result<Option<Self>, Error> {
+        let what = "Fourier series on the torus, against its flow";
+        let (mut coarsest, mut least) = (FIRST_GRID, f64::INFINITY);
+        loop {
+            let Some(sampled) = coefficients(torus, &starts, tolerance, coarsest)? else { return Ok(None) };
+            let (solution, gap) = Self::on(torus, phases, drift, tolerance, &sampled);
+            if gap <= 10.0 * solution.truncation + CLOSED {
+                return Ok(Some(solution));
+            }
+            // Coefficients behind those that are small may be larger again: a grid as fine as they need makes the gap smaller.
+            if gap.is_nan() || gap > 0.5 * least {
+                return Err(Error::NotConverged { what, iterations: sampled.grid.quarter, residual: gap });
+            }
+            least = gap;
+            coarsest = QuarterGrid { quarter: 2 * sampled.grid.quarter, ..sampled.grid };
+        }
+    }
+
+    /// The series on a torus with these phases, and how far it is from the flow.
+    fn on(torus: &Torus, phases: [Phase; 3], drift: f64, tolerance: f64, sampled: &Sampled) -> (Self, f64) {
         let (mut axes, left_axes) = Table::within(&sampled.axes, tolerance);
         let (vector, left_vector) = Table::within(&sampled.vector, tolerance);
         axes.scale_every_other(torus.unit);
-        let [[a, b], [c, d]] = [axes.blocks(), vector.blocks()];
         let [most, least] = torus.widths();
         let mut solution = Self {
             width: least / most,
@@ -106,43 +141,40 @@ impl TorusSolution {
             periods: [&torus.ways.fast, &torus.ways.slow].map(|half| half.times.map(|time| time * 2.0)),
             spread: torus.spread,
             unit: torus.unit,
+            blocks: axes.blocks().max(vector.blocks()),
             axes,
             vector,
-            blocks: [a.max(c), b.max(d)],
             given_from_torus: torus.from_given.transpose(),
+            columns: [0, 1, 2].map(|i| {
+                let row = torus.from_given.row(i);
+                [row[0], row[1], row[2], 0.0]
+            }),
             truncation: left_axes.max(left_vector),
             off: 0.0,
             drift,
             fused: detect_fused(),
         };
-        let gap = solution.gap(torus);
+        let gap = solution.gap(torus, &sampled.between);
         let terms = (solution.axes.len() + solution.vector.len()) as f64;
         solution.off = 2.0 * gap.max(sampled.open) + 0.5 * ROUNDING * terms.sqrt();
-        if gap <= 10.0 * solution.truncation + CLOSED {
-            return Ok(solution);
-        }
-        Err(Error::NotConverged { what: "Fourier series on the torus, against its flow", iterations: 1, residual: gap })
+        (solution, gap)
     }
 
-    /// Largest difference from the start, and from the flow at a point where all functions differ from one another.
-    fn gap(&self, torus: &Torus) -> f64 {
-        let parts = [0.2, 0.06];
-        let times = [0, 1].map(|i| (0..2).map(|way| self.periods[way][i] * parts[way]).sum());
-        let [n, momentum, u] = torus.integrals.moved(times, &torus.ways.plane);
-        let turned = 2.0 * (torus.ways.fast.turn * parts[0] + torus.ways.slow.turn * parts[1]);
-        let there = self.state_on_torus([parts[0], parts[1], 0.0]);
-        let here = self.state([0.0; 2]);
+    /// Largest difference from the start, and from the flow between the points of the grid.
+    fn gap(&self, torus: &Torus, between: &[OnTorus]) -> f64 {
         let turn = &torus.from_given;
-        let differences = [
-            turn * there.axis - n,
-            (turn * there.momentum - momentum) / torus.unit,
-            turn * there.equatorial_axis - (u * turned.cos() - n.cross(&u) * turned.sin()),
-            turn * here.axis - torus.initial[0],
-            (turn * here.momentum - torus.initial[1]) / torus.unit,
-            turn * here.equatorial_axis - torus.initial[2],
-        ];
-        // A NaN is a gap too.
-        differences.iter().flatten().fold(0.0, |most, x| if x.abs() <= most { most } else { x.abs() })
+        let off = |state: &BodyState<f64>, [n, momentum, vector]: &Axes<f64>| {
+            let momentum = (turn * state.momentum - momentum) / torus.unit;
+            let differences = [turn * state.axis - n, momentum, turn * state.equatorial_axis - vector];
+            // A NaN is a gap too.
+            differences.iter().flatten().fold(0.0, |most: f64, x| if x.abs() <= most { most } else { x.abs() })
+        };
+        let gaps = between.iter().map(|OnTorus { turns: [a, b], axes: [n, momentum, u] }| {
+            let (sin, cos) = torus.ways.turned([*a, *b]).sin_cos();
+            off(&self.state_on_torus([*a, *b, 0.0]), &[*n, *momentum, u * cos - n.cross(u) * sin])
+        });
+        let here = off(&self.state([0.0; 2]), &torus.initial);
+        gaps.fold(here, |most, x| if x <= most { most } else { x })
     }
 
     /// Rates of the angles (rad per unit of time): of `n` about `L` from the plane of `L` and Z, of the averaged `L` about Z, and of `e_x` about `n`.
@@ -232,45 +264,49 @@ impl TorusSolution {
     fn with_multiples<F: FourLanes, R>(
         &self,
         four: F,
-        [a, b]: [f64; 2],
-        sum: impl FnOnce(&Multiples<'_>, &Multiples<'_>) -> R,
+        turns: [f64; 2],
+        sum: impl FnOnce(FourMultiples<F>, &Multiples<'_>) -> R,
     ) -> R {
-        let [first, second] = self.blocks.map(|blocks| 2 * blocks);
+        let [first, second] = sines_of_turns(four, turns);
+        let (first, second) = (FourMultiples::first(four, first), FourMultiples::first(four, second));
         let mut few = [[0.0; 4]; FEW];
         let mut many = Vec::new();
-        let all = if first + second <= FEW {
-            &mut few[..first + second]
+        let needed = 2 * self.blocks;
+        let blocks = if needed <= FEW {
+            &mut few[..needed]
         } else {
-            many.resize(first + second, [0.0; 4]);
+            many.resize(needed, [0.0; 4]);
             many.as_mut_slice()
         };
-        let (of_first, of_second) = all.split_at_mut(first);
-        let first = Multiples::fill(four, of_first, sin_cos_of_turns::<F>(a));
-        let second = Multiples::fill(four, of_second, sin_cos_of_turns::<F>(b));
-        sum(&first, &second)
+        sum(first, &Multiples::fill(four, blocks, second))
     }
 
     #[inline(always)]
-    fn axes_at<F: FourLanes>(&self, four: F, first: &Multiples<'_>, second: &Multiples<'_>) -> AxisState<f64> {
-        let values = self.axes.at(four, first, second);
-        let ([x, lx, y, ly], [z, lz]) = (values.changing, values.even);
-        AxisState {
-            axis: self.given_from_torus * Vector3::new(x, y, z),
-            momentum: self.given_from_torus * Vector3::new(lx, ly, lz),
-        }
+    fn axes_at<F: FourLanes>(&self, four: F, first: FourMultiples<F>, second: &Multiples<'_>) -> AxisState<f64> {
+        let [x, lx, y, ly, z, lz] = self.axes.at(four, first, second, Reflection::Even);
+        AxisState { axis: self.given(four, [x, y, z]), momentum: self.given(four, [lx, ly, lz]) }
     }
 
     #[inline(always)]
     fn state_at<F: FourLanes>(&self, four: F, [first, second, third]: [f64; 3]) -> BodyState<f64> {
         let (AxisState { axis, momentum }, values) = self.with_multiples(four, [first, second], |first, second| {
-            (self.axes_at(four, first, second), self.vector.at(four, first, second))
+            (self.axes_at(four, first, second), self.vector.at(four, first, second, Reflection::Odd))
         });
-        let ([real_x, imaginary_y, real_y, imaginary_x], [real_z, _], [_, imaginary_z]) =
-            (values.changing, values.even, values.odd);
-        let (sin, cos) = sin_cos_of_turns::<F>(third);
-        let turned =
-            Vector3::new(real_x, real_y, real_z) * cos - Vector3::new(imaginary_x, imaginary_y, imaginary_z) * sin;
-        BodyState { axis, momentum, equatorial_axis: self.given_from_torus * turned }
+        let [real_x, imaginary_y, real_y, imaginary_x, real_z, imaginary_z] = values;
+        let [(sin, cos), _] = sines_of_turns(four, [third; 2]);
+        let turned = |real: f64, imaginary: f64| real * cos - imaginary * sin;
+        let turned = [turned(real_x, imaginary_x), turned(real_y, imaginary_y), turned(real_z, imaginary_z)];
+        BodyState { axis, momentum, equatorial_axis: self.given(four, turned) }
+    }
+
+    /// A vector in the given frame.
+    #[inline(always)]
+    fn given<F: FourLanes>(&self, four: F, [x, y, z]: [f64; 3]) -> Vector3<f64> {
+        let [a, b, c] = &self.columns;
+        let by_z = four.multiply_add(four.load(c), four.all(z), four.all(0.0));
+        let by_y = four.multiply_add(four.load(b), four.all(y), by_z);
+        let [x, y, z, _] = four.store(four.multiply_add(four.load(a), four.all(x), by_y));
+        Vector3::new(x, y, z)
     }
 }
 

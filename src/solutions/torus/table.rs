@@ -1,7 +1,45 @@
 //! Tables of Fourier coefficients, and their sums.
 
-use super::fourier::Pair;
+use super::fourier::{Pair, Reflection};
 use crate::numerics::four_lanes::FourLanes;
+
+/// Cosines and sines of four multiples of an angle that follow one another, and of the angle times four.
+#[derive(Clone, Copy)]
+pub(super) struct FourMultiples<F: FourLanes> {
+    cos: F::Lanes,
+    sin: F::Lanes,
+    cos_of_four: F::Lanes,
+    sin_of_four: F::Lanes,
+    minus_sin_of_four: F::Lanes,
+}
+
+impl<F: FourLanes> FourMultiples<F> {
+    /// From zero on.
+    #[inline(always)]
+    pub(super) fn first(four: F, (sin, cos): (f64, f64)) -> Self {
+        let across = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a * c - b * d, b * c + a * d];
+        let first = [cos, sin];
+        let second = across(first, first);
+        let (third, [c, s]) = (across(second, first), across(second, second));
+        Self {
+            cos: four.load(&[1.0, first[0], second[0], third[0]]),
+            sin: four.load(&[0.0, first[1], second[1], third[1]]),
+            cos_of_four: four.all(c),
+            sin_of_four: four.all(s),
+            minus_sin_of_four: four.all(-s),
+        }
+    }
+
+    /// The four multiples after these.
+    #[inline(always)]
+    fn next(self, four: F) -> Self {
+        let zero = four.all(0.0);
+        let turned =
+            |by_cos, by_sin, sin| four.multiply_add(by_cos, self.cos_of_four, four.multiply_add(by_sin, sin, zero));
+        let cos = turned(self.cos, self.sin, self.minus_sin_of_four);
+        Self { cos, sin: turned(self.sin, self.cos, self.sin_of_four), ..self }
+    }
+}
 
 /// Cosines and sines of multiples of an angle from zero on, in blocks of four.
 pub(super) struct Multiples<'a> {
@@ -12,57 +50,28 @@ pub(super) struct Multiples<'a> {
 impl<'a> Multiples<'a> {
     /// Computes them, half of a slice the cosines and half the sines.
     #[inline(always)]
-    pub(super) fn fill<F: FourLanes>(four: F, blocks: &'a mut [[f64; 4]], (sin, cos): (f64, f64)) -> Self {
-        let across = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a * c - b * d, b * c + a * d];
-        let first = [cos, sin];
-        let second = across(first, first);
-        let (third, fourth) = (across(second, first), across(second, second));
+    pub(super) fn fill<F: FourLanes>(four: F, blocks: &'a mut [[f64; 4]], mut these: FourMultiples<F>) -> Self {
         let (of_cos, of_sin) = blocks.split_at_mut(blocks.len() / 2);
-        for i in 0..of_cos.len() {
-            if i == 0 {
-                of_cos[0] = [1.0, first[0], second[0], third[0]];
-                of_sin[0] = [0.0, first[1], second[1], third[1]];
-                continue;
-            }
-            // In as few steps after one another as there are binary digits.
-            let by = i.div_ceil(2);
-            let [c, s] = if i == 1 { fourth } else { [of_cos[by][0], of_sin[by][0]] };
-            let (near_cos, near_sin) = (four.load(&of_cos[i - by]), four.load(&of_sin[i - by]));
-            let (c, s, minus_s) = (four.all(c), four.all(s), four.all(-s));
-            let zero = four.all(0.0);
-            of_cos[i] = four.store(four.multiply_add(near_cos, c, four.multiply_add(near_sin, minus_s, zero)));
-            of_sin[i] = four.store(four.multiply_add(near_sin, c, four.multiply_add(near_cos, s, zero)));
+        for (cos, sin) in of_cos.iter_mut().zip(of_sin.iter_mut()) {
+            (*cos, *sin) = (four.store(these.cos), four.store(these.sin));
+            these = these.next(four);
         }
         Self { cos: of_cos, sin: of_sin }
     }
 }
 
 /// Fourier coefficients of six functions on the torus. Half a turn of the second angle changes the sign of the first four, which have `k = 1, 3, ...`, and not of
-/// the others, with `k = 0, 2, ...`. The first two are even under a reflection in the plane, the next two odd; the last two are whichever is asked for.
+/// the others, with `k = 0, 2, ...`. The first two and the fifth are even under a reflection in the plane, the next two odd; the last one is whichever is asked for.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Table {
     /// For every four multiples `j` of the first angle how many `i` are kept: `k = 2 i` and `2 i + 1`.
     counts: Vec<usize>,
-    /// For each of these `i` the coefficients of the four `j`.
-    coefficients: Vec<[Coefficients; 4]>,
+    /// For each of these `i` the coefficients of the six functions.
+    coefficients: Vec<[Coefficients; 6]>,
 }
 
-/// Coefficients of the six functions for one `j` and one `i`.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-struct Coefficients {
-    /// Of the first four functions, those with `cos (2 i + 1) theta_2` and with `sin (2 i + 1) theta_2`.
-    changing: [[f64; 4]; 2],
-    /// Of the last two functions, those with `cos 2 i theta_2` and then those with `sin 2 i theta_2`.
-    others: [f64; 4],
-}
-
-/// Values of the six functions, the last two taken as even and as odd ones.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Values {
-    pub(super) changing: [f64; 4],
-    pub(super) even: [f64; 2],
-    pub(super) odd: [f64; 2],
-}
+/// Coefficients of a function for four `j` and one `i`: those with `cos k theta_2` and with `sin k theta_2`.
+type Coefficients = [[f64; 4]; 2];
 
 /// The coefficients of a function for `j` and `i`; zero beyond its last.
 fn pair(table: &[Vec<Pair>], j: usize, i: usize) -> Pair {
@@ -98,12 +107,8 @@ impl Table {
     fn without_smallest(functions: &[Vec<Vec<Pair>>; 6], smallest: f64) -> (Self, f64) {
         let mut left = 0.0;
         let mut table = Self::default();
-        let of = |j: usize, i: usize| {
-            let of = |function: usize, part: usize| pair(&functions[function], j, i)[part];
-            Coefficients {
-                changing: [0, 1].map(|part| [0, 1, 2, 3].map(|function| of(function, part))),
-                others: [of(4, 0), of(5, 0), of(4, 1), of(5, 1)],
-            }
+        let of = |function: usize, first: usize, i: usize| {
+            [0, 1].map(|part| core::array::from_fn(|row| pair(&functions[function], first + row, i)[part]))
         };
         let length = functions[0].len();
         for first in (0..length).step_by(4) {
@@ -113,7 +118,7 @@ impl Table {
             let count = counts.into_iter().max().unwrap_or(0);
             left += omitted.iter().sum::<f64>();
             table.counts.push(count);
-            table.coefficients.extend((0..count).map(|i| [0, 1, 2, 3].map(|row| of(first + row, i))));
+            table.coefficients.extend((0..count).map(|i| core::array::from_fn(|function| of(function, first, i))));
         }
         while table.counts.last() == Some(&0) {
             table.counts.pop();
@@ -121,9 +126,9 @@ impl Table {
         (table, left)
     }
 
-    /// How many blocks of four multiples of each angle are needed.
-    pub(super) fn blocks(&self) -> [usize; 2] {
-        [self.counts.len(), self.counts.iter().map(|count| count.div_ceil(2)).max().unwrap_or(0)]
+    /// How many blocks of four multiples of the second angle are needed.
+    pub(super) fn blocks(&self) -> usize {
+        self.counts.iter().map(|count| count.div_ceil(2)).max().unwrap_or(0)
     }
 
     /// Number of pairs of frequencies.
@@ -133,48 +138,50 @@ impl Table {
 
     /// Multiplies the second, the fourth and the sixth function.
     pub(super) fn scale_every_other(&mut self, factor: f64) {
-        for Coefficients { changing: [a, b], others } in self.coefficients.iter_mut().flatten() {
-            for row in [a, b, others] {
-                row[1] *= factor;
-                row[3] *= factor;
+        for functions in &mut self.coefficients {
+            for function in [1, 3, 5] {
+                functions[function].as_flattened_mut().iter_mut().for_each(|x| *x *= factor);
             }
         }
     }
 
-    /// The sums for multiples of both angles.
+    /// The sums for multiples of both angles, the sixth taken as an even or as an odd function.
     #[inline(always)]
-    pub(super) fn at<F: FourLanes>(&self, four: F, first: &Multiples<'_>, second: &Multiples<'_>) -> Values {
+    pub(super) fn at<F: FourLanes>(
+        &self,
+        four: F,
+        mut first: FourMultiples<F>,
+        second: &Multiples<'_>,
+        sixth: Reflection,
+    ) -> [f64; 6] {
         let mut coefficients = self.coefficients.as_slice();
-        let zero = four.all(0.0);
-        let (mut sum, mut even, mut odd) = (zero, zero, zero);
+        let mut sums = [four.all(0.0); 6];
         let [cos_k, sin_k] = [second.cos, second.sin].map(|multiples| multiples.as_flattened().as_chunks::<2>().0);
-        for ((&count, cos), sin) in self.counts.iter().zip(first.cos).zip(first.sin) {
+        for &count in &self.counts {
             let (block, rest) = coefficients.split_at(count);
             coefficients = rest;
-            // Four rows at once, so that no sum waits for the one before.
-            let mut rows = [[zero; 3]; 4];
-            for ((block, [even_cos, odd_cos]), [even_sin, odd_sin]) in block.iter().zip(cos_k).zip(sin_k) {
-                let (cos, sin) = (four.all(*odd_cos), four.all(*odd_sin));
-                let both = four.load(&[*even_cos, *even_cos, *even_sin, *even_sin]);
-                for (row, Coefficients { changing: [a, b], others }) in rows.iter_mut().zip(block) {
+            // Twelve sums at once, so that none waits for the one before.
+            let mut rows = [[four.all(0.0); 2]; 6];
+            for ((functions, [even_cos, odd_cos]), [even_sin, odd_sin]) in block.iter().zip(cos_k).zip(sin_k) {
+                let odd = [four.all(*odd_cos), four.all(*odd_sin)];
+                let even = [four.all(*even_cos), four.all(*even_sin)];
+                for (f, (row, [a, b])) in rows.iter_mut().zip(functions).enumerate() {
+                    let [cos, sin] = if f < 4 { odd } else { even };
                     row[0] = four.multiply_add(four.load(a), cos, row[0]);
                     row[1] = four.multiply_add(four.load(b), sin, row[1]);
-                    row[2] = four.multiply_add(four.load(others), both, row[2]);
                 }
             }
-            for (([with_cos, with_sin, both], c), s) in rows.into_iter().zip(cos).zip(sin) {
-                let (turn, crossed) = (four.load(&[*c, *c, *s, *s]), four.load(&[*s, *s, *c, *c]));
-                sum = four.multiply_add(with_cos, turn, sum);
-                sum = four.multiply_add(with_sin, crossed, sum);
-                even = four.multiply_add(both, turn, even);
-                odd = four.multiply_add(both, crossed, odd);
+            for (f, (sum, [with_cos, with_sin])) in sums.iter_mut().zip(rows).enumerate() {
+                let is_odd = f == 2 || f == 3 || f == 5 && sixth == Reflection::Odd;
+                let (a, b) = if is_odd { (first.sin, first.cos) } else { (first.cos, first.sin) };
+                *sum = four.multiply_add(with_sin, b, four.multiply_add(with_cos, a, *sum));
             }
+            first = first.next(four);
         }
-        let [even, odd] = [even, odd].map(|lanes| {
+        sums.map(|lanes| {
             let [a, b, c, d] = four.store(lanes);
-            [a + c, b + d]
-        });
-        Values { changing: four.store(sum), even, odd }
+            (a + c) + (b + d)
+        })
     }
 }
 
@@ -187,7 +194,7 @@ mod tests {
     #[test]
     fn multiples_are_those_of_the_angle() {
         let mut blocks = [[0.0; 4]; 20];
-        let found = Multiples::fill(plain(), &mut blocks, 0.7_f64.sin_cos());
+        let found = Multiples::fill(plain(), &mut blocks, FourMultiples::first(plain(), 0.7_f64.sin_cos()));
         let pairs = found.cos.as_flattened().iter().zip(found.sin.as_flattened());
         assert_eq!(pairs.len(), 40);
         for (k, (cos, sin)) in pairs.enumerate() {
@@ -203,7 +210,8 @@ mod tests {
             core::array::from_fn(|f| vec![vec![[1.0, 1.0]; if f < 4 { 2 } else { 3 }]]);
         let (table, left) = Table::without_smallest(&functions, 0.1);
         assert_eq!((table.counts.as_slice(), left), (&[3][..], 0.0));
-        assert_eq!((table.coefficients[2][0].changing, table.coefficients[2][0].others), ([[0.0; 4]; 2], [1.0; 4]));
+        let of_zero = table.coefficients[2].map(|function| function.map(|rows| rows[0]));
+        assert_eq!(of_zero, [[0.0; 2], [0.0; 2], [0.0; 2], [0.0; 2], [1.0; 2], [1.0; 2]]);
     }
 
     /// Six functions with coefficients that differ, summed term by term, by vectors and one by one.
@@ -216,7 +224,7 @@ mod tests {
             (0..5).map(row).collect()
         });
         let (table, left) = Table::without_smallest(&functions, 0.0);
-        assert_eq!((left, table.blocks(), table.len()), (0.0, [2, 2], 64));
+        assert_eq!((left, table.blocks(), table.len()), (0.0, 2, 64));
         let (a, b) = (0.4_f64, 1.1_f64);
         let of = |f: usize, is_even: bool| {
             let parity = usize::from(f < 4);
@@ -228,23 +236,20 @@ mod tests {
             });
             each.sum::<f64>()
         };
-        let expected = Values {
-            changing: [of(0, true), of(1, true), of(2, false), of(3, false)],
-            even: [of(4, true), of(5, true)],
-            odd: [of(4, false), of(5, false)],
-        };
-        let (mut first, mut second) = ([[0.0; 4]; 4], [[0.0; 4]; 4]);
-        let first = Multiples::fill(plain(), &mut first, a.sin_cos());
-        let second = Multiples::fill(plain(), &mut second, b.sin_cos());
-        let near = |found: Values| {
-            let pairs = found.changing.into_iter().zip(expected.changing);
-            let pairs = pairs.chain(found.even.into_iter().zip(expected.even));
-            let off = pairs.chain(found.odd.into_iter().zip(expected.odd)).map(|(a, b)| (a - b).abs());
-            assert!(off.fold(0.0, f64::max) < 1e-14, "{found:?} {expected:?}");
-        };
-        near(table.at(plain(), &first, &second));
-        if let Some(fused) = detect_fused() {
-            near(run_fused(fused, || table.at(fused, &first, &second)));
+        let mut blocks = [[0.0; 4]; 4];
+        let [first, second] = [a, b].map(|angle| angle.sin_cos());
+        let second = Multiples::fill(plain(), &mut blocks, FourMultiples::first(plain(), second));
+        for sixth in [Reflection::Even, Reflection::Odd] {
+            let is_even = [true, true, false, false, true, sixth == Reflection::Even];
+            let near = |found: [f64; 6]| {
+                for (f, found) in found.into_iter().enumerate() {
+                    assert!((found - of(f, is_even[f])).abs() < 1e-14, "{f} {sixth:?}: {found}");
+                }
+            };
+            near(table.at(plain(), FourMultiples::first(plain(), first), &second, sixth));
+            if let Some(fused) = detect_fused() {
+                near(run_fused(fused, || table.at(fused, FourMultiples::first(fused, first), &second, sixth)));
+            }
         }
     }
 
@@ -257,7 +262,7 @@ mod tests {
         });
         // The longest of each four rows is their first.
         let (mut table, left) = Table::without_smallest(&functions, 1e-5);
-        assert_eq!((table.counts.as_slice(), table.blocks()), (&[3, 1][..], [2, 2]));
+        assert_eq!((table.counts.as_slice(), table.blocks()), (&[3, 1][..], 2));
         // Of the first four functions the first is the largest, of the others the fifth.
         let small = |size: &f64| *size <= 1e-5;
         let terms = |parity: usize| (0..6).flat_map(move |j| (0..4).map(move |i| (j, 2 * i + parity)));
@@ -265,11 +270,12 @@ mod tests {
         let even: f64 = terms(0).map(|(j, k)| fall(4, j, k)).filter(small).sum();
         assert!((left / (odd + even) - 1.0).abs() < 1e-12, "{left:e} {odd:e} {even:e}");
         table.scale_every_other(3.0);
-        let [first, ..] = table.coefficients[0];
-        assert_eq!(first.changing, [[0.0; 4], [0.1, 3.0 * fall(1, 0, 1), fall(2, 0, 1), 3.0 * fall(3, 0, 1)]]);
-        assert_eq!(first.others, [0.0, 0.0, fall(4, 0, 0), 3.0 * fall(5, 0, 0)]);
+        // By function and part.
+        let of_row = |cell: usize, row: usize| table.coefficients[cell].map(|function| function.map(|rows| rows[row]));
+        let scaled = [1.0, 3.0, 1.0, 3.0, 1.0, 3.0];
+        let expected = core::array::from_fn(|f| [0.0, scaled[f] * fall(f, 0, usize::from(f < 4))]);
+        assert_eq!(of_row(0, 0), expected);
         // Rows beyond the last are zero.
-        let [_, last, ..] = table.coefficients[3];
-        assert_eq!((last.others[2], table.coefficients[3][2]), (fall(4, 5, 0), Coefficients::default()));
+        assert_eq!((of_row(3, 1)[4][1], of_row(3, 2)), (fall(4, 5, 0), [[0.0; 2]; 6]));
     }
 }

@@ -84,6 +84,11 @@ impl<S: Real> ClosedWays<S> {
         all
     }
 
+    /// Angle (rad) by which the vector of the body is turned at some turns of both angles.
+    pub(super) fn turned(&self, [first, second]: [f64; 2]) -> f64 {
+        2.0 * (self.fast.turn.re() * first + self.slow.turn.re() * second)
+    }
+
     /// Rounded to doubles.
     pub(super) fn rounded(&self) -> ClosedWays<f64> {
         let half = |way: &HalfWay<S>| HalfWay { times: way.times.map(S::re), turn: way.turn.re() };

@@ -32,7 +32,7 @@ checks! {
      1e2";
     /// the estimated error of the series is not below the true one
     Oracle "torus-error-estimate" [25]: estimates;
-    AtMost(1.0) "largest true / estimated error, 200 random scenes up to 60 rad";
+    AtMost(1.0) "largest true / estimated error, 200 random scenes up to 60 rad, and eight that are near an edge";
     because "an estimate below the true error is wrong";
     /// whatever the strength of the torque, also from rest, hardly a motion is refused whose L does not start beside the middle axis
     Property "torus-refusals" [25]: refusals;
@@ -240,6 +240,11 @@ fn thousand() -> Result<Measured, String> {
 /// Seed of the scenes.
 const SEED: u64 = 64;
 
+/// Seeds and numbers of scenes on which an estimate may fail: `n` on `L` within 1e-8 rad, whose way to the plane has whole turns; nearly equal eigenvalues; coefficients that grow
+/// again behind small ones.
+const NEAR_AN_EDGE: [(u64, u64); 8] =
+    [(21, 8767), (22, 1954), (22, 2905), (22, 7243), (23, 1420), (23, 2443), (23, 4387), (24, 7195)];
+
 fn scenes() -> impl Iterator<Item = ErrorScene> {
     (0..).map(|number| ErrorScene::draw(SEED, number))
 }
@@ -249,7 +254,13 @@ fn estimates() -> Result<Measured, String> {
     let ratio =
         |scene: ErrorScene| scene.estimated_and_true(Method::Torus).ok().map(|(estimate, error)| error / estimate);
     let ratios: Vec<f64> = short.filter_map(ratio).take(200).collect();
-    Ok(Measured::new(largest(ratios), format!("seed {SEED}")))
+    let named = worst_of(NEAR_AN_EDGE, |&(seed, number)| {
+        let scene = ErrorScene::draw(seed, number).for_method(Method::Torus, 0).ok_or("no such scene")?;
+        let (estimate, error) = scene.estimated_and_true(Method::Torus)?;
+        Ok(error / estimate)
+    })?;
+    let random = Measured::new(largest(ratios), format!("seed {SEED}"));
+    Ok(if named.figure > random.figure { named } else { random })
 }
 
 fn refusals() -> Result<Measured, String> {
