@@ -52,8 +52,9 @@ def fitted():
     return fitter.model, toas
 
 
-def epochs(model, toas, phases, sigmas):
-    """Numbers, phases and errors (s) of the means of each epoch, with the error that its times share."""
+def epochs(model, toas, sigmas):
+    """Numbers, phases since PEPOCH and errors (s) of the means of each epoch, with the error that its times share."""
+    phases, since = model.phase(toas, abs_phase=True), model.phase(toas, abs_phase=False)
     basis, weights = model.components["EcorrNoise"].ecorr_basis_weight_pair(toas)
     groups = [(np.flatnonzero(column), weight) for column, weight in zip(np.asarray(basis).T, weights)]
     grouped = np.concatenate([places for places, _ in groups])
@@ -62,20 +63,20 @@ def epochs(model, toas, phases, sigmas):
         weight = 1 / sigmas[places] ** 2
         numbers = phases.int[places].astype(float).astype(int)
         offsets = np.asarray(phases.frac[places], float)
-        yield numbers[0], np.average(offsets, weights=weight), np.sqrt(1 / weight.sum() + shared)
+        first = places[0]
+        phase = np.longdouble(since.int[first]) + np.longdouble(since.frac[first])
+        yield numbers[0], phase + (np.average(offsets, weights=weight) - offsets[0]), np.sqrt(1 / weight.sum() + shared)
 
 
 def main():
     without_network()
     model, toas = fitted()
-    phases = model.phase(toas, abs_phase=True)
     sigmas = model.scaled_toa_uncertainty(toas).to_value("s")
     f0, f1 = model.F0.quantity.to_value("Hz"), model.F1.quantity.to_value("Hz/s")
     f0 = np.longdouble(f0)
     lines = []
-    for number, offset, sigma in epochs(model, toas, phases, sigmas):
+    for number, phase, sigma in epochs(model, toas, sigmas):
         # When a star that only rotates has the phase that was seen.
-        phase = np.longdouble(number) + offset
         time = phase / f0
         for _ in range(4):
             time -= (f0 * time + f1 * time**2 / 2 - phase) / (f0 + f1 * time)

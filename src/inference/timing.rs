@@ -63,7 +63,7 @@ impl TimingData {
     ///
     /// # Errors
     /// As for [`TimingModel::phase`].
-    pub(super) fn numbered(&self, model: &TimingModel) -> Result<Self, Error> {
+    pub fn numbered(&self, model: &TimingModel) -> Result<Self, Error> {
         let mut shift = None;
         let mut data = self.clone();
         for arrival in &mut data.arrivals {

@@ -29,17 +29,20 @@ const PHASES: usize = 512;
 /// Standard deviations about the best wobble that are integrated over.
 const REACH: f64 = 9.0;
 
+/// A wobble (rad) that is none: rounding of the initial state.
+const NO_WOBBLE: f64 = 1e-12;
+
 /// Largest wobble (rad) for which residuals are taken as in proportion to it: what is left out is of relative size `theta`.
 const LARGEST: f64 = 0.1;
 
-/// The wobble that arrival times allow at each of some rates of precession, of a star that fits them without one.
+/// The wobble that arrival times allow at each of some rates of precession, of a star that was fitted to them without one, by the `unknowns`: none of them of the wobble or of the torque.
 ///
 /// Residuals of a small wobble are `theta (D_c cos psi_0 + D_s sin psi_0)`, with the derivatives of the phase by the wobble at two phases: `theta cot chi sin psi / (2 pi F0)` by geometry, and the
 /// lateness by the torque. The other unknowns are projected out. The limit is the quantile of the posterior of `theta`, with a flat prior for `theta` and for `psi_0`. Where it is above 0.1 rad the
 /// data do not limit it, and it is infinite.
 ///
 /// # Errors
-/// As for [`fit_timing`](super::fit_timing) by the model; [`Error::Domain`] for a probability outside 0 to 1, and where a wobble of the period does not move the pulses, as with `chi` a right angle.
+/// As for [`fit_timing`](super::fit_timing) by the model; [`Error::Domain`] for a probability outside 0 to 1, for a fitted model with a wobble, and for unknowns on which residuals without a wobble do not depend: `wobble`, `chi`, `precession_phase`, `precession_rate` and `torque_share`. Where a wobble does not move the pulses, as with `chi` a right angle, the limit is infinite.
 pub fn wobble_limits(
     fitted: &TimingModel,
     data: &TimingData,
@@ -47,10 +50,17 @@ pub fn wobble_limits(
     precession_rates: &[f64],
     probability: f64,
 ) -> Result<Vec<WobbleLimit>, InferenceError> {
-    use TimingParameter::{PrecessionPhase, PrecessionRate, Wobble};
+    use TimingParameter::{Chi, PrecessionPhase, PrecessionRate, TorqueShare, Wobble};
     Error::ensure((0.0..1.0).contains(&probability), "confidence", probability, "from 0 to below 1")?;
+    let wobble = fitted.value(Wobble);
+    Error::ensure(wobble < NO_WOBBLE, "wobble (rad)", wobble, "zero, for a limit of what can be")?;
+    let of_wobble = [Wobble, Chi, PrecessionPhase, PrecessionRate, TorqueShare];
+    if let Some(unknown) = unknowns.iter().find(|unknown| of_wobble.contains(unknown)) {
+        let why = "residuals without a wobble do not depend on it: it is held fixed";
+        return Err(Error::Unsupported { what: unknown.key(), why }.into());
+    }
     let without = |rate: f64, phase: f64| {
-        let [wobble, old_rate, old_phase] = [Wobble, PrecessionRate, PrecessionPhase].map(|of| fitted.value(of));
+        let [old_rate, old_phase] = [PrecessionRate, PrecessionPhase].map(|of| fitted.value(of));
         fitted.moved(&[(Wobble, -wobble), (PrecessionRate, rate - old_rate), (PrecessionPhase, phase - old_phase)])
     };
     let rest = without(0.0, 0.0)?;
@@ -109,7 +119,8 @@ impl Posterior {
         }
         let low = (best.norm() - REACH * widest).max(0.0);
         let step = (best.norm() + REACH * widest - low) / POINTS as f64;
-        let phases = PHASES.max((40.0 * best.norm() / finest).min(1e5) as usize);
+        // A needle of the width `finest` across is seen at an angle of that over the wobble. Points an angle apart that is an eighth of it leave nothing of a normal distribution.
+        let phases = PHASES.max((8.0 * TAU * (best.norm() + REACH * widest) / finest).min(2e5) as usize);
         let mut sums = vec![0.0; POINTS + 1];
         for k in 0..phases {
             let (sin, cos) = (TAU * k as f64 / phases as f64).sin_cos();
@@ -146,6 +157,14 @@ mod tests {
         assert!((far.limit - expected).abs() < 4e-11, "{far:?} {expected:e}");
         assert!((far.gain / 5e6 - 1.0).abs() < 1e-12);
         assert!(round([1e9; 2]).limit(1.0, 0.5).limit < far.limit);
+        // A thousand times as long as wide: the limit does not depend on where it points.
+        let needle = |turn: f64| {
+            let (sin, cos) = f64::sin_cos(turn);
+            let along = Matrix2::new(cos * cos, cos * sin, cos * sin, sin * sin);
+            Posterior { curvature: along * 1e10 + (Matrix2::identity() - along) * 1e16, pull: Vector2::zeros() }
+        };
+        let limits = [0.0, 0.3, 1.234].map(|turn| needle(turn).limit(1.0, 0.95).limit);
+        assert!(limits.iter().all(|limit| (limit / limits[0] - 1.0).abs() < 1e-3), "{limits:?}");
         let blind = Posterior { curvature: Matrix2::new(1.0, 0.0, 0.0, 0.0), pull: Vector2::zeros() };
         assert_eq!(blind.limit(1.0, 0.95).limit, f64::INFINITY);
     }

@@ -67,12 +67,13 @@ fn periods(text: &str) -> Result<Periods, String> {
 }
 
 fn prior(text: &str) -> Result<Prior, String> {
-    let wrong = || "allowed is a parameter, its mean and its standard deviation above zero, as chi:1.2:0.05".to_owned();
+    let wrong =
+        || "allowed is a parameter, its mean and its standard deviation, at least 1e-100, as chi:1.2:0.05".to_owned();
     let [name, mean, sigma] = text.split(':').collect::<Vec<_>>()[..] else { return Err(wrong()) };
     let number = |text: &str| text.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(wrong);
     let parameter = named(name, &TimingParameter::ALL)?[0];
     let (mean, sigma) = (number(mean)?, number(sigma)?);
-    if sigma > 0.0 { Ok(Prior { parameter, mean, sigma }) } else { Err(wrong()) }
+    if sigma >= 1e-100 { Ok(Prior { parameter, mean, sigma }) } else { Err(wrong()) }
 }
 
 pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
@@ -81,7 +82,7 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
     let refuse = |why: String| Failure::BadInput(format!("{}: {why}", args.scene));
     let pulsar = PulsarScene::new(&scene).map_err(refuse)?;
     let start = pulsar.clock.timing_model()?;
-    let data = read(args, &pulsar)?;
+    let data = read(args, &pulsar, &start)?;
     let unknowns = match args.parameters.as_deref() {
         Some("all") => TimingParameter::ALL.to_vec(),
         Some(list) => named(list, &TimingParameter::ALL).map_err(|why| refuse(format!("--parameters: {why}")))?,
@@ -107,31 +108,29 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
     tell_fit(&found, &data, &pulsar);
     let mut page = readable(&short);
     let mut tables = all;
-    if unknowns.contains(&InclinationRate) {
+    let are_larger = found.judged() == Residuals::Larger;
+    if unknowns.contains(&InclinationRate) && !are_larger {
         page += &limit_on_s(&found)?;
     }
-    if let Some(periods) = args.periods {
+    if let Some(periods) = args.periods.filter(|_| !are_larger) {
+        check_periods(periods, model, &data)?;
         let limits = wobble_limits(model, &data, &unknowns, &periods.rates(), CONFIDENCE).map_err(refused)?;
-        let mut rows = vec![
-            ["period [d]", "wobble, best [rad]", "gain of chi^2", "wobble, limit [rad]"].map(String::from).to_vec(),
-        ];
-        let mut plain = vec![["period [d]", "best [rad]", "gain", "limit [rad]"].map(String::from).to_vec()];
+        let head = ["period [d]", "best wobble [rad]", "gain of chi^2", "limit of the wobble [rad]"]
+            .map(String::from)
+            .to_vec();
+        let (mut rows, mut plain) = (vec![head.clone()], vec![head]);
         for limit in &limits {
             let values = [TAU / limit.precession_rate / DAY, limit.best, limit.gain, limit.limit];
-            rows.push(
-                values
-                    .iter()
-                    .map(|value| if value.is_finite() { significant(*value, 4) } else { "none".to_owned() })
-                    .collect(),
-            );
-            plain.push(
-                values
-                    .iter()
-                    .map(|value| if value.is_finite() { format!("{value:?}") } else { String::new() })
-                    .collect(),
-            );
+            let either = |finite: &dyn Fn(f64) -> String, other: &str| -> Vec<String> {
+                values.iter().map(|value| if value.is_finite() { finite(*value) } else { other.to_owned() }).collect()
+            };
+            rows.push(either(&|value| significant(value, 4), "none"));
+            plain.push(either(&|value| format!("{value:?}"), ""));
         }
-        page += &format!("\nLimits on the wobble at {} %, for chi and the torque's share above\n", 100.0 * CONFIDENCE);
+        page += &format!(
+            "\nLimits on the wobble at {} %, for the chi and the share of the torque that are held fixed\n",
+            100.0 * CONFIDENCE
+        );
         page += &readable(&rows);
         tables = plain;
     }
@@ -139,7 +138,29 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
     print(&(page + &assumptions(model, &unknowns, &data)))
 }
 
-fn read(args: &LimitsArgs, pulsar: &PulsarScene) -> Result<TimingData, Failure> {
+/// Refuses periods of a few pulses, and notes those that the data are too rare for.
+fn check_periods(periods: Periods, model: &TimingModel, data: &TimingData) -> Result<(), Failure> {
+    let shortest = periods.first.min(periods.last);
+    let least = 1000.0 / model.value(TimingParameter::F0) / DAY;
+    if shortest < least {
+        return Err(Failure::BadInput(format!(
+            "--periods: {shortest:e} d: allowed are periods of at least a thousand pulses, {least:.3e} d"
+        )));
+    }
+    let mut times: Vec<f64> = data.arrivals.iter().map(|arrival| arrival.time[0]).collect();
+    times.sort_by(f64::total_cmp);
+    if let [first, .., last] = times[..] {
+        let apart = (last - first) / (times.len() - 1) as f64 / DAY;
+        if shortest < 2.0 * apart {
+            note(&format!(
+                "data are {apart:.3e} d apart, more than half of the shortest period: its wobble may look like one of another period"
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn read(args: &LimitsArgs, pulsar: &PulsarScene, start: &TimingModel) -> Result<TimingData, Failure> {
     let noise = match &args.observe {
         None => Vec::new(),
         Some(text) => parse_noise(text, 1.0).map_err(|why| Failure::BadInput(format!("--observe: {why}")))?,
@@ -152,7 +173,30 @@ fn read(args: &LimitsArgs, pulsar: &PulsarScene) -> Result<TimingData, Failure> 
     let mut data = TimingData { priors: args.prior.clone(), ..TimingData::default() };
     for path in &args.data {
         let file = DataFile::read(path).map_err(Failure::BadInput)?;
-        file.add_timing(&pulsar.epoch, &noise, &mut data).map_err(Failure::BadInput)?;
+        let mut more = TimingData::default();
+        file.add_timing(&pulsar.epoch, &noise, &mut more).map_err(Failure::BadInput)?;
+        // Each file counts its pulses from one of its own.
+        let more = more.numbered(start)?;
+        let again =
+            more.arrivals.first().is_some_and(|first| data.arrivals.iter().any(|other| other.time == first.time));
+        if again || more.widths.first().is_some_and(|first| data.widths.iter().any(|other| other.time == first.time)) {
+            return Err(Failure::BadInput(format!(
+                "{path}: its first datum is in a file before it: allowed are data measured once"
+            )));
+        }
+        data.arrivals.extend(more.arrivals);
+        data.widths.extend(more.widths);
+    }
+    for (observable, none) in
+        [(Observable::Arrivals, data.arrivals.is_empty()), (Observable::Widths, data.widths.is_empty())]
+    {
+        if none && noise.iter().any(|(kind, _)| *kind == observable) {
+            let (key, files) = (observable.key(), args.data.join(", "));
+            return Err(Failure::BadInput(format!("--observe {key}: there is no such datum in {files}")));
+        }
+    }
+    if data.arrivals.is_empty() && data.widths.is_empty() {
+        return Err(Failure::BadInput(format!("{}: no data", args.data.join(", "))));
     }
     Ok(data)
 }
@@ -172,7 +216,7 @@ fn tell_fit(found: &Fit<TimingModel>, data: &TimingData, pulsar: &PulsarScene) {
     match found.judged() {
         Residuals::AsStated => {}
         Residuals::Larger => note(&format!(
-            "the residuals are {size} times the errors stated (root mean square): the model lacks something, or the errors are larger; limits are for the errors stated"
+            "the residuals are {size} times the errors stated (root mean square): the model lacks something, or the errors are larger. No limit is printed: it would be for the errors stated"
         )),
         Residuals::Smaller => note(&format!("the residuals are {size} times the errors stated (root mean square)")),
     }
@@ -204,14 +248,14 @@ fn limit_on_s(found: &Fit<TimingModel>) -> Result<String, Failure> {
 /// What was held fixed, and what the model has.
 fn assumptions(model: &TimingModel, unknowns: &[TimingParameter], data: &TimingData) -> String {
     let fixed = TimingParameter::ALL.iter().filter(|parameter| !unknowns.contains(parameter));
-    let fixed: Vec<_> = fixed
-        .map(|parameter| {
-            format!("{} = {} {}", parameter.key(), significant(model.value(*parameter), 8), parameter.unit())
-        })
-        .collect();
+    let stated = |parameter: TimingParameter, value: String| {
+        let unit = if parameter.unit() == "1" { "" } else { parameter.unit() };
+        format!("{} = {value} {unit}", parameter.key()).trim_end().to_owned()
+    };
+    let fixed: Vec<_> = fixed.map(|parameter| stated(*parameter, significant(model.value(*parameter), 8))).collect();
     let mut text = format!("\nHeld fixed: {}\n", fixed.join(", "));
     for Prior { parameter, mean, sigma } in &data.priors {
-        text += &format!("Known beforehand: {} = {mean:?} +- {sigma:?} {}\n", parameter.key(), parameter.unit());
+        text += &format!("Known beforehand: {}\n", stated(*parameter, format!("{mean:?} +- {sigma:?}")));
     }
     text + "The model: free precession of a biaxial star, a braking torque along L, independent normal errors\n"
 }

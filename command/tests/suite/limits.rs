@@ -120,11 +120,13 @@ fn what_is_wrong_is_named() {
         ("number.tim", line("a 0.0 55321.5 1.0 @ -pn x")),
         ("fields.tim", line("a 0.0 55321.5")),
         ("old.tim", "FORMAT 2\n".to_owned()),
+        ("flag.tim", line("a 0.0 55321.5 1.0 @ -padd 0.3")),
         ("no.csv", "x,y\n1,2\n".to_owned()),
+        ("empty.tim", "FORMAT 1\n".to_owned()),
     ] {
         std::fs::write(folder.at(name), text).expect("a file");
     }
-    let refusals: [(&[&str], &[&str]); 14] = [
+    let refusals: [(&[&str], &[&str]); 21] = [
         (&["site.tim"], &["site.tim:2: site `ao`", "allowed are @"]),
         (&["frequency.tim"], &["frequency.tim:2: frequency `1400`", "allowed is 0"]),
         (&["error.tim"], &["error.tim:2: uncertainty `-1.0`", "above zero"]),
@@ -137,7 +139,17 @@ fn what_is_wrong_is_named() {
         (&["b1937+21.csv", "--observe", "periods:1"], &["--observe periods", "arrivals and widths"]),
         (&["b1937+21.tim", "--parameters", "fO"], &["--parameters: `fO` is no parameter", "f0"]),
         (&["b1937+21.tim", "--prior", "chi:1.2:0.1"], &["--prior chi", "--parameters has no chi"]),
-        (&["b1937+21.tim", "--prior", "chi:1.2:0"], &["chi:1.2:0", "above zero"]),
+        (&["b1937+21.tim", "--prior", "chi:1.2:0"], &["chi:1.2:0", "at least 1e-100"]),
+        (&["flag.tim"], &["flag.tim:2: `-padd` changes the time"]),
+        (&["empty.tim"], &["empty.tim: no data"]),
+        (&["b1937+21.tim", "b1937+21.tim"], &["its first datum is in a file before it", "measured once"]),
+        (&["b1937+21.tim", "--observe", "widths:1e-5"], &["--observe widths: there is no such datum"]),
+        (&["b1937+21.tim", "--periods", "1e-5:1:2"], &["--periods: 1e-5 d", "at least a thousand pulses"]),
+        (&["b1937+21.tim", "--prior", "rho:0.2:1e-320"], &["rho:0.2:1e-320", "at least 1e-100"]),
+        (
+            &["b1937+21.tim", "--parameters", "phase,chi", "--prior", "chi:1.3:0.2", "--periods", "50:90:2"],
+            &["chi", "held fixed"],
+        ),
         (&["b1937+21.tim", "--periods", "50:20"], &["50:20", "two periods"]),
     ];
     for (args, reasons) in refusals {
@@ -146,4 +158,31 @@ fn what_is_wrong_is_named() {
     }
     let blind = ends(folder.run(&["limits", "b1937+21", "b1937+21.tim", "--parameters", "phase,rho"]), 1);
     has_all(&stderr(&blind), &["do not determine", "d(rho) alone"]);
+    // A wobble that shows, and another star: no limit.
+    let folder = timed("isolated-pulsar");
+    let wobbling = folder.run(&["limits", "isolated-pulsar", "isolated-pulsar.tim", "--periods", "50:2000:5"]);
+    has_all(&stderr(&wobbling), &["wobble (rad)", "zero"]);
+    assert!(!wobbling.status.success());
+    let other = ["limits", "b1828-11", "isolated-pulsar.tim", "--parameters", "phase,f0", "--periods", "50:90:2"];
+    let other = folder.succeeds(&other);
+    assert!(stderr(&other).contains("No limit is printed") && !stdout(&other).contains("limit of the wobble"));
+}
+
+/// F2 of a star whose F1 is zero at the start of the fit, and one of timing noise; and numbers that two files count differently.
+#[test]
+fn any_f2_is_fitted_and_files_count_for_themselves() {
+    let folder = timed("b1937+21");
+    let unknowns = "phase,f0,f1,f2";
+    let args =
+        ["limits", "b1937+21", "b1937+21.tim", "b1937+21.csv", "--observe", "arrivals:1e-6", "--parameters", unknowns];
+    let again = folder.run(&args);
+    has_all(&stderr(&again), &["measured once"]);
+    let lines: Vec<_> = folder.read("b1937+21.tim").lines().map(str::to_owned).collect();
+    folder.write("half.tim", lines[..200].join("\n"));
+    let table: Vec<_> = folder.read("b1937+21.csv").lines().map(str::to_owned).collect();
+    folder.write("rest.csv", [&table[..1], &table[250..]].concat().join("\n"));
+    let args = ["limits", "b1937+21", "half.tim", "rest.csv", "--observe", "arrivals:1e-6", "--parameters", unknowns];
+    let found = folder.succeeds(&args);
+    let chi_squared = stderr(&found).split("chi^2 = ").nth(1).and_then(|rest| rest.split(' ').next()?.parse().ok());
+    assert!(chi_squared.is_some_and(|chi_squared: f64| chi_squared < 1e-3), "{}", stderr(&found));
 }

@@ -13,6 +13,9 @@ const BARYCENTRE: [&str; 4] = ["@", "bat", "ssb", "bary"];
 /// Standard deviations (s) of an arrival time that are taken.
 const SIGMAS: std::ops::RangeInclusive<f64> = 1e-15..=1e6;
 
+/// Flags of a `.tim` that change a time or its phase.
+const CHANGING: [&str; 4] = ["-to", "-padd", "-addsat", "-jump"];
+
 impl DataFile {
     /// Adds the arrival times and widths of a `.tim` (FORMAT 1, barycentred, infinite frequency), or of a table with the columns `arrival_day [MJD]`, `arrival_fraction [d]` and, for widths,
     /// `duration [s]`; a column `pulse` numbers the pulses. `noise` has the standard deviations (s) of what a table has; a `.tim` has its own.
@@ -56,15 +59,21 @@ impl DataFile {
                     let sigma = error.parse::<f64>().ok().map(|sigma| sigma * 1e-6);
                     let sigma = sigma.filter(|sigma| SIGMAS.contains(sigma)).ok_or_else(|| {
                         refuse(format!(
-                            "uncertainty `{}`: allowed is a number of microseconds above zero",
+                            "uncertainty `{}`: allowed is a number of microseconds from 1e-9 to 1e12",
                             shortened(error)
                         ))
                     })?;
+                    if let Some(flag) = flags.iter().find(|flag| CHANGING.contains(flag)) {
+                        return Err(refuse(format!(
+                            "`{flag}` changes the time or its phase: allowed are times to which that has been done"
+                        )));
+                    }
                     let number = match flags.iter().position(|flag| *flag == "-pn") {
                         None => None,
                         Some(at) => {
                             let text = flags.get(at + 1).copied().unwrap_or("");
-                            Some(self.whole(place as u64 + 1, "-pn", text)?)
+                            // As PINT writes it.
+                            Some(self.whole(place as u64 + 1, "-pn", text.strip_suffix(".0").unwrap_or(text))?)
                         }
                     };
                     let at: Epoch = date.parse().map_err(|error| refuse(format!("`{}`: {error}", shortened(date))))?;
@@ -106,7 +115,12 @@ impl DataFile {
             let number = has_numbers.then(|| self.whole(line, "pulse", &fields[wanted.len() - 1])).transpose()?;
             data.arrivals.extend(of_arrival.map(|sigma| MeasuredArrival { time, sigma, number }));
             if let Some(sigma) = of_width {
-                data.widths.push(MeasuredWidth { time: time[0], duration: field(2)?, sigma });
+                let duration = field(2)?;
+                if duration <= 0.0 {
+                    let (name, column) = (&self.name, &wanted[2]);
+                    return Err(format!("{name}:{line}: `{column}` is `{duration}`: allowed is a number above zero"));
+                }
+                data.widths.push(MeasuredWidth { time: time[0], duration, sigma });
             }
         }
         Ok(())

@@ -2,11 +2,11 @@
 //! derivatives by [twelve parameters](TimingParameter).
 //!
 //! ```text
-//! phase(t) = phase + F0 tau + B(psi) / 2 pi,    psi = psi_0 + w tau,    t = tau + secular part + Q(tau) - Q(0)
+//! phase(t) = phase + F0 tau + B(psi) / 2 pi + (F2 - 3 F1^2 / F0) t^3 / 6,    psi = psi_0 + w tau,    t = tau + kappa tau^2 / 2 + Q(tau) - Q(0),    kappa = -F1 / F0
 //! B = arg[sin chi (1 - (1 - cos theta) cos^2 psi) - sin theta cos chi cos psi - i sin psi (sin theta cos chi + sin chi (1 - cos theta) cos psi)]
 //! ```
 //!
-//! with the [stretched time](crate::spin_down::StretchedTime) `tau` of the braking torque. `phase + F0 tau + B / 2 pi` are the turns of the magnetic axis about `L` from the
+//! with the [stretched time](crate::spin_down::StretchedTime) `tau` of a torque with the braking index 3; an F2 beyond the `3 F1^2 / F0` of that stands as a term of the Taylor series, whatever its cause. The phase has the turns of the magnetic axis about `L` from the
 //! line of sight: `n` goes round `L` at `2 pi F0 + w`, and the magnetic axis is ahead of `n` by `pi - psi + B(psi)`. A pulse is where the phase is a whole number.
 //!
 //! What Lorentz violation does to it: it moves `L`, and so the [inclination](TimingParameter::InclinationRate), which the width shows. That the turns are
@@ -67,7 +67,7 @@ impl TimingModel {
     ///
     /// # Errors
     /// [`Error::Domain`] for a frequency that is not above zero; a wobble that is not from 0 to a right angle; a `chi` nearer than the wobble to 0 or pi, of which the magnetic axis does not go
-    /// round `n`; F2 without F1, as no law of braking has; an angle of the beam outside 0 to pi; and as for [`StretchedTime::new`].
+    /// round `n`; an angle of the beam outside 0 to pi; and as for [`StretchedTime::new`].
     pub fn new(frequency: [f64; 2], parameters: &[(TimingParameter, f64)]) -> Result<Self, Error> {
         let mut values = [0.0; COUNT];
         (values[Chi as usize], values[Inclination as usize]) = (PI / 2.0, PI / 2.0);
@@ -90,8 +90,6 @@ impl TimingModel {
         Error::ensure(least > of(Wobble), "chi (rad)", of(Chi), beyond)?;
         Error::ensure((0.0..=PI).contains(&of(Inclination)), "inclination (rad)", of(Inclination), "from 0 to pi")?;
         Error::ensure((0.0..PI).contains(&of(Rho)), "rho (rad)", of(Rho), "from 0 to below pi")?;
-        let index_is_known = of(F1) != 0.0 || of(F2) == 0.0;
-        Error::ensure(index_is_known, "f2 (Hz/s^2) with f1 = 0", of(F2), "zero: the braking index is F0 F2 / F1^2")?;
         let braking = braking(&values);
         let time = StretchedTime::new(&braking, &precession(&values))?;
         Ok(Self { values, frequency, time })
@@ -127,7 +125,7 @@ impl TimingModel {
     /// # Errors
     /// As for [`StretchedTime::stretched_at`].
     pub fn phase(&self, t: [f64; 2]) -> Result<Turns, Error> {
-        Ok(self.phase_at(self.time.stretched_at(t)?))
+        Ok(self.phase_at(self.time.stretched_at(t)?, t[0]))
     }
 
     /// When (s since the epoch) a pulse arrives: at what time the phase is its number. The unevaluated sum of two doubles, right to the rounding of the geometry, 1e-16 of a turn.
@@ -140,7 +138,7 @@ impl TimingModel {
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
             let tau = self.time.stretched_at(time.into())?;
-            let Turns { whole, fraction } = self.phase_at(tau);
+            let Turns { whole, fraction } = self.phase_at(tau, time.high);
             let off = (whole - number) as f64 + fraction;
             time -= (off / (self.frequency.high * self.time.slowing(tau[0]))).into();
             // Newton's method squares what is left, but for the slow geometry, down to rounding.
@@ -152,8 +150,9 @@ impl TimingModel {
         Ok(time.into())
     }
 
-    fn phase_at(&self, tau: [f64; 2]) -> Turns {
-        Turns::at(self.value(Phase) + geometry(&self.values, tau[0]) / TAU, self.frequency, tau.into())
+    fn phase_at(&self, tau: [f64; 2], t: f64) -> Turns {
+        let rest = self.value(Phase) + beyond_dipole(&self.values, t) + geometry(&self.values, tau[0]) / TAU;
+        Turns::at(rest, self.frequency, tau.into())
     }
 
     /// The phase and its derivatives, in the order of [`TimingParameter::ALL`].
@@ -162,13 +161,11 @@ impl TimingModel {
     /// As for [`phase`](Self::phase).
     pub fn phase_and_derivatives(&self, t: [f64; 2]) -> Result<(Turns, [f64; COUNT]), Error> {
         let (seeded, moved, tau) = self.seeded(t)?;
-        let phase = seeded[Phase as usize] + seeded[F0 as usize] * moved + geometry(&seeded, moved) / TAU;
-        let mut derivatives = derivatives(&phase);
-        if self.value(F1) == 0.0 {
-            // The limit of F0 F2 / F1^2 -> 0.
-            derivatives[F2 as usize] = tau[0].powi(3) / 6.0;
-        }
-        Ok((self.phase_at(tau), derivatives))
+        let phase = seeded[Phase as usize]
+            + seeded[F0 as usize] * moved
+            + beyond_dipole(&seeded, t[0])
+            + geometry(&seeded, moved) / TAU;
+        Ok((self.phase_at(tau, t[0]), derivatives(&phase)))
     }
 
     /// The width of a pulse (s) near a time since the epoch: of the ring of the line of sight in the beam, Eq. (56) `[pulsewid]`, over the rate of turns. That rate
@@ -210,11 +207,16 @@ fn derivatives(value: &Dual) -> [f64; COUNT] {
     eps.into()
 }
 
-/// The law of braking; of a star that does not slow down with the index 3.
+/// The law of braking, with the index of a dipole.
 fn braking<S: Real>(values: &[S; COUNT]) -> Braking<S> {
-    let [f0, f1, f2, torque_share] = [F0, F1, F2, TorqueShare].map(|parameter| values[parameter as usize]);
-    let index = if f1.re() == 0.0 { S::from_f64(3.0) } else { f0 * f2 / (f1 * f1) };
-    Braking { rate: -f1 / f0, index, torque_share }
+    let [f0, f1, torque_share] = [F0, F1, TorqueShare].map(|parameter| values[parameter as usize]);
+    Braking { rate: -f1 / f0, index: S::from_f64(3.0), torque_share }
+}
+
+/// The turns by an F2 that is not that of a dipole.
+fn beyond_dipole<S: Real>(values: &[S; COUNT], t: f64) -> S {
+    let [f0, f1, f2] = [F0, F1, F2].map(|parameter| values[parameter as usize]);
+    (f2 - f1 * f1 * 3.0 / f0) * (t * t * t / 6.0)
 }
 
 fn precession<S: Real>(values: &[S; COUNT]) -> Precession<S> {
