@@ -102,6 +102,11 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
         InferenceError::Model(error) => super::run::failed(error),
         error => Failure::Failed(format!("{}: {error}", args.scene)),
     };
+    if let Some(periods) = args.periods {
+        check_periods(periods, &start, &data)?;
+        // What is refused of the scene and the unknowns is refused before the fit.
+        wobble_limits(&start, &data, &unknowns, &[], CONFIDENCE).map_err(|error| refuse(error.to_string()))?;
+    }
     let found = fit_timing(&start, &data, &unknowns).map_err(refused)?;
     let model = &found.fisher.parameters;
     let [short, all] = uncertainties(&found.fisher, |unknown| (1.0, unknown.unit().to_owned()));
@@ -113,7 +118,6 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
         page += &limit_on_s(&found)?;
     }
     if let Some(periods) = args.periods.filter(|_| !are_larger) {
-        check_periods(periods, model, &data)?;
         let limits = wobble_limits(model, &data, &unknowns, &periods.rates(), CONFIDENCE).map_err(refused)?;
         let head = ["period [d]", "best wobble [rad]", "gain of chi^2", "limit of the wobble [rad]"]
             .map(String::from)

@@ -105,7 +105,8 @@ fn widths_limit_the_motion_of_the_axis_and_s() {
     let limit = page.split("|2 s^ZZ - s^XX - s^YY| is at most ").nth(1).expect("a limit").split(' ').next();
     let limit: f64 = limit.and_then(|limit| limit.parse().ok()).expect("a number");
     let expected = 103.08 * 40.0_f64.to_radians().sin() / i.sin() * 4.0 * i.sin() * sigma / (TAU * 641.928);
-    assert!((limit / expected - 1.0).abs() < 0.02, "{limit} for {expected}");
+    // The page has three digits of the deviation.
+    assert!((limit / expected - 1.0).abs() < 5e-3, "{limit} for {expected}");
 }
 
 #[test]
@@ -129,7 +130,7 @@ fn what_is_wrong_is_named() {
     let refusals: [(&[&str], &[&str]); 21] = [
         (&["site.tim"], &["site.tim:2: site `ao`", "allowed are @"]),
         (&["frequency.tim"], &["frequency.tim:2: frequency `1400`", "allowed is 0"]),
-        (&["error.tim"], &["error.tim:2: uncertainty `-1.0`", "above zero"]),
+        (&["error.tim"], &["error.tim:2: uncertainty `-1.0`", "from 1e-9 to 1e12"]),
         (&["date.tim"], &["date.tim:2: `5532l.5`", "decimal number"]),
         (&["number.tim"], &["number.tim:2: `-pn` is `x`", "whole number"]),
         (&["fields.tim"], &["fields.tim:2: `a 0.0 55321.5`", "allowed are lines"]),
@@ -158,12 +159,22 @@ fn what_is_wrong_is_named() {
     }
     let blind = ends(folder.run(&["limits", "b1937+21", "b1937+21.tim", "--parameters", "phase,rho"]), 1);
     has_all(&stderr(&blind), &["do not determine", "d(rho) alone"]);
-    // A wobble that shows, and another star: no limit.
+    // A wobble that shows: no limit.
     let folder = timed("isolated-pulsar");
     let wobbling = folder.run(&["limits", "isolated-pulsar", "isolated-pulsar.tim", "--periods", "50:2000:5"]);
     has_all(&stderr(&wobbling), &["wobble (rad)", "zero"]);
     assert!(!wobbling.status.success());
-    let other = ["limits", "b1828-11", "isolated-pulsar.tim", "--parameters", "phase,f0", "--periods", "50:90:2"];
+    // Every other pulse 86 microseconds late: nothing that the model knows.
+    let folder = timed("b1937+21");
+    let table = folder.read("b1937+21.csv");
+    let mut text = String::from("arrival_day [MJD],arrival_fraction [d]\n");
+    for (k, line) in table.lines().skip(1).enumerate() {
+        let fields: Vec<_> = line.split(',').collect();
+        let fraction: f64 = fields[2].parse().expect("a number");
+        text += &format!("{},{:?}\n", fields[1], fraction + 1e-9 * (k % 2) as f64);
+    }
+    folder.write("late.csv", text);
+    let other = ["limits", "b1937+21", "late.csv", "--observe", "arrivals:1e-6", "--periods", "50:90:2"];
     let other = folder.succeeds(&other);
     assert!(stderr(&other).contains("No limit is printed") && !stdout(&other).contains("limit of the wobble"));
 }
