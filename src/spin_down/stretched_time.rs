@@ -235,7 +235,7 @@ fn modulation<S: Real>(share: S, torque: &TorqueHarmonics<S>) -> S {
     share / (S::one() - share + share * torque.constant)
 }
 
-/// `Q(tau) - Q(0)` of [`StretchedTime`]; from differences, so that the rounding is that of the result.
+/// `Q(tau) - Q(0)` of [`StretchedTime`]; from differences, so that the rounding is that of the result. At the index 3 without its derivative by the index.
 pub(crate) fn late_by_torque<S: Real>(braking: &Braking<S>, precession: &Precession<S>, tau: S) -> S {
     let Braking { rate, index, torque_share } = *braking;
     let Precession { torque, rate: w, phase } = *precession;
@@ -252,6 +252,9 @@ pub(crate) fn late_by_torque<S: Real>(braking: &Braking<S>, precession: &Precess
     };
     let [[cos, sin], [cos_2, sin_2]] = [differences(1.0), differences(2.0)];
     let sum = |once: S, twice: S, divisor: f64| torque.once * once + torque.twice * twice / divisor;
+    if index.re() == 3.0 {
+        return -rate * modulation / (w * w) * sum(cos, cos_2, 4.0);
+    }
     let psi = phase + within(w * tau, TAU);
     let ((sin_psi, cos_psi), (sin_2_psi, cos_2_psi)) = (psi.sin_cos(), (psi * 2.0).sin_cos());
     let ln_u = ln_slowness(braking, tau);
