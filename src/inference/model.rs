@@ -102,13 +102,11 @@ impl Model for TimingModel {
     }
 
     fn difference(&self, other: &Self, unknown: TimingParameter) -> f64 {
-        match unknown {
-            TimingParameter::F0 => {
-                let ([a, b], [c, d]) = (self.frequency(), other.frequency());
-                (a - c) + (b - d)
-            }
-            other_one => Self::value(self, other_one) - Self::value(other, other_one),
+        if unknown == TimingParameter::F0 {
+            let ([a, b], [c, d]) = (self.frequency(), other.frequency());
+            return (a - c) + (b - d);
         }
+        self.value(unknown) - other.value(unknown)
     }
 
     fn moved(&self, unknowns: &[TimingParameter], changes: &[f64]) -> Result<Self, Error> {
@@ -117,11 +115,9 @@ impl Model for TimingModel {
     }
 
     fn range(&self, unknown: TimingParameter) -> f64 {
-        use TimingParameter::*;
-        let of = |unknown| Self::value(self, unknown).abs();
+        use TimingParameter::{F0, F1, F2, InclinationRate, PrecessionRate};
         match unknown {
-            F0 | F1 | F2 | PrecessionRate => of(F0),
-            InclinationRate => of(F0),
+            F0 | F1 | F2 | PrecessionRate | InclinationRate => self.value(F0),
             _ => 1.0,
         }
     }

@@ -29,8 +29,13 @@ pub(crate) fn about<S: Real>(axis: &Vector3<S>, from: &Vector3<S>, to: &Vector3<
     axis.dot(&from.cross(to)).atan2(from.dot(to))
 }
 
+/// Angle between two vectors, in [0, pi]. By the sine too: the cosine of a small angle has lost it.
+pub(crate) fn between(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
+    a.cross(b).norm().atan2(a.dot(b))
+}
+
 /// Added to a double below a quarter of it this rounds it to a whole number, whose last bits are then those of the sum.
-const WHOLE: f64 = 6_755_399_441_055_744.0;
+pub(crate) const WHOLE: f64 = 6_755_399_441_055_744.0;
 
 /// Sines and cosines of two parts of a turn, at most one in size: the nearest quarter turn is taken off exactly, and the rest, at most an eighth, has short Taylor series.
 /// Each to an ulp of one.

@@ -3,7 +3,7 @@
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 
-use super::measurement::{Measurement, readable, uncertainties, write_csv};
+use super::measurement::{Measurement, note_nonlinearity, readable, uncertainties, write_csv};
 use super::{Failure, FitArgs, note, print};
 use twofold::inference::{Datum, Fisher, InferenceError, Place, Residuals, Signal, data_of, fit, nonlinearity};
 use twofold_scene::measurements::{DataFile, beside, with_noise};
@@ -59,13 +59,7 @@ pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
              as it does data without errors; the error bars are for the errors stated"
         )),
     }
-    match nonlinearity(&found.fisher, &data, *end) {
-        Ok(nonlinearity) if nonlinearity < 0.3 => {}
-        Ok(nonlinearity) => note(&format!(
-            "chi^2 is off its parabola by {nonlinearity:.1} at one standard deviation: the error bars are rough"
-        )),
-        Err(why) => note(&format!("the error bars are rough: a standard deviation away, {why}")),
-    }
+    note_nonlinearity(nonlinearity(&found.fisher, &data, *end));
     print(&readable(&short))
 }
 

@@ -14,8 +14,9 @@ use twofold_scene::pulsar_timing::{PulsarScene, decimal};
 use twofold_scene::scene_file::Columns;
 use twofold_scene::significant::significant;
 
-use super::measurement::{named, readable, uncertainties, write_csv};
+use super::measurement::{named, note_nonlinearity, readable, uncertainties, write_csv};
 use super::run::read_with_spin_down;
+use super::timing::days_apart;
 use super::{Failure, TableArgs, note, print};
 
 #[derive(Args)]
@@ -151,15 +152,11 @@ fn check_periods(periods: Periods, model: &TimingModel, data: &TimingData) -> Re
             "--periods: {shortest:e} d: allowed are periods of at least a thousand pulses, {least:.3e} d"
         )));
     }
-    let mut times: Vec<f64> = data.arrivals.iter().map(|arrival| arrival.time[0]).collect();
-    times.sort_by(f64::total_cmp);
-    if let [first, .., last] = times[..] {
-        let apart = (last - first) / (times.len() - 1) as f64 / DAY;
-        if shortest < 2.0 * apart {
-            note(&format!(
-                "data are {apart:.3e} d apart, more than half of the shortest period: its wobble may look like one of another period"
-            ));
-        }
+    let apart = days_apart(data.arrivals.iter().map(|arrival| arrival.time[0]));
+    if shortest < 2.0 * apart {
+        note(&format!(
+            "data are {apart:.3e} d apart, more than half of the shortest period: its wobble may look like one of another period"
+        ));
     }
     Ok(())
 }
@@ -224,13 +221,7 @@ fn tell_fit(found: &Fit<TimingModel>, data: &TimingData, pulsar: &PulsarScene) {
         )),
         Residuals::Smaller => note(&format!("the residuals are {size} times the errors stated (root mean square)")),
     }
-    match timing_nonlinearity(&found.fisher, data) {
-        Ok(nonlinearity) if nonlinearity < 0.3 => {}
-        Ok(nonlinearity) => note(&format!(
-            "chi^2 is off its parabola by {nonlinearity:.1} at one standard deviation: the error bars are rough"
-        )),
-        Err(why) => note(&format!("the error bars are rough: a standard deviation away, {why}")),
-    }
+    note_nonlinearity(timing_nonlinearity(&found.fisher, data));
 }
 
 /// The limit on the size of s by how fast the line of sight moves towards `L`, Eq. (41) with `I^zz / C = 4 / Omega^2` and `Delta cos lambda / Delta t = -sin(lambda) lambda'`.

@@ -136,6 +136,17 @@ pub(super) fn named<U: Unknown>(list: &str, all: &[U]) -> Result<Vec<U>, String>
     Ok(found)
 }
 
+/// Says where the error bars of a fit are rough: where `chi^2` is off its parabola at one standard deviation.
+pub(super) fn note_nonlinearity(nonlinearity: Result<f64, InferenceError>) {
+    match nonlinearity {
+        Ok(nonlinearity) if nonlinearity < 0.3 => {}
+        Ok(nonlinearity) => note(&format!(
+            "chi^2 is off its parabola by {nonlinearity:.1} at one standard deviation: the error bars are rough"
+        )),
+        Err(why) => note(&format!("the error bars are rough: a standard deviation away, {why}")),
+    }
+}
+
 /// Writes a table as CSV to the file that the arguments name, if they do.
 pub(super) fn write_csv(args: &TableArgs, rows: &[Vec<String>]) -> Result<(), Failure> {
     let Some(path) = &args.out else { return Ok(()) };

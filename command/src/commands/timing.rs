@@ -144,14 +144,19 @@ fn note_periods(pulsar: &PulsarScene, epochs: &[Epoch]) {
         days(of_body),
         days(of_momentum)
     ));
-    let mut times: Vec<_> = epochs.iter().map(|at| at.seconds_since(&pulsar.epoch)[0]).collect();
-    times.sort_by(f64::total_cmp);
-    let apart = (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64 / DAY;
+    let apart = days_apart(epochs.iter().map(|at| at.seconds_since(&pulsar.epoch)[0]));
     if apart > 0.5 * of_body {
         note(&format!(
             "epochs are {apart:.3e} d apart, more than half the precession of the body: what goes with that shows as another period or as scatter"
         ));
     }
+}
+
+/// Mean time (d) between times (s) in any order; NaN for fewer than two.
+pub(super) fn days_apart(times: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let intervals = times.len() as f64 - 1.0;
+    let ends = times.fold([f64::INFINITY, f64::NEG_INFINITY], |[first, last], t| [first.min(t), last.max(t)]);
+    if intervals > 0.0 { (ends[1] - ends[0]) / intervals / DAY } else { f64::NAN }
 }
 
 fn note_dark(timing: &Timing, asked: usize) {

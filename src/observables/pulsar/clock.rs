@@ -14,7 +14,7 @@ use crate::dynamics::bulge::kinematic_momentum;
 use crate::dynamics::equations_of_motion::angular_velocity;
 use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
-use crate::numerics::angle::{about, wrapped};
+use crate::numerics::angle::{about, between, wrapped};
 use crate::numerics::double_double::DoubleDouble;
 use crate::observables::Observer;
 use crate::observables::spectrum::QuasiPeriodicMotion;
@@ -172,8 +172,7 @@ impl PulsarClock {
         let state = self.motion.problem.initial();
         let (n, l) = (state.axis, state.momentum.normalize());
         let m = self.beam.direction(state);
-        // By the sine too: the cosine of a small angle has lost it.
-        let [wobble, chi] = [l, m].map(|v| n.cross(&v).norm().atan2(n.dot(&v)));
+        let [wobble, chi] = [l, m].map(|v| between(&n, &v));
         let precession = Precession {
             torque: TorqueHarmonics::new(wobble, chi),
             phase: about(&n, &(m - n * n.dot(&m)), &l),
@@ -213,10 +212,7 @@ impl PulsarClock {
 
     /// Angle of the line of sight to `L` at the time zero, and its mean rate: over the time in which `L` turns by a hundredth of a radian about its axis.
     fn inclination(&self) -> Result<[f64; 2], Error> {
-        let angle = |t: f64| {
-            let (l, o) = (self.motion.state([t, 0.0]).momentum, self.observer.direction);
-            l.cross(&o).norm().atan2(l.dot(&o))
-        };
+        let angle = |t: f64| between(&self.motion.state([t, 0.0]).momentum, &self.observer.direction);
         let rate = self.precession_rates()?[1].abs();
         let half = 0.005 / rate;
         Ok([angle(0.0), if rate > 0.0 { (angle(half) - angle(-half)) / (2.0 * half) } else { 0.0 }])

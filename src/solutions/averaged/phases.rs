@@ -9,6 +9,7 @@ use core::f64::consts::TAU;
 use nalgebra::Vector3;
 
 use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::numerics::angle::WHOLE;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::scalar::{Real, real_part};
 
@@ -40,11 +41,10 @@ impl Turns {
     }
 }
 
-/// The nearest whole number. Adding and taking away `1.5 2^52` rounds to it, without a call where the processor has no such instruction.
+/// The nearest whole number. Adding and taking away [`WHOLE`] rounds to it, without a call where the processor has no such instruction.
 #[inline]
 fn nearest(x: f64) -> f64 {
-    const SHIFT: f64 = 6_755_399_441_055_744.0;
-    if x.abs() < 1e15 { (x + SHIFT) - SHIFT } else { x.round() }
+    if x.abs() < 1e15 { (x + WHOLE) - WHOLE } else { x.round() }
 }
 
 /// The phases of a motion in turns.

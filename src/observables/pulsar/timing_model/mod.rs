@@ -191,7 +191,8 @@ impl TimingModel {
         Ok((duration.re, derivatives(&duration)))
     }
 
-    /// The parameters with their derivatives, and the stretched time of a time. That moves by what the other part of the difference of both times moves.
+    /// The parameters as dual numbers, the stretched time `tau` of a time `t` as one, and `tau` in two doubles. A parameter that makes the star late by `d` at a fixed `tau` lowers the `tau` of a fixed `t` by
+    /// `d` times the slowing.
     fn seeded(&self, t: [f64; 2]) -> Result<([Dual; COUNT], Dual, [f64; 2]), Error> {
         let tau = self.time.stretched_at(t)?;
         let derivative = |k| Derivative::derivative_generic(nalgebra::Const, nalgebra::U1, k);

@@ -85,9 +85,4 @@ impl TimingParameter {
             _ => (None, None),
         }
     }
-
-    /// The one with a name.
-    pub fn named(key: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|parameter| parameter.key() == key)
-    }
 }
