@@ -200,4 +200,9 @@ impl Parameters<f64> {
         parameters.iter().zip(changes).for_each(|(parameter, change)| parameter.add(&mut moved, *change));
         moved
     }
+
+    /// The values of some parameters.
+    pub fn values(&self, parameters: &[Parameter]) -> Vec<f64> {
+        parameters.iter().map(|parameter| parameter.value(self)).collect()
+    }
 }
