@@ -2,6 +2,7 @@
 
 pub mod columns;
 pub mod estimated_error;
+pub mod explained_plan;
 pub mod measurements;
 pub mod plan;
 pub mod pulsar_table;

@@ -16,7 +16,7 @@ impl Scene {
     }
 
     /// The same as a sum of two doubles: after 1e10 turns the rounding of one is part of a turn.
-    pub(crate) fn since_start_in_parts(&self, time: f64) -> [f64; 2] {
+    pub fn since_start_in_parts(&self, time: f64) -> [f64; 2] {
         let (start, unit) = (self.times.start(), self.units.time);
         // Knuth's exact difference, then what is left of the quotient.
         let difference = time - start;
@@ -75,7 +75,7 @@ impl Scene {
     }
 
     /// Refuses a span of too many turns for what goes through all of them.
-    pub(crate) fn check_rotation(&self, outputs: &[Output]) -> Result<(), String> {
+    pub fn check_rotation(&self, outputs: &[Output]) -> Result<(), String> {
         let rotation = self.rotation();
         if rotation <= LARGEST_ROTATION {
             return Ok(());

@@ -3,7 +3,6 @@
 mod bench;
 mod bounds;
 mod compare;
-mod explain;
 mod figures;
 mod fisher;
 mod fit;

@@ -4,9 +4,9 @@ use clap::Args;
 use twofold::plan::Output;
 use twofold_scene::scene_file::Columns;
 
-use super::explain::explained;
 use super::run::{OutputArgs, PlanArgs, WindowArgs, force_method, read_scene, write};
 use super::{Failure, note, print};
+use twofold_scene::explained_plan::explained;
 use twofold_scene::plan::LARGEST_ROTATION;
 use twofold_scene::trajectory::write_pulses;
 

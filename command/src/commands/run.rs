@@ -4,11 +4,11 @@ use clap::Args;
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::PathBuf;
 
-use super::explain::{bytes, explained};
 use super::output_file::OutputFile;
 use super::progress::Progress;
 use super::standard_output::standard_output;
 use super::{Failure, note, print};
+use twofold_scene::explained_plan::{bytes, explained};
 use twofold_scene::scene_file::{Columns, Scene};
 use twofold_scene::trajectory::{self, ErrorAtEnd, Summary, TrajectoryError};
 

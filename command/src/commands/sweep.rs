@@ -12,7 +12,7 @@ use super::progress::Progress;
 use super::run::note_size;
 use super::{Failure, note};
 use twofold_scene::sweep::{
-    Done, Identity, Shard, Spool, SpoolError, SpoolFiles, Sweep, SweepText, compute, csv_line, merge,
+    Done, Identity, Shard, Spool, SpoolError, SpoolFiles, Sweep, SweepText, compute, csv_line, errors_beside, merge,
 };
 
 #[derive(Args)]
@@ -97,7 +97,7 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
             files.rows.display()
         )));
     }
-    give_names(&mut spool, &out, &errors, (args.force || named_before, format))?;
+    give_names(&mut spool, &out, (args.force || named_before, format))?;
     if spool.failed() == 0 { Ok(()) } else { Err(some_failed(&args.out)) }
 }
 
@@ -130,51 +130,31 @@ impl Format {
     }
 }
 
-fn errors_beside(out: &Path) -> PathBuf {
-    let mut name = out.as_os_str().to_owned();
-    name.push(".errors.csv");
-    name.into()
-}
-
 fn failed(error: SpoolError) -> Failure {
     Failure::Failed(error.to_string())
 }
 
-/// Gives complete tables their names: that of errors first, so that the table itself is the sign that all is there.
-fn give_names(spool: &mut Spool, out: &Path, errors: &Path, (replace, format): (bool, Format)) -> Result<(), Failure> {
-    let cannot = |path: &Path| {
-        let path = path.display().to_string();
-        move |error: io::Error| Failure::Failed(format!("{path} cannot be written: {error}"))
+/// Gives complete tables their names.
+fn give_names(spool: &mut Spool, out: &Path, (replace, format): (bool, Format)) -> Result<(), Failure> {
+    let cannot = |error: SpoolError| match error {
+        SpoolError::File(path, error) if error.kind() == io::ErrorKind::AlreadyExists => {
+            Failure::Failed(format!("{} exists by now; --force replaces it", path.display()))
+        }
+        SpoolError::File(path, error) => Failure::Failed(format!("{} cannot be written: {error}", path.display())),
+        error => failed(error),
     };
-    if !spool.complete {
-        spool.completed().map_err(failed)?;
-    }
-    let files = spool.files().clone();
-    if spool.failed() > 0 {
-        let output = OutputFile::beside(errors, replace)?;
-        let copied = File::open(&files.errors).and_then(|mut from| io::copy(&mut from, &mut output.file()));
-        copied.and_then(|_| output.file().sync_all()).map_err(cannot(errors))?;
-        output.complete()?;
-    } else if errors.is_file() {
-        fs::remove_file(errors).map_err(cannot(errors))?;
-    }
     match format {
-        Format::Csv if !replace && out.exists() => {
-            return Err(Failure::Failed(format!("{} exists by now; --force replaces it", out.display())));
-        }
-        Format::Csv => fs::rename(&files.rows, out).map_err(cannot(out))?,
+        Format::Csv => spool.give_names(out, replace).map_err(cannot),
         Format::Parquet => {
+            spool.name_errors(out, replace).map_err(cannot)?;
             let output = OutputFile::beside(out, replace)?;
-            convert(File::open(&files.rows).map_err(cannot(&files.rows))?, output.file(), out)?;
+            let rows = &spool.files().rows;
+            let table = File::open(rows).map_err(|error| Failure::Failed(format!("{}: {error}", rows.display())))?;
+            convert(table, output.file(), out)?;
             output.complete()?;
+            spool.files().remove().map_err(failed)
         }
     }
-    let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    if let Ok(folder) = File::open(folder) {
-        // The names outlive a loss of power, where the system can promise that.
-        let _ = folder.sync_all();
-    }
-    files.remove().map_err(failed)
 }
 
 #[cfg(feature = "parquet")]

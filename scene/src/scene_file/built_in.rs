@@ -41,7 +41,7 @@ pub fn built_in(name: &str) -> Option<&'static BuiltIn> {
 }
 
 /// The names of all of them.
-pub(super) fn names() -> Vec<&'static str> {
+pub fn names() -> Vec<&'static str> {
     all().map(|scene| scene.name).collect()
 }
 

@@ -16,7 +16,7 @@ use twofold::euler_angles::EulerAngles;
 use twofold::plan::{Method, Output};
 use twofold::solutions::perturbation::Perturbation;
 
-pub use built_in::{BUILT_IN, BuiltIn, PULSARS, TEMPLATES, built_in};
+pub use built_in::{BUILT_IN, BuiltIn, PULSARS, TEMPLATES, built_in, names};
 pub(crate) use document::{Entry, Fault, FileFormat, Replaced, Section};
 pub use document::{SceneError, did_you_mean, listed, nearest, shortened};
 pub use motion::Units;
@@ -83,12 +83,8 @@ impl Scene {
 
     /// As [`Scene::named`], for other columns than those of the file.
     pub fn named_with(name_or_path: &str, columns: Columns<'_>) -> Result<Self, SceneError> {
-        let read =
-            |file: &str, text: &str| SCENE.parse(file, text, |document| Self::from_document(document, columns, None));
-        match built_in(name_or_path) {
-            Some(built_in) => read(built_in.name, built_in.toml),
-            None => read(name_or_path, &SCENE.read(name_or_path)?),
-        }
+        let text = text_of(name_or_path)?;
+        SCENE.parse(name_or_path, &text, |document| Self::from_document(document, columns, None))
     }
 
     /// Reads and checks the text of a scene file; `file` is how messages call it.
@@ -171,6 +167,14 @@ impl Scene {
         }
         Ok(scene)
     }
+}
+
+/// The text of the scene with the built-in name, or of the file at the path.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn text_of(name_or_path: &str) -> Result<String, SceneError> {
+    built_in(name_or_path).map_or_else(|| SCENE.read(name_or_path), |built_in| Ok(built_in.toml.to_owned()))
 }
 
 /// Why a star with a bulge has no printed perturbation solution.

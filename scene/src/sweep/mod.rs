@@ -24,7 +24,7 @@ pub use identity::Identity;
 pub use journal::signed_again;
 pub use merge::{csv_line, merge};
 pub use shard::Shard;
-pub use spool::{Spool, SpoolError, SpoolFiles};
+pub use spool::{Spool, SpoolError, SpoolFiles, errors_beside};
 
 use twofold::plan::Method;
 
@@ -97,8 +97,17 @@ impl Sweep<'_> {
         if scene.is_ok_and(|scene| !wanted(&scene)) {
             return None;
         }
-        let chunk::ChunkText { rows, errors, .. } = chunk::chunk_text(self, number..number + 1).ok()?;
-        Some([rows, errors])
+        self.rows(number..number + 1).ok().map(|(texts, _)| texts)
+    }
+
+    /// The lines of the table and of that of errors for some scenes, by one thread, and how many of them failed.
+    ///
+    /// # Errors
+    /// None that memory does not make.
+    pub fn rows(&self, scenes: std::ops::Range<u64>) -> Result<([Vec<u8>; 2], u64), String> {
+        let chunk::ChunkText { rows, errors, failed } =
+            chunk::chunk_text(self, scenes).map_err(|error| error.to_string())?;
+        Ok(([rows, errors], failed))
     }
 
     /// Scenes that are computed together: about a quarter of a second's work and a few megabytes. Results do not depend on it.

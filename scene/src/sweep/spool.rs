@@ -88,6 +88,13 @@ impl SpoolFiles {
     }
 }
 
+/// Name of the table of errors beside a table.
+pub fn errors_beside(out: &Path) -> PathBuf {
+    let mut name = out.as_os_str().to_owned();
+    name.push(".errors.csv");
+    name.into()
+}
+
 impl Spool {
     /// Begins a table of `scenes` with two headers, or continues the part of it that is there: up to the last mark at which both files are
     /// as the journal says. The files are locked for other processes, where the file system can do that.
@@ -177,6 +184,41 @@ impl Spool {
         self.write_line(&journal::completion())
     }
 
+    /// Gives a complete table of errors its name beside the table `out`, if there are any. What stands under that name goes if it may be `replaced`.
+    ///
+    /// # Errors
+    /// A file that cannot be written, or exists.
+    pub fn name_errors(&mut self, out: &Path, replaced: bool) -> Result<(), SpoolError> {
+        if !self.complete {
+            self.completed()?;
+        }
+        let errors = errors_beside(out);
+        if self.mark.failed > 0 {
+            free(&errors, replaced)?;
+            let copied = fs::copy(&self.files.errors, &errors).and_then(|_| File::open(&errors)?.sync_all());
+            copied.map_err(refused(&errors))?;
+        } else if errors.is_file() && replaced {
+            fs::remove_file(&errors).map_err(refused(&errors))?;
+        }
+        Ok(())
+    }
+
+    /// Gives a complete CSV table its name `out`, after that of errors, so that the table itself is the sign that all is there.
+    ///
+    /// # Errors
+    /// A file that cannot be written, or exists and may not be `replaced`.
+    pub fn give_names(&mut self, out: &Path, replaced: bool) -> Result<(), SpoolError> {
+        self.name_errors(out, replaced)?;
+        free(out, replaced)?;
+        fs::rename(&self.files.rows, out).map_err(refused(out))?;
+        let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        if let Ok(folder) = File::open(folder) {
+            // The names outlive a loss of power, where the system can promise that.
+            let _ = folder.sync_all();
+        }
+        self.files.remove()
+    }
+
     fn write_line(&mut self, value: &serde_json::Value) -> Result<(), SpoolError> {
         let write = |file: &mut File| file.write_all(&journal::line(value)).and_then(|()| file.sync_data());
         write(&mut self.journal).map_err(refused(&self.files.journal))
@@ -235,6 +277,10 @@ fn intact_prefixes(mut file: &File, prefixes: &[Prefix]) -> io::Result<usize> {
         position = prefix.length;
     }
     Ok(prefixes.len())
+}
+
+fn free(path: &Path, replaced: bool) -> Result<(), SpoolError> {
+    if path.exists() && !replaced { Err(refused(path)(io::ErrorKind::AlreadyExists.into())) } else { Ok(()) }
 }
 
 fn refused(path: &Path) -> impl FnOnce(io::Error) -> SpoolError + use<> {

@@ -1,13 +1,14 @@
-//! `--explain`: the plan of a computation, and nothing computed.
+//! A plan in words: what will be computed, how, at what cost, and what is left out.
 
 use std::fmt::Write;
 
 use twofold::plan::{Candidate, MACHINE, Plan, Prediction, Promise, State};
 
-use twofold_scene::estimated_error::{ROUNDING_OF_COMPONENT, as_printed};
-use twofold_scene::scene_file::Scene;
+use crate::estimated_error::{ROUNDING_OF_COMPONENT, as_printed};
+use crate::scene_file::Scene;
 
-pub(super) fn explained(scene: &Scene, plan: &Plan) -> String {
+/// A plan for outputs of `scene`, as `--explain` prints it.
+pub fn explained(scene: &Scene, plan: &Plan) -> String {
     let mut text = String::new();
     let time = scene.units.time_name;
     let in_output = |t: f64| scene.times.start() + t * scene.units.time;
@@ -146,7 +147,8 @@ fn duration(ns: f64) -> String {
     }
 }
 
-pub(super) fn bytes(count: f64) -> String {
+/// A number of bytes, to a tenth of its unit.
+pub fn bytes(count: f64) -> String {
     match count {
         count if count < 1e3 => format!("{count:.0} bytes"),
         count if count < 1e6 => format!("{:.1} kB", count / 1e3),

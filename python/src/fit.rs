@@ -1,0 +1,290 @@
+//! What data say of a star: fits of timing models, Fisher matrices, limits.
+
+use std::f64::consts::TAU;
+
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use twofold::inference::{self, Fisher, MeasuredArrival, MeasuredWidth, Model, Prior, Residuals, Unknown};
+use twofold::observables::pulsar::timing_model::TimingParameter;
+use twofold_scene::measurements::{DataFile, parse_noise};
+
+use crate::arrays::list;
+use crate::error::raised;
+use crate::names::{all_named, named};
+use crate::pulsar::epoch;
+use crate::timing_model::TimingModel;
+
+/// Arrival times and pulse widths with independent errors. Times and standard deviations are in seconds, times since the epoch of the model.
+///
+/// `TimingData(times, sigmas)` are arrivals; `rest` is the small part of times that need two doubles, `numbers` has the numbers of the pulses, where they are known.
+/// `TimingData(width_times=..., widths=..., width_sigmas=...)` are widths.
+#[pyclass(frozen, module = "twofold")]
+pub struct TimingData {
+    data: inference::TimingData,
+}
+
+#[pymethods]
+impl TimingData {
+    #[new]
+    #[pyo3(signature = (times=None, sigmas=None, *, rest=None, numbers=None, width_times=None, widths=None, width_sigmas=None))]
+    fn new(
+        times: Option<&Bound<'_, PyAny>>,
+        sigmas: Option<&Bound<'_, PyAny>>,
+        rest: Option<&Bound<'_, PyAny>>,
+        numbers: Option<&Bound<'_, PyAny>>,
+        width_times: Option<&Bound<'_, PyAny>>,
+        widths: Option<&Bound<'_, PyAny>>,
+        width_sigmas: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let times = read("times", times)?;
+        let count = times.len();
+        let sigmas = of_length("sigmas", sigmas, count)?.unwrap_or_default();
+        if sigmas.len() != count {
+            return Err(raised("times without sigmas: allowed are arrival times with a standard deviation each"));
+        }
+        let rest = of_length("rest", rest, count)?.unwrap_or(vec![0.0; count]);
+        let numbers = of_length("numbers", numbers, count)?;
+        let arrival = |k: usize| MeasuredArrival {
+            time: [times[k], rest[k]],
+            sigma: sigmas[k],
+            number: numbers.as_ref().map(|numbers| numbers[k].round() as i64),
+        };
+        let (at, wide) = (read("width_times", width_times)?, read("widths", widths)?);
+        let errors = read("width_sigmas", width_sigmas)?;
+        if wide.len() != at.len() || errors.len() != at.len() {
+            return Err(raised(format!(
+                "{} width_times, {} widths and {} width_sigmas: allowed are as many of each",
+                at.len(),
+                wide.len(),
+                errors.len()
+            )));
+        }
+        let width = |k: usize| MeasuredWidth { time: at[k], duration: wide[k], sigma: errors[k] };
+        let (arrivals, widths) = ((0..count).map(arrival).collect(), (0..at.len()).map(width).collect());
+        Ok(Self { data: inference::TimingData { arrivals, widths, priors: Vec::new() } })
+    }
+
+    /// The data of files: a `.tim` (FORMAT 1, barycentred), or tables as `Pulsar.arrivals` has them, whose standard deviations `observe` gives as `"arrivals:1e-6,widths:1e-5"` (s). Times
+    /// are counted from the epoch of a model (MJD, TDB).
+    #[staticmethod]
+    #[pyo3(signature = (paths, epoch, *, observe=None))]
+    fn read(paths: Vec<String>, epoch: &Bound<'_, PyAny>, observe: Option<&str>) -> PyResult<Self> {
+        let epoch = read_epoch(epoch)?;
+        let noise = observe.map_or_else(|| Ok(Vec::new()), |text| parse_noise(text, 1.0)).map_err(raised)?;
+        let mut data = inference::TimingData::default();
+        for path in paths {
+            DataFile::read(&path).and_then(|file| file.add_timing(&epoch, &noise, &mut data)).map_err(raised)?;
+        }
+        Ok(Self { data })
+    }
+
+    /// Times of the arrivals (s): an array of shape (n, 2), two parts each.
+    #[getter]
+    fn times<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let values: Vec<f64> = self.data.arrivals.iter().flat_map(|arrival| arrival.time).collect();
+        Ok(PyArray1::from_vec(py, values).reshape([self.data.arrivals.len(), 2])?.into_any())
+    }
+
+    /// Their standard deviations (s).
+    #[getter]
+    fn sigmas<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_iter(py, self.data.arrivals.iter().map(|arrival| arrival.sigma))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<TimingData: {} arrivals, {} widths>", self.data.arrivals.len(), self.data.widths.len())
+    }
+}
+
+/// An epoch as a number or as a text with more digits.
+fn read_epoch(given: &Bound<'_, PyAny>) -> PyResult<twofold::epoch::Epoch> {
+    match given.extract::<String>() {
+        Ok(text) => text.parse().map_err(raised),
+        Err(_) => epoch(given.extract().map_err(|_| raised("epoch: allowed is a modified Julian date"))?),
+    }
+}
+
+fn read(name: &str, given: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<f64>> {
+    given.map_or_else(|| Ok(Vec::new()), |given| list(name, given))
+}
+
+fn of_length(name: &str, given: Option<&Bound<'_, PyAny>>, count: usize) -> PyResult<Option<Vec<f64>>> {
+    let Some(given) = given else { return Ok(None) };
+    if let Ok(one) = given.extract::<f64>() {
+        return Ok(Some(vec![one; count]));
+    }
+    let found = list(name, given)?;
+    if found.len() == count {
+        return Ok(Some(found));
+    }
+    Err(raised(format!("{name}: {} numbers beside {count} times: allowed are as many, or one for all", found.len())))
+}
+
+/// What data tell of unknown parameters: values, standard deviations, correlations. The result of `Scene.fisher` and, with residuals, of fits.
+#[pyclass(frozen, module = "twofold", name = "Fit")]
+pub struct Fit {
+    /// The names of the unknowns.
+    #[pyo3(get)]
+    unknowns: Vec<String>,
+    values: Vec<f64>,
+    sigmas: Vec<f64>,
+    covariance: Vec<f64>,
+    /// What the data do not determine, in words.
+    #[pyo3(get)]
+    undetermined: Vec<String>,
+    /// The fitted model: a `TimingModel`. None of a fit of a scene's motion, whose values are all there is.
+    #[pyo3(get)]
+    model: Option<TimingModel>,
+    /// The sum of the squares of the residuals in standard deviations. None of a Fisher matrix.
+    #[pyo3(get)]
+    chi_squared: Option<f64>,
+    /// Data less unknowns.
+    #[pyo3(get)]
+    degrees: Option<usize>,
+    residuals: Option<Vec<f64>>,
+    /// Whether the residuals are `"as stated"` by their errors, `"larger"` or `"smaller"`, at six standard deviations of chi^2.
+    #[pyo3(get)]
+    judged: Option<&'static str>,
+    /// By how much chi^2 is off its parabola at one standard deviation: error bars are rough from 0.3 on.
+    #[pyo3(get)]
+    nonlinearity: Option<f64>,
+}
+
+impl Fit {
+    pub fn of_fisher<M: Model>(fisher: &Fisher<M>, factor: impl Fn(M::Unknown) -> f64) -> Self {
+        let factors: Vec<f64> = fisher.unknowns.iter().map(|unknown| factor(*unknown)).collect();
+        let scaled = |values: Vec<f64>| values.iter().zip(&factors).map(|(value, factor)| value * factor).collect();
+        let count = factors.len();
+        let entry = |k: usize| fisher.covariance[(k / count, k % count)] * factors[k / count] * factors[k % count];
+        let weak = fisher.degenerate.iter().chain(&fisher.weak);
+        Self {
+            unknowns: fisher.unknowns.iter().map(|unknown| unknown.key().to_owned()).collect(),
+            values: scaled(fisher.values()),
+            sigmas: scaled(fisher.sigmas()),
+            covariance: (0..count * count).map(entry).collect(),
+            undetermined: weak.map(ToString::to_string).collect(),
+            model: None,
+            chi_squared: None,
+            degrees: None,
+            residuals: None,
+            judged: None,
+            nonlinearity: None,
+        }
+    }
+
+    pub fn of_fit<M: Model>(found: inference::Fit<M>, factor: impl Fn(M::Unknown) -> f64, nonlinearity: f64) -> Self {
+        let judged = match found.judged() {
+            Residuals::AsStated => "as stated",
+            Residuals::Larger => "larger",
+            Residuals::Smaller => "smaller",
+        };
+        Self {
+            chi_squared: Some(found.chi_squared),
+            degrees: Some(found.degrees),
+            judged: Some(judged),
+            nonlinearity: Some(nonlinearity),
+            ..Self { residuals: Some(found.residuals), ..Self::of_fisher(&found.fisher, factor) }
+        }
+    }
+}
+
+#[pymethods]
+impl Fit {
+    /// The values of the unknowns.
+    #[getter]
+    fn values<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, &self.values)
+    }
+
+    /// Their standard deviations.
+    #[getter]
+    fn sigmas<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, &self.sigmas)
+    }
+
+    /// Their covariance.
+    #[getter]
+    fn covariance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let count = self.values.len();
+        PyArray1::from_slice(py, &self.covariance).reshape([count, count])
+    }
+
+    /// Measured less fitted, in standard deviations.
+    #[getter]
+    fn residuals<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
+        self.residuals.as_ref().map(|residuals| PyArray1::from_slice(py, residuals))
+    }
+
+    fn __repr__(&self) -> String {
+        let rows = self.unknowns.iter().zip(&self.values).zip(&self.sigmas);
+        let rows: Vec<_> = rows.map(|((name, value), sigma)| format!("{name} = {value:e} +- {sigma:.1e}")).collect();
+        let residuals = self.chi_squared.zip(self.degrees);
+        let residuals = residuals.map_or(String::new(), |(chi, degrees)| format!("; chi^2 = {chi:.1} of {degrees}"));
+        format!("<Fit: {}{residuals}>", rows.join(", "))
+    }
+}
+
+/// Fits a timing model to data. `unknowns` are names as of `TimingModel.names`; `priors` gives a mean and a standard deviation of some, as `{"chi": (1.2, 0.05)}`.
+#[pyfunction]
+#[pyo3(signature = (model, data, unknowns, *, priors=None))]
+pub fn fit_timing(
+    py: Python<'_>,
+    model: &TimingModel,
+    data: &TimingData,
+    unknowns: Vec<String>,
+    priors: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Fit> {
+    let unknowns = all_named(&unknowns, &TimingParameter::ALL)?;
+    let mut data = data.data.clone();
+    for (name, prior) in priors.iter().flat_map(|priors| priors.iter()) {
+        let name: String = name.extract()?;
+        let parameter = named(&name, &TimingParameter::ALL)?;
+        let (mean, sigma): (f64, f64) = prior.extract().map_err(|_| {
+            raised(format!("priors[{name:?}]: allowed is a pair of numbers, the mean and the standard deviation"))
+        })?;
+        if !unknowns.contains(&parameter) {
+            return Err(raised(format!("priors[{name:?}]: allowed is an unknown")));
+        }
+        data.priors.push(Prior { parameter, mean, sigma });
+    }
+    let (found, nonlinearity) = py
+        .detach(|| {
+            let found = inference::fit_timing(&model.model, &data, &unknowns)?;
+            let nonlinearity = inference::timing_nonlinearity(&found.fisher, &data).unwrap_or(f64::INFINITY);
+            Ok::<_, inference::InferenceError>((found, nonlinearity))
+        })
+        .map_err(raised)?;
+    let model = TimingModel { model: found.fisher.parameters.clone() };
+    Ok(Fit { model: Some(model), ..Fit::of_fit(found, |_| 1.0, nonlinearity) })
+}
+
+/// The wobble that arrival times allow at some periods of precession (s), of a star that was fitted to them without one by the `unknowns`. A dict of arrays: `period` (s), the `best` wobble (rad), the `gain` of chi^2 by it, and the `limit` (rad) that is not exceeded with the probability `confidence`; infinite where the data do not limit it. chi and the share of the torque are those of the model.
+#[pyfunction]
+#[pyo3(signature = (model, data, unknowns, periods, *, confidence=0.95))]
+pub fn wobble_limits<'py>(
+    py: Python<'py>,
+    model: &TimingModel,
+    data: &TimingData,
+    unknowns: Vec<String>,
+    periods: &Bound<'py, PyAny>,
+    confidence: f64,
+) -> PyResult<Bound<'py, PyDict>> {
+    let unknowns = all_named(&unknowns, &TimingParameter::ALL)?;
+    let periods = list("periods", periods)?;
+    for period in &periods {
+        twofold::Error::ensure(*period > 0.0 && period.is_finite(), "period (s)", *period, "above zero")
+            .map_err(raised)?;
+    }
+    let rates: Vec<f64> = periods.iter().map(|period| TAU / period).collect();
+    let limits = py
+        .detach(|| inference::wobble_limits(&model.model, &data.data, &unknowns, &rates, confidence))
+        .map_err(raised)?;
+    let table = PyDict::new(py);
+    table.set_item("period", PyArray1::from_vec(py, periods))?;
+    for (name, of) in [("best", 0), ("gain", 1), ("limit", 2)] {
+        let values = limits.iter().map(|limit| [limit.best, limit.gain, limit.limit][of]);
+        table.set_item(name, PyArray1::from_iter(py, values))?;
+    }
+    Ok(table)
+}

@@ -1,0 +1,137 @@
+//! Verified kernels: formulas on scalars and arrays.
+
+use pyo3::prelude::*;
+
+/// Formulas of the paper and of the star, each checked by the project's suite (docs/equations.md). Arguments are scalars or arrays, which
+/// are broadcast as numpy does.
+#[pymodule(submodule)]
+pub mod kernels {
+    use std::f64::consts::TAU;
+
+    use pyo3::prelude::*;
+    use twofold::lorentz_violation::PrincipalCoefficients;
+    use twofold::observables::bound::{self, SpinAxisDrift};
+    use twofold::observables::eta;
+    use twofold::observables::pulsar::width::{PulseWidth, pulse_width as width};
+    use twofold::star::spheroid_shape::SpheroidShape;
+    use twofold::star::uniform_spheroid::UniformSpheroid;
+    use twofold::{dynamics, star};
+
+    use crate::arrays::broadcast;
+
+    type Numbers<'py> = Bound<'py, PyAny>;
+
+    /// The width `W` (rad) of the pulse of a cone of semi-open angle `rho` about an axis at the colatitude `theta`, seen from `theta_o` (rad), Eq. (56): zero without a pulse, two pi inside the cone.
+    #[pyfunction]
+    fn pulse_width<'py>(
+        py: Python<'py>,
+        rho: &Numbers<'py>,
+        theta: &Numbers<'py>,
+        theta_o: &Numbers<'py>,
+    ) -> PyResult<Numbers<'py>> {
+        broadcast(py, [("rho", rho), ("theta", theta), ("theta_o", theta_o)], |[rho, theta, theta_o]| {
+            Ok(match width(rho, theta, theta_o) {
+                PulseWidth::Pulsed(width) => width,
+                PulseWidth::AlwaysOn => TAU,
+                PulseWidth::NeverOn => 0.0,
+            })
+        })
+    }
+
+    /// The anisotropic energy `C (s^XX n_X^2 + s^YY n_Y^2 + s^ZZ n_Z^2)` of an axis at `alpha`, `beta` (rad) in the principal frame, Eq. (21), in units of `C`.
+    #[pyfunction]
+    fn anisotropic_potential<'py>(
+        py: Python<'py>,
+        s_xx: &Numbers<'py>,
+        s_yy: &Numbers<'py>,
+        s_zz: &Numbers<'py>,
+        alpha: &Numbers<'py>,
+        beta: &Numbers<'py>,
+    ) -> PyResult<Numbers<'py>> {
+        let given = [("s_xx", s_xx), ("s_yy", s_yy), ("s_zz", s_zz), ("alpha", alpha), ("beta", beta)];
+        broadcast(py, given, |[xx, yy, zz, alpha, beta]| {
+            let s = PrincipalCoefficients::new([xx, yy, zz]);
+            Ok(dynamics::potential::anisotropic_potential_in_angles(1.0, &s, alpha, beta))
+        })
+    }
+
+    /// `C` (J) of a uniform spheroid of mass (kg), mean radius (m) and oblateness `epsilon = I^zz / I^xx - 1`, Eq. (12).
+    #[pyfunction]
+    fn constant_c<'py>(
+        py: Python<'py>,
+        mass: &Numbers<'py>,
+        radius: &Numbers<'py>,
+        oblateness: &Numbers<'py>,
+    ) -> PyResult<Numbers<'py>> {
+        let given = [("mass", mass), ("radius", radius), ("oblateness", oblateness)];
+        broadcast(py, given, |[mass, radius, oblateness]| {
+            let star = UniformSpheroid::from_mass(mass, radius, SpheroidShape::from_oblateness(oblateness)?)?;
+            Ok(star.c() * twofold::units::si::GRAVITATIONAL_CONSTANT)
+        })
+    }
+
+    /// `I^zz / C` (s^2) of a star of density (kg/m^3) and oblateness, Eq. (43), estimated.
+    #[pyfunction]
+    fn inertia_over_c<'py>(
+        py: Python<'py>,
+        density: &Numbers<'py>,
+        oblateness: &Numbers<'py>,
+    ) -> PyResult<Numbers<'py>> {
+        broadcast(py, [("density", density), ("oblateness", oblateness)], |[density, oblateness]| {
+            let density = density * twofold::units::si::GRAVITATIONAL_CONSTANT;
+            Ok(star::estimates::inertia_over_c_estimate(density, oblateness))
+        })
+    }
+
+    /// `I^zz / C = 4 / Omega^2` (s^2) of a fluid star that rotates at `spin` (rad/s).
+    #[pyfunction]
+    fn fluid_inertia_over_c<'py>(py: Python<'py>, spin: &Numbers<'py>) -> PyResult<Numbers<'py>> {
+        broadcast(py, [("spin", spin)], |[spin]| Ok(bound::fluid_inertia_over_c(spin)))
+    }
+
+    /// The change of the angle `lambda` (rad) of the spin axis to the line of sight that changes the pulse width by `width_change`, Eq. (42).
+    #[pyfunction]
+    fn lambda_change<'py>(
+        py: Python<'py>,
+        lambda_: &Numbers<'py>,
+        chi: &Numbers<'py>,
+        width: &Numbers<'py>,
+        width_change: &Numbers<'py>,
+    ) -> PyResult<Numbers<'py>> {
+        let given = [("lambda_", lambda_), ("chi", chi), ("width", width), ("width_change", width_change)];
+        broadcast(py, given, |[lambda, chi, width, change]| bound::lambda_change(lambda, chi, width, change))
+    }
+
+    /// The bound on `|2 s^ZZ - s^XX - s^YY|` by a change of `cos lambda` over an `interval` (s), Eq. (41), for `I^zz / C` (s^2), a spin (rad/s) and a factor `eta`.
+    #[pyfunction]
+    fn combination_bound<'py>(
+        py: Python<'py>,
+        inertia_over_c: &Numbers<'py>,
+        spin: &Numbers<'py>,
+        interval: &Numbers<'py>,
+        cos_lambda_change: &Numbers<'py>,
+        eta: &Numbers<'py>,
+    ) -> PyResult<Numbers<'py>> {
+        let given = [
+            ("inertia_over_c", inertia_over_c),
+            ("spin", spin),
+            ("interval", interval),
+            ("cos_lambda_change", cos_lambda_change),
+            ("eta", eta),
+        ];
+        broadcast(py, given, |[polar_inertia_over_c, spin, interval, cos_lambda_change, eta]| {
+            SpinAxisDrift { polar_inertia_over_c, spin, interval, cos_lambda_change }.combination_bound(eta)
+        })
+    }
+
+    /// The root mean square of `eta` over directions of the line of sight, for the asymmetry ratio `(s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)` and an axis at `beta` (rad).
+    #[pyfunction]
+    fn root_mean_square_eta<'py>(
+        py: Python<'py>,
+        asymmetry_ratio: &Numbers<'py>,
+        beta: &Numbers<'py>,
+    ) -> PyResult<Numbers<'py>> {
+        let given = [("asymmetry_ratio", asymmetry_ratio), ("beta", beta)];
+        broadcast(py, given, |[asymmetry_ratio, beta]| eta::root_mean_square_eta(asymmetry_ratio, beta))
+    }
+}

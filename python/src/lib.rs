@@ -1,0 +1,37 @@
+//! The Python module `twofold`: scenes, motions, pulsars, fits, sweeps and kernels, on arrays of numpy.
+
+mod arrays;
+mod error;
+mod fit;
+mod kernels;
+mod motion;
+mod names;
+mod pulsar;
+mod scene;
+mod sweep;
+mod table;
+mod timing_model;
+mod writing;
+
+/// The compiled part of the package.
+#[pyo3::pymodule(name = "_twofold")]
+mod module {
+    #[pymodule_export]
+    use crate::error::Error;
+    #[pymodule_export]
+    use crate::fit::{Fit, TimingData, fit_timing, wobble_limits};
+    #[pymodule_export]
+    use crate::kernels::kernels;
+    #[pymodule_export]
+    use crate::motion::Motion;
+    #[pymodule_export]
+    use crate::pulsar::{Pulsar, Timing};
+    #[pymodule_export]
+    use crate::scene::Scene;
+    #[pymodule_export]
+    use crate::sweep::{Sweep, SweepFile};
+    #[pymodule_export]
+    use crate::table::Table;
+    #[pymodule_export]
+    use crate::timing_model::TimingModel;
+}

@@ -1,0 +1,125 @@
+//! The motion of a scene.
+
+use std::sync::Mutex;
+
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PySlice, PyTuple};
+use twofold::dynamics::BodyState;
+use twofold::plan::{Output, PlannedMotion, Request};
+use twofold::propagation::{ContinuousAngles, Motion as _};
+use twofold_scene::scene_file;
+
+use crate::arrays::Numbers;
+use crate::error::raised;
+use crate::scene::Scene;
+
+/// Samples for which the cheapest method is chosen.
+const SAMPLES: usize = 1000;
+
+/// The motion of a scene's star: its state at any time of the span, by a call. Times are in the `time_unit` of the scene.
+#[pyclass(frozen, module = "twofold")]
+pub struct Motion {
+    of: Py<Scene>,
+    scene: scene_file::Scene,
+    end: f64,
+    /// As it was asked for.
+    method: Option<String>,
+    by: &'static str,
+    motion: PlannedMotion<BodyState<f64>>,
+}
+
+impl Motion {
+    pub fn new(of: Py<Scene>, scene: scene_file::Scene, end: f64, method: Option<String>) -> PyResult<Self> {
+        let span = (0.0, scene.since_start(end));
+        let request = Request::new(&[Output::EquatorialAxis], span, SAMPLES, scene.tolerance);
+        let plan = scene.problem.plan(&Request { method: scene.method, ..request }).map_err(raised)?;
+        let motion = plan.motion(&scene.problem).map_err(raised)?;
+        let by = plan.method.map_or("none", |method| method.name());
+        Ok(Self { of, scene, end, method, by, motion })
+    }
+}
+
+#[pymethods]
+impl Motion {
+    /// The symmetry axis `n` in the inertial frame: an array of shape (..., 3) for times of shape (...).
+    fn axis<'py>(&self, py: Python<'py>, t: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let times = Numbers::of("t", t)?;
+        let at =
+            |_, t| self.motion.axis_state_in_parts(self.scene.since_start_in_parts(t)).map(|state| state.axis.into());
+        let found: Vec<[f64; 3]> = times.map(py, at)?;
+        times.shaped(py, found.into_flattened(), &[3])
+    }
+
+    /// The symmetry axis `n`, the angular momentum `L` and the axis `e_x` of the body: three arrays of shape (..., 3). `L` is in I_xx/t_c in the paper's units, in g cm^2/s for a physical star.
+    fn state<'py>(
+        &self,
+        py: Python<'py>,
+        t: &Bound<'py, PyAny>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        let (times, unit) = (Numbers::of("t", t)?, self.scene.units.momentum);
+        let found: Vec<[[f64; 3]; 3]> = times.map(py, |_, t| {
+            let state = self.motion.state_in_parts(self.scene.since_start_in_parts(t))?;
+            Ok::<_, twofold::Error>([state.axis.into(), (state.momentum * unit).into(), state.equatorial_axis.into()])
+        })?;
+        let all = times.shaped(py, found.into_flattened().into_flattened(), &[3, 3])?;
+        let part = |k: usize| all.get_item((py.Ellipsis(), k, PySlice::full(py)));
+        Ok((part(0)?, part(1)?, part(2)?))
+    }
+
+    /// The Euler angles alpha, beta and gamma (rad), which count their turns from the start: an array of shape (..., 3). NaN where the symmetry axis is on a pole.
+    fn angles<'py>(&self, py: Python<'py>, t: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let times = Numbers::of("t", t)?;
+        let angles = ContinuousAngles::new(&self.motion, 0.0, &self.scene.initial_angles).map_err(raised)?;
+        let angles = Mutex::new(angles);
+        let found = times.map(py, |_, t| {
+            let t = self.scene.since_start(t);
+            match angles.lock().expect("nobody panics with it").at(t) {
+                Ok(angles) => Ok([angles.alpha, angles.beta, angles.gamma]),
+                Err(_) if self.motion.state(t)?.angles().is_err() => Ok([f64::NAN; 3]),
+                Err(error) => Err(error),
+            }
+        })?;
+        times.shaped(py, found.into_iter().flatten().collect(), &[3])
+    }
+
+    /// Estimated error of the components of `n`, `e_x` and of `L` in units of its size.
+    fn error<'py>(&self, py: Python<'py>, t: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let times = Numbers::of("t", t)?;
+        let found =
+            times.map(py, |_, t| Ok::<_, twofold::Error>(self.motion.error_estimate(self.scene.since_start(t))))?;
+        times.shaped(py, found, &[])
+    }
+
+    /// First and last time.
+    #[getter]
+    fn span(&self) -> (f64, f64) {
+        (self.scene.times.start(), self.end)
+    }
+
+    /// The scene that moves.
+    #[getter]
+    fn scene(&self, py: Python<'_>) -> Py<Scene> {
+        self.of.clone_ref(py)
+    }
+
+    /// The method by which it is computed.
+    #[getter]
+    fn method(&self) -> &'static str {
+        self.by
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let (from, to) = self.span();
+        Ok(format!("<Motion of {} from {from:?} to {to:?} by {}>", self.of.bind(py).repr()?, self.method()))
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let options = PyDict::new(py);
+        options.set_item("end", self.end)?;
+        options.set_item("method", &self.method)?;
+        options.set_item("tolerance", self.scene.tolerance)?;
+        let partial = py.import("functools")?.getattr("partial")?;
+        let made = partial.call((self.of.bind(py).getattr("motion")?,), Some(&options))?;
+        Ok((made, PyTuple::empty(py)))
+    }
+}

@@ -1,0 +1,250 @@
+//! Scenes: a star, its initial motion, the coefficients for Lorentz violation, an observer and a beam.
+
+use std::sync::Arc;
+
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyString, PyTuple};
+use twofold::plan::Output;
+use twofold_scene::columns::Column;
+use twofold_scene::explained_plan::explained;
+use twofold_scene::pulsar_timing::PulsarScene;
+use twofold_scene::scene_file;
+use twofold_scene::trajectory::{LinesWanted, write_csv, write_lines, write_pulses};
+
+use crate::error::raised;
+use crate::motion::Motion;
+use crate::pulsar::Pulsar;
+use crate::table::Table;
+use crate::writing::written;
+
+/// A star, how it starts, the coefficients for Lorentz violation, and what is observed: as in a scene file (docs/scenes.md).
+///
+/// `Scene("tp-1")` is a built-in scene and `Scene("my-star.toml")` that of a file; `Scene(toml=text)` that of a text. Sections are keyword
+/// arguments: `Scene("tp-1", star={"spin": 1.2})` changes one number, `Scene("tp-1", pulsar=None)` takes a section away, and a scene can be made of sections alone. Scenes are frozen, compare by their text and can be pickled.
+#[pyclass(frozen, module = "twofold", name = "Scene")]
+pub struct Scene {
+    name: String,
+    toml: String,
+    pub(crate) scene: Arc<scene_file::Scene>,
+}
+
+impl Scene {
+    fn of_text(name: String, toml: String) -> PyResult<Self> {
+        let scene = Arc::new(scene_file::Scene::from_toml(&name, &toml).map_err(raised)?);
+        Ok(Self { name, toml, scene })
+    }
+
+    /// The scene for other columns, or by another method or tolerance.
+    fn with(
+        &self,
+        columns: Option<Vec<String>>,
+        method: Option<&str>,
+        tolerance: Option<f64>,
+    ) -> PyResult<scene_file::Scene> {
+        let mut scene = (*self.scene).clone();
+        if let Some(names) = columns {
+            scene.choose_columns(&names.iter().map(String::as_str).collect::<Vec<_>>()).map_err(raised)?;
+        }
+        if let Some(tolerance) = tolerance {
+            twofold::Error::ensure((1e-14..=1e-2).contains(&tolerance), "tolerance", tolerance, "from 1e-14 to 1e-2")
+                .map_err(raised)?;
+            scene.tolerance = tolerance;
+        }
+        if let Some(method) = method {
+            scene.choose_method(method).map_err(raised)?;
+        }
+        Ok(scene)
+    }
+}
+
+/// The text of a scene with sections changed. A section that is none is taken away, and a key of one too.
+fn changed(py: Python<'_>, text: &str, sections: &Bound<'_, PyDict>) -> PyResult<String> {
+    let document = py.import("tomllib")?.call_method1("loads", (text,)).map_err(raised)?.cast_into::<PyDict>()?;
+    for (name, section) in sections {
+        let Ok(keys) = section.cast::<PyDict>() else {
+            if section.is_none() {
+                if document.contains(&name)? {
+                    document.del_item(&name)?;
+                }
+            } else {
+                document.set_item(&name, section)?;
+            }
+            continue;
+        };
+        let whole = match document.get_item(&name)? {
+            Some(found) => found.cast_into::<PyDict>()?,
+            None => PyDict::new(py),
+        };
+        for (key, value) in keys {
+            if !value.is_none() {
+                // Arrays and numbers of numpy as Python's.
+                let value = if value.hasattr("tolist")? { value.call_method0("tolist")? } else { value };
+                whole.set_item(key, value)?;
+            } else if whole.contains(&key)? {
+                whole.del_item(key)?;
+            }
+        }
+        document.set_item(name, whole)?;
+    }
+    py.import("tomli_w")?.call_method1("dumps", (document,)).map_err(raised)?.extract()
+}
+
+#[pymethods]
+impl Scene {
+    #[new]
+    #[pyo3(signature = (source=None, /, *, toml=None, **sections))]
+    fn new(
+        py: Python<'_>,
+        source: Option<&Bound<'_, PyAny>>,
+        toml: Option<String>,
+        sections: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let (name, text) = match (source, toml) {
+            (Some(_), Some(_)) => return Err(raised("a scene has one source: allowed is a name or path, or toml=")),
+            (None, None) if sections.is_none() => {
+                return Err(raised("no scene: allowed are a name, a path, toml= and sections as star={...}"));
+            }
+            (None, text) => ("scene".to_owned(), text.unwrap_or_default()),
+            (Some(source), None) => {
+                let name: String = py.import("os")?.call_method1("fspath", (source,))?.extract()?;
+                let text = scene_file::text_of(&name).map_err(raised)?;
+                (name, text)
+            }
+        };
+        let text = match sections {
+            Some(sections) => changed(py, &text, sections)?,
+            None => text,
+        };
+        Self::of_text(name, text)
+    }
+
+    /// The names of the built-in scenes.
+    #[staticmethod]
+    fn names() -> Vec<&'static str> {
+        scene_file::names()
+    }
+
+    /// Where the scene comes from: a built-in name or a path.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The text of the scene file.
+    #[getter]
+    fn toml(&self) -> &str {
+        &self.toml
+    }
+
+    /// What the scene is, one line.
+    #[getter]
+    fn about(&self) -> &str {
+        &self.scene.about
+    }
+
+    /// Sentences about what is allowed but looks like a mistake.
+    #[getter]
+    fn cautions(&self) -> Vec<&str> {
+        self.scene.cautions.iter().map(String::as_str).collect()
+    }
+
+    /// The unit of time: `t_c` in the paper's units, `s` for a physical star.
+    #[getter]
+    fn time_unit(&self) -> &str {
+        self.scene.units.time_name
+    }
+
+    /// First and last time, in `time_unit`.
+    #[getter]
+    fn span(&self) -> (f64, f64) {
+        (self.scene.times.start(), self.scene.times.last())
+    }
+
+    /// The table that `twofold run` writes, for groups of columns (`["angles", "e_z", "h"]`) or those of the scene.
+    #[pyo3(signature = (columns=None, *, method=None, tolerance=None, progress=None))]
+    fn table(
+        &self,
+        py: Python<'_>,
+        columns: Option<Vec<String>>,
+        method: Option<&str>,
+        tolerance: Option<f64>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Table> {
+        let scene = self.with(columns, method, tolerance)?;
+        Ok(written(py, progress, |writer, tell| write_csv(&scene, writer, tell))?.0)
+    }
+
+    /// The pulses in the span of the scene, as `twofold pulses` writes them.
+    #[pyo3(signature = (*, method=None, tolerance=None, progress=None))]
+    fn pulses(
+        &self,
+        py: Python<'_>,
+        method: Option<&str>,
+        tolerance: Option<f64>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Table> {
+        let scene = self.with(None, method, tolerance)?;
+        scene.check_rotation(&[Output::Pulses]).map_err(raised)?;
+        Ok(written(py, progress, |writer, tell| write_pulses(&scene, writer, tell))?.0)
+    }
+
+    /// The spectral lines of a column (`"m.n"`, `"h_plus"`), strongest first, down to an amplitude of `least` of the largest one. Frequencies are in rad per
+    /// `time_unit`, phases those at the start.
+    #[pyo3(signature = (column, *, least=1e-6, most=50))]
+    fn lines(&self, py: Python<'_>, column: &str, least: f64, most: usize) -> PyResult<Table> {
+        twofold::Error::ensure((1e-12..=1.0).contains(&least), "least", least, "from 1e-12 to 1").map_err(raised)?;
+        let column = Column::oscillating(column, &self.scene).map_err(raised)?;
+        let wanted = LinesWanted { least, most, in_turns: false };
+        Ok(written(py, None, |writer, _| write_lines(&self.scene, &column, &wanted, writer))?.0)
+    }
+
+    /// What would be computed for groups of columns, or for those of the scene: the method, its cost and error, and what is left out, in words.
+    #[pyo3(signature = (columns=None, *, method=None, tolerance=None))]
+    fn plan(&self, columns: Option<Vec<String>>, method: Option<&str>, tolerance: Option<f64>) -> PyResult<String> {
+        let scene = self.with(columns, method, tolerance)?;
+        Ok(explained(&scene, &scene.plan(&scene.columns).map_err(raised)?))
+    }
+
+    /// The motion from the start of the scene to the time `end`, its last one if none is given.
+    #[pyo3(signature = (end=None, *, method=None, tolerance=None))]
+    fn motion(
+        slf: Bound<'_, Self>,
+        end: Option<f64>,
+        method: Option<String>,
+        tolerance: Option<f64>,
+    ) -> PyResult<Motion> {
+        let scene = slf.get().with(None, method.as_deref(), tolerance)?;
+        let end = end.unwrap_or(scene.times.last());
+        Motion::new(slf.unbind(), scene, end, method)
+    }
+
+    /// The pulsar over decades: arrival times, its timing model, its wave. The scene needs `time.epoch`, `[observer]` and `[pulsar]`.
+    fn pulsar(slf: Bound<'_, Self>) -> PyResult<Pulsar> {
+        let pulsar = PulsarScene::new(&slf.get().scene).map_err(raised)?;
+        Ok(Pulsar { scene: slf.unbind(), pulsar })
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.toml == other.toml
+    }
+
+    fn __hash__(slf: &Bound<'_, Self>) -> PyResult<isize> {
+        PyString::new(slf.py(), &slf.get().toml).hash()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Scene {}: {}>", self.name, self.scene.about)
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let Self { name, toml, .. } = slf.get();
+        let made_again = slf.get_type().getattr("_of_text")?;
+        Ok((made_again, PyTuple::new(slf.py(), [name, toml])?))
+    }
+
+    /// A scene with the name and text of another, for pickle.
+    #[staticmethod]
+    fn _of_text(name: String, toml: String) -> PyResult<Self> {
+        Self::of_text(name, toml)
+    }
+}

@@ -1,0 +1,164 @@
+//! Tables: columns by name, as the command writes them.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use arrow_array::ffi_stream::FFI_ArrowArrayStream;
+use arrow_array::{ArrayRef, Float64Array, RecordBatch, RecordBatchIterator, StringArray};
+use arrow_schema::{DataType, Field, Schema};
+use numpy::PyArray1;
+use pyo3::exceptions::PyKeyError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyCapsule, PyDict, PyList};
+
+use crate::error::raised;
+
+/// A table of numbers, a column for each name. A missing number is NaN.
+///
+/// `table["beta"]` is an array, `table.units["beta"]` its unit, `table.csv` the bytes that the command would write. pandas, polars and pyarrow
+/// read it by the Arrow PyCapsule interface, as `pyarrow.table(table)`.
+#[pyclass(frozen, module = "twofold")]
+pub struct Table {
+    csv: Vec<u8>,
+    columns: Vec<Column>,
+    rows: usize,
+}
+
+struct Column {
+    name: String,
+    unit: String,
+    values: Values,
+}
+
+enum Values {
+    Numbers(Vec<f64>),
+    Words(Vec<String>),
+}
+
+impl Table {
+    /// A table that is written as CSV: a header of names with units in brackets, then numbers, or words where a field is none.
+    pub fn of_csv(csv: Vec<u8>) -> Result<Self, String> {
+        let reader = || csv::Reader::from_reader(csv.as_slice());
+        let header = reader().headers().map_err(|error| error.to_string())?.clone();
+        let mut columns: Vec<_> = header
+            .iter()
+            .map(|title| {
+                let (name, unit) =
+                    title.split_once(" [").map_or((title, ""), |(name, unit)| (name, &unit[..unit.len() - 1]));
+                Column { name: name.to_owned(), unit: unit.to_owned(), values: Values::Numbers(Vec::new()) }
+            })
+            .collect();
+        let mut rows = 0;
+        let (mut first, mut record) = (reader(), csv::StringRecord::new());
+        while first.read_record(&mut record).map_err(|error| error.to_string())? {
+            for (column, _) in columns.iter_mut().zip(&record).filter(|(_, field)| number(field).is_none()) {
+                column.values = Values::Words(Vec::new());
+            }
+            rows += 1;
+        }
+        let mut again = reader();
+        while again.read_record(&mut record).map_err(|error| error.to_string())? {
+            for (column, field) in columns.iter_mut().zip(&record) {
+                match &mut column.values {
+                    Values::Numbers(numbers) => numbers.extend(number(field)),
+                    Values::Words(words) => words.push(field.to_owned()),
+                }
+            }
+        }
+        Ok(Self { csv, columns, rows })
+    }
+}
+
+/// The number of a field; an empty one is missing, not a number.
+fn number(field: &str) -> Option<f64> {
+    if field.is_empty() { Some(f64::NAN) } else { field.parse().ok() }
+}
+
+impl Column {
+    fn array(&self) -> ArrayRef {
+        match &self.values {
+            Values::Numbers(numbers) => Arc::new(Float64Array::from(numbers.clone())),
+            Values::Words(words) => Arc::new(StringArray::from_iter_values(words)),
+        }
+    }
+}
+
+#[pymethods]
+impl Table {
+    /// A table from the bytes that `csv` has.
+    #[new]
+    fn new(csv: &[u8]) -> PyResult<Self> {
+        Self::of_csv(csv.to_owned()).map_err(raised)
+    }
+
+    /// The names of the columns.
+    fn keys(&self) -> Vec<&str> {
+        self.columns.iter().map(|column| column.name.as_str()).collect()
+    }
+
+    /// The unit of each column.
+    #[getter]
+    fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let units = PyDict::new(py);
+        self.columns.iter().try_for_each(|column| units.set_item(&column.name, &column.unit))?;
+        Ok(units)
+    }
+
+    /// Comma-separated values, as the command writes them.
+    #[getter]
+    fn csv<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, &self.csv)
+    }
+
+    /// A column: an array of float64, or a list of words.
+    fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let found = self.columns.iter().find(|column| column.name == name);
+        match found.map(|column| &column.values) {
+            Some(Values::Numbers(numbers)) => Ok(PyArray1::from_slice(py, numbers).into_any()),
+            Some(Values::Words(words)) => Ok(PyList::new(py, words)?.into_any()),
+            None => {
+                Err(PyKeyError::new_err(format!("`{name}` is no column; this table has {}", self.keys().join(", "))))
+            }
+        }
+    }
+
+    fn __contains__(&self, name: &str) -> bool {
+        self.columns.iter().any(|column| column.name == name)
+    }
+
+    fn __len__(&self) -> usize {
+        self.rows
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.csv == other.csv
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Table of {} rows: {}", self.rows, self.keys().join(", "))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyAny>, (Bound<'py, PyBytes>,)) {
+        (slf.get_type().into_any(), (slf.get().csv(slf.py()),))
+    }
+
+    /// The table as an Arrow stream. A `requested_schema` is not followed: consumers cast.
+    #[pyo3(signature = (requested_schema=None))]
+    fn __arrow_c_stream__<'py>(
+        &self,
+        py: Python<'py>,
+        requested_schema: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyCapsule>> {
+        let _ = requested_schema;
+        let field = |column: &Column| {
+            let kind = if matches!(column.values, Values::Numbers(_)) { DataType::Float64 } else { DataType::Utf8 };
+            let unit = HashMap::from([("unit".to_owned(), column.unit.clone())]);
+            Field::new(&column.name, kind, false).with_metadata(unit)
+        };
+        let schema = Arc::new(Schema::new(self.columns.iter().map(field).collect::<Vec<_>>()));
+        let batch =
+            RecordBatch::try_new(schema.clone(), self.columns.iter().map(Column::array).collect()).map_err(raised)?;
+        let stream = FFI_ArrowArrayStream::new(Box::new(RecordBatchIterator::new([Ok(batch)], schema)));
+        PyCapsule::new_with_value(py, stream, c"arrow_array_stream")
+    }
+}

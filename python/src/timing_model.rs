@@ -1,0 +1,154 @@
+//! The phase of a wobbling pulsar that slows down, for timing programs.
+
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+use twofold::observables::pulsar::timing_model::{self, TimingParameter};
+
+use crate::arrays::Numbers;
+use crate::error::raised;
+use crate::names::named;
+
+/// A pulsar by its timing parameters (docs/timing-model.md). `TimingModel(f0, f1=..., wobble=..., chi=...)`: F0 in Hz, and in SI units and rad what else is not zero; chi and inclination are
+/// a right angle if not given. F0 is the sum of two doubles, `f0 + f0_rest`.
+///
+/// Times are in seconds since the epoch, the sum of two doubles `t + rest`; arrays of any shape are taken.
+#[pyclass(frozen, module = "twofold", from_py_object)]
+#[derive(Clone)]
+pub struct TimingModel {
+    pub(crate) model: timing_model::TimingModel,
+}
+
+/// Times with their small parts.
+fn times(t: &Bound<'_, PyAny>, rest: Option<&Bound<'_, PyAny>>) -> PyResult<(Numbers, Vec<f64>)> {
+    let t = Numbers::of("t", t)?;
+    let rest = rest.map_or_else(|| Ok(vec![0.0; t.values.len()]), |rest| t.beside("rest", rest))?;
+    Ok((t, rest))
+}
+
+#[pymethods]
+impl TimingModel {
+    #[new]
+    #[pyo3(signature = (f0, f0_rest=0.0, **parameters))]
+    fn new(f0: f64, f0_rest: f64, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let given = parameters.map_or_else(|| Ok(Vec::new()), values)?;
+        Ok(Self { model: timing_model::TimingModel::new([f0, f0_rest], &given).map_err(raised)? })
+    }
+
+    /// The names of the parameters, in the order of derivatives.
+    #[classattr]
+    fn names() -> [&'static str; 12] {
+        TimingParameter::ALL.map(TimingParameter::key)
+    }
+
+    /// The unit of each parameter.
+    #[classattr]
+    fn units(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+        let units = PyDict::new(py);
+        TimingParameter::ALL.iter().try_for_each(|parameter| units.set_item(parameter.key(), parameter.unit()))?;
+        Ok(units)
+    }
+
+    /// The value of a parameter.
+    fn __getitem__(&self, name: &str) -> PyResult<f64> {
+        Ok(self.model.value(named(name, &TimingParameter::ALL)?))
+    }
+
+    /// F0 (Hz), the sum of two doubles.
+    #[getter]
+    fn frequency(&self) -> [f64; 2] {
+        self.model.frequency()
+    }
+
+    /// The model with numbers added to some parameters. F0 keeps 32 digits, so that small changes add up.
+    #[pyo3(signature = (**changes))]
+    fn moved(&self, changes: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let changes = changes.map_or_else(|| Ok(Vec::new()), values)?;
+        Ok(Self { model: self.model.moved(&changes).map_err(raised)? })
+    }
+
+    /// The phase at times: whole turns and the rest in turns, two arrays. A pulse is where the rest is zero.
+    #[pyo3(signature = (t, rest=None))]
+    fn phase<'py>(
+        &self,
+        py: Python<'py>,
+        t: &Bound<'py, PyAny>,
+        rest: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        let (t, rest) = times(t, rest)?;
+        let found = t.map(py, |k, t| self.model.phase([t, rest[k]]))?;
+        let whole = t.shaped(py, found.iter().map(|turns| turns.whole as f64).collect(), &[])?;
+        Ok((whole, t.shaped(py, found.iter().map(|turns| turns.fraction).collect(), &[])?))
+    }
+
+    /// The phase as from `phase`, and its derivatives (turns per unit of each parameter): an array of shape (..., 12).
+    #[pyo3(signature = (t, rest=None))]
+    fn phase_and_derivatives<'py>(
+        &self,
+        py: Python<'py>,
+        t: &Bound<'py, PyAny>,
+        rest: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        let (t, rest) = times(t, rest)?;
+        let found = t.map(py, |k, t| self.model.phase_and_derivatives([t, rest[k]]))?;
+        let whole = t.shaped(py, found.iter().map(|(turns, _)| turns.whole as f64).collect(), &[])?;
+        let fraction = t.shaped(py, found.iter().map(|(turns, _)| turns.fraction).collect(), &[])?;
+        let derivatives = found.iter().flat_map(|(_, derivatives)| *derivatives).collect();
+        Ok((whole, fraction, t.shaped(py, derivatives, &[TimingParameter::ALL.len()])?))
+    }
+
+    /// When pulses of given numbers arrive: two arrays whose sum is the time.
+    fn arrival<'py>(
+        &self,
+        py: Python<'py>,
+        number: &Bound<'py, PyAny>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        let numbers = Numbers::of("number", number)?;
+        for number in &numbers.values {
+            let is_whole = number.fract() == 0.0 && number.abs() <= 9e15;
+            twofold::Error::ensure(is_whole, "number", *number, "a whole number up to 9e15 in size").map_err(raised)?;
+        }
+        let found = numbers.map(py, |_, number| self.model.arrival(number as i64))?;
+        let [t, rest] = [0, 1].map(|part| numbers.shaped(py, found.iter().map(|time| time[part]).collect(), &[]));
+        Ok((t?, rest?))
+    }
+
+    /// The widths of pulses (s) near times.
+    fn width<'py>(&self, py: Python<'py>, t: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let t = Numbers::of("t", t)?;
+        let found = t.map(py, |_, t| self.model.width(t))?;
+        t.shaped(py, found, &[])
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        let same = |parameter| self.model.value(parameter) == other.model.value(parameter);
+        self.frequency() == other.frequency() && TimingParameter::ALL.into_iter().all(same)
+    }
+
+    fn __repr__(&self) -> String {
+        let others = TimingParameter::ALL.into_iter().filter(|parameter| *parameter != TimingParameter::F0);
+        let others = others.filter(|parameter| self.model.value(*parameter) != 0.0);
+        let others: String = others.map(|one| format!(", {}={:?}", one.key(), self.model.value(one))).collect();
+        let [f0, rest] = self.frequency();
+        format!("TimingModel({f0:?}, {rest:?}{others})")
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let (py, of) = (slf.py(), slf.get());
+        let options = PyDict::new(py);
+        for parameter in TimingParameter::ALL.into_iter().filter(|parameter| *parameter != TimingParameter::F0) {
+            options.set_item(parameter.key(), of.model.value(parameter))?;
+        }
+        let made = py.import("functools")?.getattr("partial")?.call((slf.get_type(),), Some(&options))?;
+        Ok((made, PyTuple::new(py, of.frequency())?))
+    }
+}
+
+/// Parameters by their names.
+fn values(given: &Bound<'_, PyDict>) -> PyResult<Vec<(TimingParameter, f64)>> {
+    let read = |(name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+        let name: String = name.extract()?;
+        let number = value.extract().map_err(|_| raised(format!("{name}: allowed is a number")))?;
+        Ok((named(&name, &TimingParameter::ALL)?, number))
+    };
+    given.iter().map(read).collect()
+}

@@ -1,0 +1,49 @@
+"""The rotation of spheroidal neutron stars under Lorentz violation.
+
+>>> import twofold
+>>> motion = twofold.Scene("tp-2").motion()
+>>> motion.axis([0.0, 10.0]).shape
+(2, 3)
+
+Scenes, motions, pulsars, timing models, fits and sweeps, by the verified equations of the Rust library of this name. Times are in the unit that a scene
+states (`t_c`, or seconds of a physical star); angles are in rad, arrays are of float64.
+
+`twofold.units` takes and gives quantities of astropy, `twofold.plot` draws with matplotlib, `twofold.pint` is a component of PINT's timing models,
+`twofold.waves` gives waveforms to lalpulsar, `twofold.likelihood` likelihoods to samplers. Each needs the package that it serves.
+"""
+
+from importlib.metadata import version
+
+from twofold._twofold import (
+    Error,
+    Fit,
+    Motion,
+    Pulsar,
+    Scene,
+    Table,
+    Timing,
+    TimingData,
+    TimingModel,
+    fit_timing,
+    kernels,
+    wobble_limits,
+)
+from twofold.sweep import Sweep
+
+__version__ = version("twofold")
+
+__all__ = [
+    "Error",
+    "Fit",
+    "Motion",
+    "Pulsar",
+    "Scene",
+    "Sweep",
+    "Table",
+    "Timing",
+    "TimingData",
+    "TimingModel",
+    "fit_timing",
+    "kernels",
+    "wobble_limits",
+]

@@ -1,0 +1,83 @@
+"""Sweeps over many scenes, by any executor of `concurrent.futures`."""
+
+from __future__ import annotations
+
+import os
+from collections import deque
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor
+
+from twofold import _twofold
+from twofold._twofold import SweepFile, Table
+
+#: One part: the scene after its last one, rows, rows of errors, how many scenes failed.
+_Part = tuple[int, bytes, bytes, int]
+
+
+class Sweep(_twofold.Sweep):
+    """Many scenes: grids, lists and random draws over the parameters of one (docs/sweep.md).
+
+    `Sweep("grid.toml")` reads a file, `Sweep(toml=text)` a text. A row depends on nothing but its scene: any part can be computed anywhere, in one thread, and the parts
+    together are the table to the byte. Sweeps can be pickled.
+    """
+
+    def map(
+        self,
+        executor: Executor,
+        *,
+        scenes_at_once: int = 256,
+        parts_at_once: int = 64,
+        progress: Callable[[float], object] | None = None,
+    ) -> Table:
+        """The whole table in memory, by the workers of an executor: processes, threads, MPI ranks, Dask.
+
+        The executor has at most `parts_at_once` parts of `scenes_at_once` scenes at a time. `progress` is called with the part that is done, from 0 to 1.
+        """
+        rows = [self.header]
+        for stop, more, _, _ in self._parts(executor, 0, scenes_at_once, parts_at_once):
+            rows.append(more)
+            if progress is not None:
+                progress(stop / len(self))
+        return Table(b"".join(rows))
+
+    def write(
+        self,
+        path: str | os.PathLike[str],
+        executor: Executor,
+        *,
+        scenes_at_once: int = 256,
+        parts_at_once: int = 64,
+        replace: bool = False,
+        progress: Callable[[float], object] | None = None,
+    ) -> None:
+        """Writes the table to a CSV file, by the workers of an executor; memory does not grow with the number of scenes.
+
+        The file grows as `path.partial` with a journal beside it. After an interruption, a dead worker or a loss of power the same call, or `twofold sweep`, goes on
+        where it ended. Scenes that failed are in `path.errors.csv`, with the reason.
+        """
+        file = SweepFile(self, os.fspath(path), replace=replace)
+        for stop, rows, errors, failed in self._parts(executor, file.next, scenes_at_once, parts_at_once):
+            file.append(stop, rows, errors, failed)
+            if progress is not None:
+                progress(stop / len(self))
+        file.complete()
+
+    def _parts(self, executor: Executor, first: int, scenes_at_once: int, parts_at_once: int) -> Iterator[_Part]:
+        """The parts from the scene `first` on, in order."""
+        for name, value in (("scenes_at_once", scenes_at_once), ("parts_at_once", parts_at_once)):
+            if value < 1:
+                raise _twofold.Error(f"{name} = {value}: allowed is a whole number above zero")
+        waiting: deque = deque()
+        try:
+            for start in range(first, len(self), scenes_at_once):
+                stop = min(start + scenes_at_once, len(self))
+                waiting.append((stop, executor.submit(self.rows, start, stop)))
+                if len(waiting) == parts_at_once:
+                    stop, future = waiting.popleft()
+                    yield stop, *future.result()
+            while waiting:
+                stop, future = waiting.popleft()
+                yield stop, *future.result()
+        finally:
+            for _, future in waiting:
+                future.cancel()
