@@ -2,8 +2,10 @@
 
 use numpy::{PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyTypeError;
+use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
-use pyo3::types::{PyFloat, PyInt};
+use pyo3::types::{PyFloat, PyInt, PyTuple};
+use pyo3::{Borrowed, type_hint_identifier, type_hint_subscript};
 
 use crate::error::raised;
 
@@ -17,9 +19,13 @@ pub struct Numbers {
     shape: Option<Vec<usize>>,
 }
 
-impl Numbers {
-    /// The numbers of an argument called `name`.
-    pub fn of(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Self> {
+/// What a number or an array of numbers is read from.
+impl<'py> FromPyObject<'_, 'py> for Numbers {
+    type Error = PyErr;
+
+    const INPUT_TYPE: PyStaticExpr = type_hint_identifier!("numpy.typing", "ArrayLike");
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(number) = given.cast::<PyFloat>() {
             return Ok(Self { values: vec![number.value()], shape: None });
         }
@@ -27,7 +33,7 @@ impl Numbers {
             return Ok(Self { values: vec![given.extract()?], shape: None });
         }
         let py = given.py();
-        let refused = || PyTypeError::new_err(format!("{name}: allowed is a real number or an array of real numbers"));
+        let refused = || PyTypeError::new_err("allowed is a real number or an array of real numbers");
         let numpy = py.import(pyo3::intern!(py, "numpy"))?;
         let array = numpy.call_method1(pyo3::intern!(py, "asarray"), (given,)).map_err(|_| refused())?;
         let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
@@ -41,18 +47,42 @@ impl Numbers {
         let values = array.readonly().as_array().iter().copied().collect();
         Ok(Self { values, shape: (!shape.is_empty()).then_some(shape) })
     }
+}
 
-    /// Numbers beside these: as many, or one for all.
-    pub fn beside(&self, name: &str, given: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
-        let Self { values, shape } = Self::of(name, given)?;
-        match shape {
-            None => Ok(vec![values[0]; self.values.len()]),
-            shape if shape == self.shape => Ok(values),
+impl Numbers {
+    /// The numbers of `other`, called `name`, beside these: as many, or one for all.
+    pub fn beside(&self, name: &str, other: Self) -> PyResult<Vec<f64>> {
+        match other.shape {
+            None => Ok(vec![other.values[0]; self.values.len()]),
+            shape if shape == self.shape => Ok(other.values),
             Some(shape) => Err(raised(format!(
                 "{name}: an array of shape {shape:?} beside one of {:?}: allowed is the same shape, or one number",
                 self.shape.as_deref().unwrap_or(&[])
             ))),
         }
+    }
+
+    /// A list of numbers called `name`, of one dimension.
+    pub fn list(self, name: &str) -> PyResult<Vec<f64>> {
+        match self.shape {
+            Some(shape) if shape.len() == 1 => Ok(self.values),
+            _ => Err(raised(format!("{name}: allowed is an array of one dimension"))),
+        }
+    }
+
+    /// As many numbers called `name` as `count`, from a list of them or from one for all.
+    pub fn list_of(self, name: &str, count: usize) -> PyResult<Vec<f64>> {
+        if self.shape.is_none() {
+            return Ok(vec![self.values[0]; count]);
+        }
+        let found = self.list(name)?;
+        if found.len() == count {
+            return Ok(found);
+        }
+        Err(raised(format!(
+            "{name}: {} numbers beside {count} times: allowed are as many, or one for all",
+            found.len()
+        )))
     }
 
     /// What a function is at each of the numbers, without Python's lock where they are many.
@@ -92,28 +122,46 @@ impl Numbers {
     }
 }
 
-/// A function of several numbers at each element of its arguments, which are scalars or arrays that numpy broadcasts.
+/// A function of several numbers at each element of its arguments, which numpy broadcasts.
 pub fn broadcast<'py, const N: usize>(
     py: Python<'py>,
-    arguments: [(&str, &Bound<'py, PyAny>); N],
+    arguments: [Numbers; N],
     function: impl Fn([f64; N]) -> Result<f64, twofold::Error> + Sync,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let read = arguments.iter().map(|(name, given)| Numbers::of(name, given)).collect::<PyResult<Vec<_>>>()?;
-    if read.iter().all(|numbers| numbers.shape.is_none()) {
-        return Ok(PyFloat::new(py, function(core::array::from_fn(|k| read[k].values[0])).map_err(raised)?).into_any());
+    if arguments.iter().all(|numbers| numbers.shape.is_none()) {
+        let values = arguments.map(|numbers| numbers.values[0]);
+        return Ok(PyFloat::new(py, function(values).map_err(raised)?).into_any());
     }
-    let given = pyo3::types::PyTuple::new(py, arguments.iter().map(|(_, given)| *given))?;
+    let given = arguments.into_iter().map(|numbers| {
+        let values = numbers.values.clone();
+        numbers.shaped(py, values, &[])
+    });
+    let given = PyTuple::new(py, given.collect::<PyResult<Vec<_>>>()?)?;
     let whole = py.import("numpy")?.getattr("broadcast_arrays")?.call1(given).map_err(raised)?;
-    let whole = whole.try_iter()?.map(|one| Numbers::of("argument", &one?)).collect::<PyResult<Vec<_>>>()?;
+    let whole = whole.try_iter()?.map(|one| one?.extract::<Numbers>()).collect::<PyResult<Vec<_>>>()?;
     let found = whole[0].map(py, |k, _| function(core::array::from_fn(|part| whole[part].values[k])))?;
     whole[0].shaped(py, found, &[])
 }
 
-/// A list of numbers, of one dimension.
-pub fn list(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
-    let numbers = Numbers::of(name, given)?;
-    match numbers.shape {
-        Some(shape) if shape.len() == 1 => Ok(numbers.values),
-        _ => Err(raised(format!("{name}: allowed is an array of one dimension"))),
+/// An array of float64, for the stubs.
+pub struct Array<'py>(pub Bound<'py, PyAny>);
+
+impl<'py> IntoPyObject<'py> for Array<'py> {
+    type Target = PyAny;
+    type Output = Bound<'py, PyAny>;
+    type Error = PyErr;
+
+    const OUTPUT_TYPE: PyStaticExpr = type_hint_subscript!(
+        type_hint_identifier!("numpy.typing", "NDArray"),
+        type_hint_identifier!("numpy", "float64")
+    );
+
+    fn into_pyobject(self, _: Python<'py>) -> PyResult<Self::Output> {
+        Ok(self.0)
     }
+}
+
+/// An array of one dimension.
+pub fn array<'py>(py: Python<'py>, values: impl IntoIterator<Item = f64>) -> Array<'py> {
+    Array(PyArray1::from_vec(py, values.into_iter().collect()).into_any())
 }

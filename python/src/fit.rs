@@ -2,18 +2,17 @@
 
 use std::f64::consts::TAU;
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use twofold::inference::{self, Fisher, MeasuredArrival, MeasuredWidth, Model, Prior, Residuals, Unknown};
 use twofold::observables::pulsar::timing_model::TimingParameter;
-use twofold_scene::measurements::{DataFile, parse_noise};
+use twofold_scene::measurements::{DataFile, named, parse_noise};
 
-use crate::arrays::list;
+use crate::arrays::{Array, Numbers, array};
 use crate::error::raised;
-use crate::names::{all_named, named};
 use crate::pulsar::epoch;
-use crate::timing_model::TimingModel;
+use crate::timing_model::{TimingModel, timing_parameter};
 
 /// Arrival times and pulse widths with independent errors. Times and standard deviations are in seconds, times since the epoch of the model.
 ///
@@ -29,22 +28,23 @@ impl TimingData {
     #[new]
     #[pyo3(signature = (times=None, sigmas=None, *, rest=None, numbers=None, width_times=None, widths=None, width_sigmas=None))]
     fn new(
-        times: Option<&Bound<'_, PyAny>>,
-        sigmas: Option<&Bound<'_, PyAny>>,
-        rest: Option<&Bound<'_, PyAny>>,
-        numbers: Option<&Bound<'_, PyAny>>,
-        width_times: Option<&Bound<'_, PyAny>>,
-        widths: Option<&Bound<'_, PyAny>>,
-        width_sigmas: Option<&Bound<'_, PyAny>>,
+        times: Option<Numbers>,
+        sigmas: Option<Numbers>,
+        rest: Option<Numbers>,
+        numbers: Option<Numbers>,
+        width_times: Option<Numbers>,
+        widths: Option<Numbers>,
+        width_sigmas: Option<Numbers>,
     ) -> PyResult<Self> {
         let times = read("times", times)?;
         let count = times.len();
-        let sigmas = of_length("sigmas", sigmas, count)?.unwrap_or_default();
+        let of = |name: &str, given: Option<Numbers>| given.map(|given| given.list_of(name, count)).transpose();
+        let sigmas = of("sigmas", sigmas)?.unwrap_or_default();
         if sigmas.len() != count {
             return Err(raised("times without sigmas: allowed are arrival times with a standard deviation each"));
         }
-        let rest = of_length("rest", rest, count)?.unwrap_or(vec![0.0; count]);
-        let numbers = of_length("numbers", numbers, count)?;
+        let rest = of("rest", rest)?.unwrap_or(vec![0.0; count]);
+        let numbers = of("numbers", numbers)?;
         let arrival = |k: usize| MeasuredArrival {
             time: [times[k], rest[k]],
             sigma: sigmas[k],
@@ -81,15 +81,15 @@ impl TimingData {
 
     /// Times of the arrivals (s): an array of shape (n, 2), two parts each.
     #[getter]
-    fn times<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+    fn times<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
         let values: Vec<f64> = self.data.arrivals.iter().flat_map(|arrival| arrival.time).collect();
-        Ok(PyArray1::from_vec(py, values).reshape([self.data.arrivals.len(), 2])?.into_any())
+        Ok(Array(PyArray1::from_vec(py, values).reshape([self.data.arrivals.len(), 2])?.into_any()))
     }
 
     /// Their standard deviations (s).
     #[getter]
-    fn sigmas<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_iter(py, self.data.arrivals.iter().map(|arrival| arrival.sigma))
+    fn sigmas<'py>(&self, py: Python<'py>) -> Array<'py> {
+        array(py, self.data.arrivals.iter().map(|arrival| arrival.sigma))
     }
 
     fn __repr__(&self) -> String {
@@ -105,20 +105,9 @@ fn read_epoch(given: &Bound<'_, PyAny>) -> PyResult<twofold::epoch::Epoch> {
     }
 }
 
-fn read(name: &str, given: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<f64>> {
-    given.map_or_else(|| Ok(Vec::new()), |given| list(name, given))
-}
-
-fn of_length(name: &str, given: Option<&Bound<'_, PyAny>>, count: usize) -> PyResult<Option<Vec<f64>>> {
-    let Some(given) = given else { return Ok(None) };
-    if let Ok(one) = given.extract::<f64>() {
-        return Ok(Some(vec![one; count]));
-    }
-    let found = list(name, given)?;
-    if found.len() == count {
-        return Ok(Some(found));
-    }
-    Err(raised(format!("{name}: {} numbers beside {count} times: allowed are as many, or one for all", found.len())))
+/// A list that may be left out.
+fn read(name: &str, given: Option<Numbers>) -> PyResult<Vec<f64>> {
+    given.map_or_else(|| Ok(Vec::new()), |given| given.list(name))
 }
 
 /// What data tell of unknown parameters: values, standard deviations, correlations. The result of `Scene.fisher` and, with residuals, of fits.
@@ -193,27 +182,27 @@ impl Fit {
 impl Fit {
     /// The values of the unknowns.
     #[getter]
-    fn values<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, &self.values)
+    fn values<'py>(&self, py: Python<'py>) -> Array<'py> {
+        array(py, self.values.iter().copied())
     }
 
     /// Their standard deviations.
     #[getter]
-    fn sigmas<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, &self.sigmas)
+    fn sigmas<'py>(&self, py: Python<'py>) -> Array<'py> {
+        array(py, self.sigmas.iter().copied())
     }
 
     /// Their covariance.
     #[getter]
-    fn covariance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn covariance<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
         let count = self.values.len();
-        PyArray1::from_slice(py, &self.covariance).reshape([count, count])
+        Ok(Array(PyArray1::from_slice(py, &self.covariance).reshape([count, count])?.into_any()))
     }
 
     /// Measured less fitted, in standard deviations.
     #[getter]
-    fn residuals<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
-        self.residuals.as_ref().map(|residuals| PyArray1::from_slice(py, residuals))
+    fn residuals<'py>(&self, py: Python<'py>) -> Option<Array<'py>> {
+        self.residuals.as_ref().map(|residuals| array(py, residuals.iter().copied()))
     }
 
     fn __repr__(&self) -> String {
@@ -235,11 +224,11 @@ pub fn fit_timing(
     unknowns: Vec<String>,
     priors: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Fit> {
-    let unknowns = all_named(&unknowns, &TimingParameter::ALL)?;
+    let unknowns = named(&unknowns.join(","), &TimingParameter::ALL).map_err(raised)?;
     let mut data = data.data.clone();
     for (name, prior) in priors.iter().flat_map(|priors| priors.iter()) {
         let name: String = name.extract()?;
-        let parameter = named(&name, &TimingParameter::ALL)?;
+        let parameter = timing_parameter(&name)?;
         let (mean, sigma): (f64, f64) = prior.extract().map_err(|_| {
             raised(format!("priors[{name:?}]: allowed is a pair of numbers, the mean and the standard deviation"))
         })?;
@@ -267,11 +256,11 @@ pub fn wobble_limits<'py>(
     model: &TimingModel,
     data: &TimingData,
     unknowns: Vec<String>,
-    periods: &Bound<'py, PyAny>,
+    periods: Numbers,
     confidence: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let unknowns = all_named(&unknowns, &TimingParameter::ALL)?;
-    let periods = list("periods", periods)?;
+    let unknowns = named(&unknowns.join(","), &TimingParameter::ALL).map_err(raised)?;
+    let periods = periods.list("periods")?;
     for period in &periods {
         twofold::Error::ensure(*period > 0.0 && period.is_finite(), "period (s)", *period, "above zero")
             .map_err(raised)?;
@@ -281,10 +270,10 @@ pub fn wobble_limits<'py>(
         .detach(|| inference::wobble_limits(&model.model, &data.data, &unknowns, &rates, confidence))
         .map_err(raised)?;
     let table = PyDict::new(py);
-    table.set_item("period", PyArray1::from_vec(py, periods))?;
+    table.set_item("period", array(py, periods))?;
     for (name, of) in [("best", 0), ("gain", 1), ("limit", 2)] {
         let values = limits.iter().map(|limit| [limit.best, limit.gain, limit.limit][of]);
-        table.set_item(name, PyArray1::from_iter(py, values))?;
+        table.set_item(name, array(py, values))?;
     }
     Ok(table)
 }

@@ -17,19 +17,17 @@ pub mod kernels {
     use twofold::star::uniform_spheroid::UniformSpheroid;
     use twofold::{dynamics, star};
 
-    use crate::arrays::broadcast;
-
-    type Numbers<'py> = Bound<'py, PyAny>;
+    use crate::arrays::{Numbers, broadcast};
 
     /// The width `W` (rad) of the pulse of a cone of semi-open angle `rho` about an axis at the colatitude `theta`, seen from `theta_o` (rad), Eq. (56): zero without a pulse, two pi inside the cone.
     #[pyfunction]
     fn pulse_width<'py>(
         py: Python<'py>,
-        rho: &Numbers<'py>,
-        theta: &Numbers<'py>,
-        theta_o: &Numbers<'py>,
-    ) -> PyResult<Numbers<'py>> {
-        broadcast(py, [("rho", rho), ("theta", theta), ("theta_o", theta_o)], |[rho, theta, theta_o]| {
+        rho: Numbers,
+        theta: Numbers,
+        theta_o: Numbers,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        broadcast(py, [rho, theta, theta_o], |[rho, theta, theta_o]| {
             Ok(match width(rho, theta, theta_o) {
                 PulseWidth::Pulsed(width) => width,
                 PulseWidth::AlwaysOn => TAU,
@@ -42,13 +40,13 @@ pub mod kernels {
     #[pyfunction]
     fn anisotropic_potential<'py>(
         py: Python<'py>,
-        s_xx: &Numbers<'py>,
-        s_yy: &Numbers<'py>,
-        s_zz: &Numbers<'py>,
-        alpha: &Numbers<'py>,
-        beta: &Numbers<'py>,
-    ) -> PyResult<Numbers<'py>> {
-        let given = [("s_xx", s_xx), ("s_yy", s_yy), ("s_zz", s_zz), ("alpha", alpha), ("beta", beta)];
+        s_xx: Numbers,
+        s_yy: Numbers,
+        s_zz: Numbers,
+        alpha: Numbers,
+        beta: Numbers,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let given = [s_xx, s_yy, s_zz, alpha, beta];
         broadcast(py, given, |[xx, yy, zz, alpha, beta]| {
             let s = PrincipalCoefficients::new([xx, yy, zz]);
             Ok(dynamics::potential::anisotropic_potential_in_angles(1.0, &s, alpha, beta))
@@ -59,11 +57,11 @@ pub mod kernels {
     #[pyfunction]
     fn constant_c<'py>(
         py: Python<'py>,
-        mass: &Numbers<'py>,
-        radius: &Numbers<'py>,
-        oblateness: &Numbers<'py>,
-    ) -> PyResult<Numbers<'py>> {
-        let given = [("mass", mass), ("radius", radius), ("oblateness", oblateness)];
+        mass: Numbers,
+        radius: Numbers,
+        oblateness: Numbers,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let given = [mass, radius, oblateness];
         broadcast(py, given, |[mass, radius, oblateness]| {
             let star = UniformSpheroid::from_mass(mass, radius, SpheroidShape::from_oblateness(oblateness)?)?;
             Ok(star.c() * twofold::units::si::GRAVITATIONAL_CONSTANT)
@@ -72,12 +70,8 @@ pub mod kernels {
 
     /// `I^zz / C` (s^2) of a star of density (kg/m^3) and oblateness, Eq. (43), estimated.
     #[pyfunction]
-    fn inertia_over_c<'py>(
-        py: Python<'py>,
-        density: &Numbers<'py>,
-        oblateness: &Numbers<'py>,
-    ) -> PyResult<Numbers<'py>> {
-        broadcast(py, [("density", density), ("oblateness", oblateness)], |[density, oblateness]| {
+    fn inertia_over_c<'py>(py: Python<'py>, density: Numbers, oblateness: Numbers) -> PyResult<Bound<'py, PyAny>> {
+        broadcast(py, [density, oblateness], |[density, oblateness]| {
             let density = density * twofold::units::si::GRAVITATIONAL_CONSTANT;
             Ok(star::estimates::inertia_over_c_estimate(density, oblateness))
         })
@@ -85,20 +79,20 @@ pub mod kernels {
 
     /// `I^zz / C = 4 / Omega^2` (s^2) of a fluid star that rotates at `spin` (rad/s).
     #[pyfunction]
-    fn fluid_inertia_over_c<'py>(py: Python<'py>, spin: &Numbers<'py>) -> PyResult<Numbers<'py>> {
-        broadcast(py, [("spin", spin)], |[spin]| Ok(bound::fluid_inertia_over_c(spin)))
+    fn fluid_inertia_over_c<'py>(py: Python<'py>, spin: Numbers) -> PyResult<Bound<'py, PyAny>> {
+        broadcast(py, [spin], |[spin]| Ok(bound::fluid_inertia_over_c(spin)))
     }
 
     /// The change of the angle `lambda` (rad) of the spin axis to the line of sight that changes the pulse width by `width_change`, Eq. (42).
     #[pyfunction]
     fn lambda_change<'py>(
         py: Python<'py>,
-        lambda_: &Numbers<'py>,
-        chi: &Numbers<'py>,
-        width: &Numbers<'py>,
-        width_change: &Numbers<'py>,
-    ) -> PyResult<Numbers<'py>> {
-        let given = [("lambda_", lambda_), ("chi", chi), ("width", width), ("width_change", width_change)];
+        lambda_: Numbers,
+        chi: Numbers,
+        width: Numbers,
+        width_change: Numbers,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let given = [lambda_, chi, width, width_change];
         broadcast(py, given, |[lambda, chi, width, change]| bound::lambda_change(lambda, chi, width, change))
     }
 
@@ -106,19 +100,13 @@ pub mod kernels {
     #[pyfunction]
     fn combination_bound<'py>(
         py: Python<'py>,
-        inertia_over_c: &Numbers<'py>,
-        spin: &Numbers<'py>,
-        interval: &Numbers<'py>,
-        cos_lambda_change: &Numbers<'py>,
-        eta: &Numbers<'py>,
-    ) -> PyResult<Numbers<'py>> {
-        let given = [
-            ("inertia_over_c", inertia_over_c),
-            ("spin", spin),
-            ("interval", interval),
-            ("cos_lambda_change", cos_lambda_change),
-            ("eta", eta),
-        ];
+        inertia_over_c: Numbers,
+        spin: Numbers,
+        interval: Numbers,
+        cos_lambda_change: Numbers,
+        eta: Numbers,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let given = [inertia_over_c, spin, interval, cos_lambda_change, eta];
         broadcast(py, given, |[polar_inertia_over_c, spin, interval, cos_lambda_change, eta]| {
             SpinAxisDrift { polar_inertia_over_c, spin, interval, cos_lambda_change }.combination_bound(eta)
         })
@@ -128,10 +116,10 @@ pub mod kernels {
     #[pyfunction]
     fn root_mean_square_eta<'py>(
         py: Python<'py>,
-        asymmetry_ratio: &Numbers<'py>,
-        beta: &Numbers<'py>,
-    ) -> PyResult<Numbers<'py>> {
-        let given = [("asymmetry_ratio", asymmetry_ratio), ("beta", beta)];
+        asymmetry_ratio: Numbers,
+        beta: Numbers,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let given = [asymmetry_ratio, beta];
         broadcast(py, given, |[asymmetry_ratio, beta]| eta::root_mean_square_eta(asymmetry_ratio, beta))
     }
 }

@@ -5,7 +5,6 @@ mod error;
 mod fit;
 mod kernels;
 mod motion;
-mod names;
 mod pulsar;
 mod scene;
 mod sweep;

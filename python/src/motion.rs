@@ -9,7 +9,7 @@ use twofold::plan::{Output, PlannedMotion, Request};
 use twofold::propagation::{ContinuousAngles, Motion as _};
 use twofold_scene::scene_file;
 
-use crate::arrays::Numbers;
+use crate::arrays::{Array, Numbers};
 use crate::error::raised;
 use crate::scene::Scene;
 
@@ -42,36 +42,30 @@ impl Motion {
 #[pymethods]
 impl Motion {
     /// The symmetry axis `n` in the inertial frame: an array of shape (..., 3) for times of shape (...).
-    fn axis<'py>(&self, py: Python<'py>, t: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let times = Numbers::of("t", t)?;
+    fn axis<'py>(&self, py: Python<'py>, t: Numbers) -> PyResult<Array<'py>> {
         let at =
             |_, t| self.motion.axis_state_in_parts(self.scene.since_start_in_parts(t)).map(|state| state.axis.into());
-        let found: Vec<[f64; 3]> = times.map(py, at)?;
-        times.shaped(py, found.into_flattened(), &[3])
+        let found: Vec<[f64; 3]> = t.map(py, at)?;
+        t.shaped(py, found.into_flattened(), &[3]).map(Array)
     }
 
     /// The symmetry axis `n`, the angular momentum `L` and the axis `e_x` of the body: three arrays of shape (..., 3). `L` is in I_xx/t_c in the paper's units, in g cm^2/s for a physical star.
-    fn state<'py>(
-        &self,
-        py: Python<'py>,
-        t: &Bound<'py, PyAny>,
-    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>)> {
-        let (times, unit) = (Numbers::of("t", t)?, self.scene.units.momentum);
-        let found: Vec<[[f64; 3]; 3]> = times.map(py, |_, t| {
+    fn state<'py>(&self, py: Python<'py>, t: Numbers) -> PyResult<(Array<'py>, Array<'py>, Array<'py>)> {
+        let unit = self.scene.units.momentum;
+        let found: Vec<[[f64; 3]; 3]> = t.map(py, |_, t| {
             let state = self.motion.state_in_parts(self.scene.since_start_in_parts(t))?;
             Ok::<_, twofold::Error>([state.axis.into(), (state.momentum * unit).into(), state.equatorial_axis.into()])
         })?;
-        let all = times.shaped(py, found.into_flattened().into_flattened(), &[3, 3])?;
-        let part = |k: usize| all.get_item((py.Ellipsis(), k, PySlice::full(py)));
+        let all = t.shaped(py, found.into_flattened().into_flattened(), &[3, 3])?;
+        let part = |k: usize| all.get_item((py.Ellipsis(), k, PySlice::full(py))).map(Array);
         Ok((part(0)?, part(1)?, part(2)?))
     }
 
     /// The Euler angles alpha, beta and gamma (rad), which count their turns from the start: an array of shape (..., 3). NaN where the symmetry axis is on a pole.
-    fn angles<'py>(&self, py: Python<'py>, t: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let times = Numbers::of("t", t)?;
+    fn angles<'py>(&self, py: Python<'py>, t: Numbers) -> PyResult<Array<'py>> {
         let angles = ContinuousAngles::new(&self.motion, 0.0, &self.scene.initial_angles).map_err(raised)?;
         let angles = Mutex::new(angles);
-        let found = times.map(py, |_, t| {
+        let found = t.map(py, |_, t| {
             let t = self.scene.since_start(t);
             match angles.lock().expect("nobody panics with it").at(t) {
                 Ok(angles) => Ok([angles.alpha, angles.beta, angles.gamma]),
@@ -79,15 +73,13 @@ impl Motion {
                 Err(error) => Err(error),
             }
         })?;
-        times.shaped(py, found.into_iter().flatten().collect(), &[3])
+        t.shaped(py, found.into_flattened(), &[3]).map(Array)
     }
 
     /// Estimated error of the components of `n`, `e_x` and of `L` in units of its size.
-    fn error<'py>(&self, py: Python<'py>, t: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let times = Numbers::of("t", t)?;
-        let found =
-            times.map(py, |_, t| Ok::<_, twofold::Error>(self.motion.error_estimate(self.scene.since_start(t))))?;
-        times.shaped(py, found, &[])
+    fn error<'py>(&self, py: Python<'py>, t: Numbers) -> PyResult<Bound<'py, PyAny>> {
+        let found = t.map(py, |_, t| Ok::<_, twofold::Error>(self.motion.error_estimate(self.scene.since_start(t))))?;
+        t.shaped(py, found, &[])
     }
 
     /// First and last time.

@@ -7,7 +7,7 @@ use twofold::epoch::Epoch;
 use twofold::observables::wave_harmonics::WaveHarmonics;
 use twofold_scene::pulsar_timing::{self, PulsarScene, csv, par, tim};
 
-use crate::arrays::{Numbers, list};
+use crate::arrays::Numbers;
 use crate::error::raised;
 use crate::scene::Scene;
 use crate::table::Table;
@@ -34,13 +34,13 @@ impl Pulsar {
     fn arrivals(
         &self,
         py: Python<'_>,
-        epochs: Option<&Bound<'_, PyAny>>,
+        epochs: Option<Numbers>,
         derivatives: Option<usize>,
         causes: bool,
     ) -> PyResult<Timing> {
         let scene = self.scene.get().scene.clone();
         let epochs = match epochs {
-            Some(dates) => list("epochs", dates)?.into_iter().map(epoch).collect::<PyResult<Vec<_>>>()?,
+            Some(dates) => dates.list("epochs")?.into_iter().map(epoch).collect::<PyResult<Vec<_>>>()?,
             None => {
                 let since_start = scene.times.iter().map(|t| [t - scene.times.start(), 0.0]);
                 since_start.map(|t| self.pulsar.epoch.after(t)).collect::<Result<_, _>>().map_err(raised)?
@@ -82,30 +82,28 @@ impl Pulsar {
     }
 
     /// Strain `h_+` and `h_x` at times: two arrays. The scene needs `observer.distance`.
-    fn wave<'py>(&self, py: Python<'py>, t: &Bound<'py, PyAny>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
-        let times = Numbers::of("t", t)?;
+    fn wave<'py>(&self, py: Python<'py>, t: Numbers) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         if self.pulsar.strain_unit.is_none() {
             return Err(raised("the scene lacks `observer.distance` [kpc], without which there is no strain"));
         }
-        let found = times.map(py, |_, t| {
+        let found = t.map(py, |_, t| {
             let wave = self.pulsar.wave(&self.state(t)?);
             Ok::<_, twofold::Error>(wave.map_or([f64::NAN; 2], |wave| [wave.plus, wave.cross]))
         })?;
-        let [plus, cross] = [0, 1].map(|part| times.shaped(py, found.iter().map(|wave| wave[part]).collect(), &[]));
+        let [plus, cross] = [0, 1].map(|part| t.shaped(py, found.iter().map(|wave| wave[part]).collect(), &[]));
         Ok((plus?, cross?))
     }
 
     /// The two harmonics of the wave at times: amplitudes `h_1` (once a turn) and `h_2` (twice), the phase `Phi` of the symmetry axis about `L` from the line of sight, in (-pi, pi], and the inclination, position angle
     /// and wobble (rad): six arrays. With them `h_+' = -h_1 sin(2i)/2 cos(Phi) + h_2 (1 + cos^2 i)/2 cos(2 Phi)` and `h_x' = -h_1 sin i sin(Phi) + h_2 cos i sin(2 Phi)` along the projection of `L` on the sky.
-    fn wave_harmonics<'py>(&self, py: Python<'py>, t: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyTuple>> {
-        let times = Numbers::of("t", t)?;
+    fn wave_harmonics<'py>(&self, py: Python<'py>, t: Numbers) -> PyResult<Bound<'py, PyTuple>> {
         let unit = self.pulsar.strain_unit.unwrap_or(f64::NAN);
         let spheroid = self.pulsar.problem.spheroid();
-        let found = times.map(py, |_, t| {
+        let found = t.map(py, |_, t| {
             let h = WaveHarmonics::of(spheroid, &self.state(t)?, &self.pulsar.observer)?;
             Ok::<_, twofold::Error>([h.once * unit, h.twice * unit, h.phase, h.inclination, h.orientation, h.wobble])
         })?;
-        let part = |part: usize| times.shaped(py, found.iter().map(|values| values[part]).collect(), &[]);
+        let part = |part: usize| t.shaped(py, found.iter().map(|values| values[part]).collect(), &[]);
         PyTuple::new(py, (0..6).map(part).collect::<PyResult<Vec<_>>>()?)
     }
 

@@ -1,17 +1,21 @@
 //! Scenes: a star, its initial motion, the coefficients for Lorentz violation, an observer and a beam.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple};
+use twofold::inference::{Fisher, InferenceError, Signal, data_of, fit, nonlinearity};
 use twofold::plan::Output;
 use twofold_scene::columns::Column;
 use twofold_scene::explained_plan::explained;
+use twofold_scene::measurements::{DataFile, Measurement};
 use twofold_scene::pulsar_timing::PulsarScene;
 use twofold_scene::scene_file;
 use twofold_scene::trajectory::{LinesWanted, write_csv, write_lines, write_pulses};
 
 use crate::error::raised;
+use crate::fit::Fit;
 use crate::motion::Motion;
 use crate::pulsar::Pulsar;
 use crate::table::Table;
@@ -32,6 +36,21 @@ impl Scene {
     fn of_text(name: String, toml: String) -> PyResult<Self> {
         let scene = Arc::new(scene_file::Scene::from_toml(&name, &toml).map_err(raised)?);
         Ok(Self { name, toml, scene })
+    }
+
+    /// What is measured of the scene, and the signal of it.
+    fn measured(
+        &self,
+        observe: &BTreeMap<String, f64>,
+        parameters: Option<Vec<String>>,
+    ) -> PyResult<(Measurement, Signal)> {
+        let observe: Vec<_> = observe.iter().map(|(name, sigma)| format!("{name}:{sigma:e}")).collect();
+        let parameters = parameters.map(|names| names.join(","));
+        let measurement = Measurement::new((*self.scene).clone(), &observe.join(","), parameters.as_deref());
+        let measurement = measurement.map_err(raised)?;
+        let signal = Signal::new(&measurement.parameters, measurement.end).map_err(raised)?;
+        measurement.check_samples(&signal).map_err(raised)?;
+        Ok((measurement, signal))
     }
 
     /// The scene for other columns, or by another method or tolerance.
@@ -92,7 +111,7 @@ fn changed(py: Python<'_>, text: &str, sections: &Bound<'_, PyDict>) -> PyResult
 #[pymethods]
 impl Scene {
     #[new]
-    #[pyo3(signature = (source=None, /, *, toml=None, **sections))]
+    #[pyo3(signature = (source=None, /, *, toml=None, **sections: "object"))]
     fn new(
         py: Python<'_>,
         source: Option<&Bound<'_, PyAny>>,
@@ -216,6 +235,44 @@ impl Scene {
         let scene = slf.get().with(None, method.as_deref(), tolerance)?;
         let end = end.unwrap_or(scene.times.last());
         Motion::new(slf.unbind(), scene, end, method)
+    }
+
+    /// What measurements of the scene would tell of its parameters. `observe` has the standard deviation of each kind of data in the units of the scene, as
+    /// `{"arrivals": 1e-4, "widths": 1e-4}`; kinds are arrivals, closest_approaches, widths, periods, h_plus, h_cross and strain. `parameters` are names (docs/inference.md); if none are given, those that such data can determine.
+    #[pyo3(signature = (observe, parameters=None))]
+    fn fisher(&self, py: Python<'_>, observe: BTreeMap<String, f64>, parameters: Option<Vec<String>>) -> PyResult<Fit> {
+        let (measurement, signal) = self.measured(&observe, parameters)?;
+        let fisher = py.detach(|| {
+            let events = measurement.events(&signal)?;
+            let data = data_of(&signal, &events, &measurement.samples(), &measurement.noise)?;
+            Fisher::of(&measurement.parameters, &events, &data, &measurement.unknowns)
+        });
+        Ok(Fit::of_fisher(&fisher.map_err(raised)?, |unknown| measurement.unit(unknown).0))
+    }
+
+    /// Fits parameters of the scene to data: tables of `pulses()` and of `table(["h"])`, or paths of such files. `observe` and `parameters` are as of `fisher`; the fit begins at the values of the scene.
+    #[pyo3(signature = (data, observe, parameters=None))]
+    fn fit(
+        &self,
+        py: Python<'_>,
+        data: Vec<Bound<'_, PyAny>>,
+        observe: BTreeMap<String, f64>,
+        parameters: Option<Vec<String>>,
+    ) -> PyResult<Fit> {
+        let (measurement, signal) = self.measured(&observe, parameters)?;
+        let read = |(k, one): (usize, &Bound<'_, PyAny>)| match one.cast::<Table>() {
+            Ok(table) => DataFile::of_bytes(&format!("data[{k}]"), table.get().csv.clone()).map_err(raised),
+            Err(_) => DataFile::read(&one.extract::<String>()?).map_err(raised),
+        };
+        let tables = data.iter().enumerate().map(read).collect::<PyResult<Vec<_>>>()?;
+        let (data, _) = measurement.data_in(&tables, &signal).map_err(raised)?;
+        let found = py.detach(|| {
+            let found = fit(&measurement.parameters, &data, &measurement.unknowns, measurement.end)?;
+            let nonlinearity = nonlinearity(&found.fisher, &data, measurement.end).unwrap_or(f64::INFINITY);
+            Ok::<_, InferenceError>((found, nonlinearity))
+        });
+        let (found, nonlinearity) = found.map_err(raised)?;
+        Ok(Fit::of_fit(found, |unknown| measurement.unit(unknown).0, nonlinearity))
     }
 
     /// The pulsar over decades: arrival times, its timing model, its wave. The scene needs `time.epoch`, `[observer]` and `[pulsar]`.

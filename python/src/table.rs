@@ -19,7 +19,7 @@ use crate::error::raised;
 /// read it by the Arrow PyCapsule interface, as `pyarrow.table(table)`.
 #[pyclass(frozen, module = "twofold")]
 pub struct Table {
-    csv: Vec<u8>,
+    pub(crate) csv: Vec<u8>,
     columns: Vec<Column>,
     rows: usize,
 }
@@ -148,7 +148,7 @@ impl Table {
         &self,
         py: Python<'py>,
         requested_schema: Option<Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyCapsule>> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let _ = requested_schema;
         let field = |column: &Column| {
             let kind = if matches!(column.values, Values::Numbers(_)) { DataType::Float64 } else { DataType::Utf8 };
@@ -159,6 +159,7 @@ impl Table {
         let batch =
             RecordBatch::try_new(schema.clone(), self.columns.iter().map(Column::array).collect()).map_err(raised)?;
         let stream = FFI_ArrowArrayStream::new(Box::new(RecordBatchIterator::new([Ok(batch)], schema)));
-        PyCapsule::new_with_value(py, stream, c"arrow_array_stream")
+        // Stubs know capsules from Python 3.13 on.
+        Ok(PyCapsule::new_with_value(py, stream, c"arrow_array_stream")?.into_any())
     }
 }

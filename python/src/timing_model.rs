@@ -5,8 +5,9 @@ use pyo3::types::{PyDict, PyTuple};
 use twofold::observables::pulsar::timing_model::{self, TimingParameter};
 
 use crate::arrays::Numbers;
+use twofold_scene::measurements::named;
+
 use crate::error::raised;
-use crate::names::named;
 
 /// A pulsar by its timing parameters (docs/timing-model.md). `TimingModel(f0, f1=..., wobble=..., chi=...)`: F0 in Hz, and in SI units and rad what else is not zero; chi and inclination are
 /// a right angle if not given. F0 is the sum of two doubles, `f0 + f0_rest`.
@@ -18,17 +19,15 @@ pub struct TimingModel {
     pub(crate) model: timing_model::TimingModel,
 }
 
-/// Times with their small parts.
-fn times(t: &Bound<'_, PyAny>, rest: Option<&Bound<'_, PyAny>>) -> PyResult<(Numbers, Vec<f64>)> {
-    let t = Numbers::of("t", t)?;
-    let rest = rest.map_or_else(|| Ok(vec![0.0; t.values.len()]), |rest| t.beside("rest", rest))?;
-    Ok((t, rest))
+/// The small parts of times.
+fn small_parts(t: &Numbers, rest: Option<Numbers>) -> PyResult<Vec<f64>> {
+    rest.map_or_else(|| Ok(vec![0.0; t.values.len()]), |rest| t.beside("rest", rest))
 }
 
 #[pymethods]
 impl TimingModel {
     #[new]
-    #[pyo3(signature = (f0, f0_rest=0.0, **parameters))]
+    #[pyo3(signature = (f0, f0_rest=0.0, **parameters: "float"))]
     fn new(f0: f64, f0_rest: f64, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let given = parameters.map_or_else(|| Ok(Vec::new()), values)?;
         Ok(Self { model: timing_model::TimingModel::new([f0, f0_rest], &given).map_err(raised)? })
@@ -50,7 +49,7 @@ impl TimingModel {
 
     /// The value of a parameter.
     fn __getitem__(&self, name: &str) -> PyResult<f64> {
-        Ok(self.model.value(named(name, &TimingParameter::ALL)?))
+        Ok(self.model.value(timing_parameter(name)?))
     }
 
     /// F0 (Hz), the sum of two doubles.
@@ -60,7 +59,7 @@ impl TimingModel {
     }
 
     /// The model with numbers added to some parameters. F0 keeps 32 digits, so that small changes add up.
-    #[pyo3(signature = (**changes))]
+    #[pyo3(signature = (**changes: "float"))]
     fn moved(&self, changes: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let changes = changes.map_or_else(|| Ok(Vec::new()), values)?;
         Ok(Self { model: self.model.moved(&changes).map_err(raised)? })
@@ -71,10 +70,10 @@ impl TimingModel {
     fn phase<'py>(
         &self,
         py: Python<'py>,
-        t: &Bound<'py, PyAny>,
-        rest: Option<&Bound<'py, PyAny>>,
+        t: Numbers,
+        rest: Option<Numbers>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
-        let (t, rest) = times(t, rest)?;
+        let rest = small_parts(&t, rest)?;
         let found = t.map(py, |k, t| self.model.phase([t, rest[k]]))?;
         let whole = t.shaped(py, found.iter().map(|turns| turns.whole as f64).collect(), &[])?;
         Ok((whole, t.shaped(py, found.iter().map(|turns| turns.fraction).collect(), &[])?))
@@ -85,10 +84,10 @@ impl TimingModel {
     fn phase_and_derivatives<'py>(
         &self,
         py: Python<'py>,
-        t: &Bound<'py, PyAny>,
-        rest: Option<&Bound<'py, PyAny>>,
+        t: Numbers,
+        rest: Option<Numbers>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>)> {
-        let (t, rest) = times(t, rest)?;
+        let rest = small_parts(&t, rest)?;
         let found = t.map(py, |k, t| self.model.phase_and_derivatives([t, rest[k]]))?;
         let whole = t.shaped(py, found.iter().map(|(turns, _)| turns.whole as f64).collect(), &[])?;
         let fraction = t.shaped(py, found.iter().map(|(turns, _)| turns.fraction).collect(), &[])?;
@@ -97,24 +96,18 @@ impl TimingModel {
     }
 
     /// When pulses of given numbers arrive: two arrays whose sum is the time.
-    fn arrival<'py>(
-        &self,
-        py: Python<'py>,
-        number: &Bound<'py, PyAny>,
-    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
-        let numbers = Numbers::of("number", number)?;
-        for number in &numbers.values {
-            let is_whole = number.fract() == 0.0 && number.abs() <= 9e15;
-            twofold::Error::ensure(is_whole, "number", *number, "a whole number up to 9e15 in size").map_err(raised)?;
+    fn arrival<'py>(&self, py: Python<'py>, number: Numbers) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        for value in &number.values {
+            let is_whole = value.fract() == 0.0 && value.abs() <= 9e15;
+            twofold::Error::ensure(is_whole, "number", *value, "a whole number up to 9e15 in size").map_err(raised)?;
         }
-        let found = numbers.map(py, |_, number| self.model.arrival(number as i64))?;
-        let [t, rest] = [0, 1].map(|part| numbers.shaped(py, found.iter().map(|time| time[part]).collect(), &[]));
+        let found = number.map(py, |_, number| self.model.arrival(number as i64))?;
+        let [t, rest] = [0, 1].map(|part| number.shaped(py, found.iter().map(|time| time[part]).collect(), &[]));
         Ok((t?, rest?))
     }
 
     /// The widths of pulses (s) near times.
-    fn width<'py>(&self, py: Python<'py>, t: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let t = Numbers::of("t", t)?;
+    fn width<'py>(&self, py: Python<'py>, t: Numbers) -> PyResult<Bound<'py, PyAny>> {
         let found = t.map(py, |_, t| self.model.width(t))?;
         t.shaped(py, found, &[])
     }
@@ -148,7 +141,12 @@ fn values(given: &Bound<'_, PyDict>) -> PyResult<Vec<(TimingParameter, f64)>> {
     let read = |(name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
         let name: String = name.extract()?;
         let number = value.extract().map_err(|_| raised(format!("{name}: allowed is a number")))?;
-        Ok((named(&name, &TimingParameter::ALL)?, number))
+        Ok((timing_parameter(&name)?, number))
     };
     given.iter().map(read).collect()
+}
+
+/// The parameter called `name`.
+pub fn timing_parameter(name: &str) -> PyResult<TimingParameter> {
+    Ok(named(name, &TimingParameter::ALL).map_err(raised)?[0])
 }

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections import deque
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor
+from concurrent.futures import Executor, Future
 
 from twofold import _twofold
 from twofold._twofold import SweepFile, Table
@@ -67,7 +67,7 @@ class Sweep(_twofold.Sweep):
         for name, value in (("scenes_at_once", scenes_at_once), ("parts_at_once", parts_at_once)):
             if value < 1:
                 raise _twofold.Error(f"{name} = {value}: allowed is a whole number above zero")
-        waiting: deque = deque()
+        waiting: deque[tuple[int, Future[tuple[bytes, bytes, int]]]] = deque()
         try:
             for start in range(first, len(self), scenes_at_once):
                 stop = min(start + scenes_at_once, len(self))

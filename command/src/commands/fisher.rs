@@ -2,15 +2,15 @@
 
 use super::measurement::{Measurement, readable, uncertainties, write_csv};
 use super::{Failure, FisherArgs, note, print};
-use twofold::inference::{Direction, Fisher, InferenceError, Observable, Signal, data_of};
+use twofold::inference::{Direction, Fisher, InferenceError, Observable, data_of};
 
 pub(super) fn fisher(args: &FisherArgs) -> Result<(), Failure> {
     let measurement = Measurement::read(&args.measurement)?;
     let refused = |error: InferenceError| measurement.refused(error);
-    let signal = Signal::new(&measurement.parameters, measurement.end).map_err(|error| refused(error.into()))?;
-    let events = measurement.events(&signal)?;
-    let data = data_of(&signal, &events, &measurement.samples()?, &measurement.noise)
-        .map_err(|error| refused(error.into()))?;
+    let signal = measurement.signal()?;
+    let events = measurement.events(&signal).map_err(|error| refused(error.into()))?;
+    let data =
+        data_of(&signal, &events, &measurement.samples(), &measurement.noise).map_err(|error| refused(error.into()))?;
     let fisher = Fisher::of(&measurement.parameters, &events, &data, &measurement.unknowns).map_err(refused)?;
     let [short, all] = uncertainties(&fisher, |unknown| measurement.unit(unknown));
     write_csv(&args.output, &all)?;

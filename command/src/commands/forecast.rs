@@ -36,8 +36,8 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
         return Err(refuse(format!("--epochs {count}: allowed is from 2 to 100000")));
     }
     let in_tc: Vec<f64> = spans.iter().map(|span| span / unit).collect();
-    let Measurement { parameters, noise, unknowns, .. } = &measurement;
-    let found = forecast(parameters, noise, unknowns, target, &in_tc, &args.epochs)
+    let (noise, unknowns) = (&measurement.noise, &measurement.unknowns);
+    let found = forecast(&measurement.parameters, noise, unknowns, target, &in_tc, &args.epochs)
         .map_err(|error| measurement.refused(error))?;
     let (factor, target_unit) = measurement.unit(target);
     let time = measurement.scene.units.time_name;

@@ -8,13 +8,13 @@ use twofold::inference::{
     Fit, InferenceError, Observable, Prior, Residuals, TimingData, fit_timing, timing_nonlinearity, wobble_limits,
 };
 use twofold::observables::pulsar::timing_model::{TimingModel, TimingParameter};
-use twofold_scene::measurements::{DataFile, parse_noise};
+use twofold_scene::measurements::{DataFile, named, parse_noise};
 use twofold_scene::pulsar_table::{CONFIDENCE, limit_over_directions};
 use twofold_scene::pulsar_timing::{PulsarScene, decimal};
 use twofold_scene::scene_file::Columns;
 use twofold_scene::significant::significant;
 
-use super::measurement::{named, note_nonlinearity, readable, uncertainties, write_csv};
+use super::measurement::{note_nonlinearity, readable, uncertainties, write_csv};
 use super::run::read_with_spin_down;
 use super::timing::days_apart;
 use super::{Failure, TableArgs, note, print};
@@ -85,7 +85,6 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
     let start = pulsar.clock.timing_model()?;
     let data = read(args, &pulsar, &start)?;
     let unknowns = match args.parameters.as_deref() {
-        Some("all") => TimingParameter::ALL.to_vec(),
         Some(list) => named(list, &TimingParameter::ALL).map_err(|why| refuse(format!("--parameters: {why}")))?,
         None => {
             let of_arrivals =

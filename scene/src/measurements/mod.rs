@@ -2,10 +2,12 @@
 
 mod data_file;
 mod errors;
+mod measurement;
 mod timing_data;
 
 pub use data_file::DataFile;
 pub use errors::{add_timing_noise, beside, with_noise};
+pub use measurement::{Measurement, MeasurementError, named};
 
 use twofold::Error;
 use twofold::inference::{Noise, Observable};

@@ -1,0 +1,366 @@
+"""The package's arrays against each other, against formulas in numpy, and at its border."""
+
+import pickle
+import signal
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import twofold
+from twofold import kernels
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return twofold.Scene("tp-2")
+
+
+@pytest.fixture(scope="module")
+def motion(scene):
+    return scene.motion()
+
+
+def columns(table, *names):
+    return np.stack([table[name] for name in names], axis=-1)
+
+
+class TestScene:
+    def test_every_built_in_scene_is_read(self):
+        for name in twofold.Scene.names():
+            assert twofold.Scene(name).name == name
+        assert len(twofold.Scene.names()) == 17
+
+    def test_sections_change_numbers_and_go_away(self):
+        changed = twofold.Scene("tp-1", star={"inertia_ratio": np.float64(1.3)}, pulsar=None)
+        assert "inertia_ratio = 1.3" in changed.toml and "[pulsar]" not in changed.toml
+        again = twofold.Scene(toml=changed.toml)
+        assert again == changed and hash(again) == hash(changed)
+        assert changed != twofold.Scene("tp-1")
+
+    def test_a_scene_of_sections_alone(self):
+        free = twofold.Scene(
+            star={"inertia_ratio": 1.1, "spin": 1.0},
+            lorentz_violation={"eigenvalues": [0.0, 0.0, 0.0]},
+            initial={"alpha": 0.0, "beta": 0.4, "alpha_rate": 1.1 / np.cos(0.4), "beta_rate": 0.0},
+            time={"span": 10.0, "samples": 11},
+        )
+        # Free precession about Z, Eq. (48).
+        angles = free.motion().angles(np.arange(11.0))
+        assert np.allclose(angles[:, 0], 1.1 / np.cos(0.4) * np.arange(11.0), atol=1e-12)
+        assert np.allclose(angles[:, 1], 0.4, atol=1e-13)
+
+    def test_a_file(self, tmp_path, scene):
+        path = tmp_path / "star.toml"
+        path.write_text(scene.toml)
+        assert twofold.Scene(path) == scene
+
+    @pytest.mark.parametrize(
+        ("make", "words"),
+        [
+            (lambda: twofold.Scene("nope"), ["nope", "tp-1"]),
+            (lambda: twofold.Scene("tp-1", star={"inertia_ratio": -1.0}), ["inertia_ratio", "-1", "allowed"]),
+            (lambda: twofold.Scene("tp-1", star={"spn": 1.0}), ["star.spn", "Did you mean `spin`"]),
+            (lambda: twofold.Scene(), ["no scene"]),
+            (lambda: twofold.Scene("tp-1", toml="x = 1"), ["one source"]),
+            (lambda: twofold.Scene("tp-1").table(["foo"]), ["foo", "angles"]),
+            (lambda: twofold.Scene("tp-1").table(tolerance=1.0), ["tolerance", "1", "1e-14"]),
+            (lambda: twofold.Scene("tp-1").lines("alpha"), ["alpha", "turns"]),
+            (lambda: twofold.Scene("tp-1").pulsar(), ["physical"]),
+            (lambda: twofold.Scene("tp-1").motion(method="euler"), ["euler", "taylor"]),
+            (lambda: twofold.Scene("tp-1").fisher({"arrival": 1.0}), ["arrival", "arrivals"]),
+        ],
+    )
+    def test_bad_input_is_named(self, make, words):
+        with pytest.raises(twofold.Error) as caught:
+            make()
+        for word in words:
+            assert word in str(caught.value)
+        assert isinstance(caught.value, ValueError)
+
+
+class TestMotion:
+    def test_arrays_are_the_columns_of_the_table(self, scene):
+        table = scene.table(["angles", "e_x", "e_z", "L"], method="taylor")
+        motion = scene.motion(method="taylor")
+        n, momentum, e_x = motion.state(table["t"])
+        assert np.array_equal(n, columns(table, "e_z_X", "e_z_Y", "e_z_Z"))
+        assert np.array_equal(momentum, columns(table, "L_X", "L_Y", "L_Z"))
+        assert np.array_equal(e_x, columns(table, "e_x_X", "e_x_Y", "e_x_Z"))
+        assert np.array_equal(motion.angles(table["t"]), columns(table, "alpha", "beta", "gamma"))
+        assert np.array_equal(motion.axis(table["t"]), n)
+
+    def test_two_methods_agree_within_their_errors(self, scene, motion):
+        torus = scene.motion(method="torus", tolerance=1e-12)
+        times = np.linspace(0.0, 400.0, 57)
+        off = np.abs(torus.axis(times) - motion.axis(times)).max()
+        assert 0 < off < (torus.error(times) + motion.error(times)).max()
+        assert (torus.method, motion.method) == ("torus", "taylor")
+
+    def test_shapes(self, motion):
+        for shape in [(), (0,), (1,), (5,), (2, 3)]:
+            times = np.full(shape, 7.0)
+            assert motion.axis(times).shape == (*shape, 3)
+            assert all(part.shape == (*shape, 3) for part in motion.state(times))
+            assert np.shape(motion.error(times)) == shape
+        assert isinstance(motion.error(7.0), float)
+
+    @pytest.mark.parametrize("given", [7, 7.0, np.float32(7), np.int8(7), np.array(7)])
+    def test_any_real_number(self, motion, given):
+        assert np.array_equal(motion.axis(given), motion.axis(7.0))
+
+    def test_strides_and_types(self, motion):
+        times = np.arange(40.0)
+        assert np.array_equal(motion.axis(times[::-3]), motion.axis(times[::-3].copy()))
+        assert np.array_equal(motion.axis(np.asfortranarray(times.reshape(4, 10))), motion.axis(times.reshape(4, 10)))
+        assert np.array_equal(motion.axis(list(range(5))), motion.axis(times[:5]))
+        assert np.array_equal(motion.axis(times.astype(">f8")), motion.axis(times))
+
+    @pytest.mark.parametrize("given", ["7", 1j, None, [True], np.array(["7"]), object(), {"t": 1.0}, [[1.0], [1.0, 2.0]]])
+    def test_what_is_no_number_is_refused(self, motion, given):
+        with pytest.raises(TypeError, match="real number"):
+            motion.axis(given)
+
+    @pytest.mark.parametrize("given", [np.nan, np.inf, -1.0, 401.0, [0.0, 1e300]])
+    def test_times_outside_the_span_are_refused(self, motion, given):
+        with pytest.raises(twofold.Error, match="span"):
+            motion.state(given)
+
+    def test_pickled(self, motion):
+        again = pickle.loads(pickle.dumps(motion))
+        assert np.array_equal(again.axis([1.0, 399.0]), motion.axis([1.0, 399.0]))
+
+
+@pytest.fixture(scope="module")
+def pulsar():
+    return twofold.Scene("b1828-11").pulsar()
+
+
+class TestTable:
+    def test_bytes_and_columns(self, scene):
+        table = scene.pulses()
+        assert table == twofold.Table(table.csv) == pickle.loads(pickle.dumps(table))
+        assert table.csv.startswith(b"beam,pulse,start [t_c]")
+        assert table.units["start"] == "t_c" and len(table) == len(table["start"])
+        assert set(table["cut"]) == {"start", ""} and np.isnan(table["period"][0])
+        assert np.all(table["end"] > table["start"])
+        assert "start" in table and "stop" not in table
+        with pytest.raises(KeyError, match="stop.*closest_approach"):
+            table["stop"]
+
+    def test_arrow(self, scene):
+        pyarrow = pytest.importorskip("pyarrow")
+        table = scene.table(["h"])
+        arrow = pyarrow.table(table)
+        assert arrow.column_names == table.keys()
+        assert np.array_equal(arrow["h_plus"].to_numpy(), table["h_plus"])
+        assert arrow.schema.field("t").metadata == {b"unit": b"t_c"}
+        assert pyarrow.table(scene.pulses())["cut"].to_pylist() == scene.pulses()["cut"]
+
+    def test_progress(self, scene):
+        parts = []
+        scene.table(progress=parts.append)
+        assert parts == sorted(parts) and parts[-1] > 0.98
+
+    def test_an_error_of_progress_comes_out(self, scene):
+        calls = []
+
+        def fail(part):
+            calls.append(part)
+            raise RuntimeError("no more")
+
+        with pytest.raises(RuntimeError, match="no more"):
+            scene.table(progress=fail)
+        assert len(calls) == 1
+
+    def test_interrupt(self):
+        program = (
+            "import twofold\n"
+            "scene = twofold.Scene('tp-2', time={'span': 4e6, 'samples': 4000001}, output={'tolerance': 1e-6})\n"
+            "scene.table(['angles'], progress=lambda part: print(part, flush=True))"
+        )
+        with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as run:
+            assert run.stdout is not None and run.stdout.readline()
+            run.send_signal(signal.SIGINT)
+            _, errors = run.communicate()
+        assert run.returncode != 0 and b"KeyboardInterrupt" in errors
+
+
+class TestPulsar:
+    def test_arrivals_have_whole_phases(self, pulsar):
+        timing = pulsar.arrivals()
+        table, model = timing.table, pulsar.timing_model()
+        since = (table["arrival_day"] - 49621) * 86400.0
+        whole, rest = model.phase(since, table["arrival_fraction"] * 86400.0)
+        # The model has the geometry and the torque, not the motion of L by Lorentz violation.
+        off = whole - table["pulse"]
+        assert np.ptp(off) == 0 and np.ptp(rest) < 1e-6
+        assert len(timing.derivatives) == 2 and timing.tim(2e-6).count("\n") == len(table) + 1
+
+    def test_epochs(self, pulsar):
+        timing = pulsar.arrivals([49621.0, 50000.0, 50001.5], derivatives=0)
+        assert list(timing.table["arrival_day"]) == [49621.0, 50000.0, 50001.0]
+        with pytest.raises(twofold.Error, match="epoch"):
+            pulsar.arrivals([-1.0])
+
+    def test_harmonics_sum_to_the_wave(self):
+        source = twofold.Scene("b1828-11", observer={"distance": 3.6}).pulsar()
+        times = np.linspace(0.0, 3.0e7, 101)
+        once, twice, phase, inclination, orientation, _ = source.wave_harmonics(times)
+        sin_i, cos_i = np.sin(inclination), np.cos(inclination)
+        plus = twice * (1 + cos_i**2) / 2 * np.cos(2 * phase) - once * sin_i * cos_i * np.cos(phase)
+        cross = twice * cos_i * np.sin(2 * phase) - once * sin_i * np.sin(phase)
+        turned = (plus + 1j * cross) * np.exp(2j * orientation)
+        found = np.array(source.wave(times))
+        size = np.hypot(*found).max()
+        # Of first order in s, the wave of the source has terms beside the two harmonics.
+        assert np.abs(turned.real - found[0]).max() < 1e-6 * size
+        assert np.abs(turned.imag - found[1]).max() < 1e-6 * size
+
+
+class TestTimingModel:
+    def test_without_a_wobble_it_is_a_taylor_series(self):
+        f0, f1 = 641.9, -4.3e-14
+        model = twofold.TimingModel(f0, f1=f1, f2=3 * f1**2 / f0)
+        times = np.array([-3e8, -1.0, 0.0, 2e8])
+        whole, rest = model.phase(times)
+        exact = np.longdouble(f0) * times + np.longdouble(f1) * times**2 / 2 + np.longdouble(3 * f1**2 / f0) * times**3 / 6
+        # Longer doubles have 2e11 turns to 1e-8; the next term of a dipole is 15 F1^3 / F0^2 t^4 / 24, 1e-12.
+        assert np.abs(np.asarray(whole - exact + rest, float)).max() < 2e-8
+
+    def test_arrivals_invert_the_phase(self):
+        model = twofold.TimingModel(642.0, f1=-1e-14, wobble=0.01, chi=1.0, precession_rate=1e-7, torque_share=1.0)
+        numbers = np.array([0.0, 1e6, -1e11])
+        whole, rest = model.phase(*model.arrival(numbers))
+        assert np.abs(whole - numbers + rest).max() < 1e-13
+
+    def test_derivatives_are_those_of_the_phase(self):
+        options = {
+            "f1": -3e-13, "f2": 2e-25, "wobble": 0.05, "chi": 1.3, "precession_phase": 0.4, "precession_rate": 1.5e-7,
+            "torque_share": 0.7, "inclination": 1.2, "rho": 0.3,
+        }  # fmt: skip
+        model = twofold.TimingModel(2.5, **options)
+        times = np.array([1e7, 2e8])
+        found = model.phase_and_derivatives(times)[2]
+        assert found.shape == (2, len(twofold.TimingModel.names))
+        steps = {"phase": 1e-3, "f0": 1e-10, "f1": 1e-16, "f2": 1e-24, "wobble": 1e-5, "chi": 1e-5,
+                 "precession_phase": 1e-4, "precession_rate": 1e-13, "torque_share": 1e-3}  # fmt: skip
+        for name, step in steps.items():
+            up, down = (model.moved(**{name: sign * step}).phase(times) for sign in (1, -1))
+            difference = (up[0] - down[0] + up[1] - down[1]) / (2 * step)
+            column = found[:, twofold.TimingModel.names.index(name)]
+            # Rounding of 1e-13 turn over the step, and the third derivative.
+            assert np.allclose(column, difference, rtol=1e-5, atol=1e-12 / step), name
+
+    def test_pickled_and_printed(self):
+        model = twofold.TimingModel(300.0, 1e-15, f1=-1e-15, wobble=0.1, chi=1.0)
+        assert pickle.loads(pickle.dumps(model)) == model == eval(repr(model), {"TimingModel": twofold.TimingModel})
+        assert model["wobble"] == 0.1 and model.frequency == [300.0, 1e-15]
+        assert model.moved(f0=1e-16).frequency[1] == pytest.approx(1.1e-15)
+
+    @pytest.mark.parametrize(
+        ("make", "words"),
+        [
+            (lambda: twofold.TimingModel(-1.0), ["f0", "-1", "above zero"]),
+            (lambda: twofold.TimingModel(1.0, wobbel=0.1), ["wobbel", "wobble"]),
+            (lambda: twofold.TimingModel(1.0, wobble=2.0), ["wobble", "2"]),
+            (lambda: twofold.TimingModel(1.0, chi="x"), ["chi", "number"]),
+            (lambda: twofold.TimingModel(1.0).phase([1.0, 2.0], [1.0]), ["rest", "shape"]),
+            (lambda: twofold.TimingModel(1.0).arrival(0.5), ["number", "whole"]),
+            (lambda: twofold.TimingData([1.0, 2.0], [1.0]), ["sigmas", "1", "2"]),
+            (lambda: twofold.TimingData([1.0]), ["sigmas"]),
+            (lambda: twofold.fit_timing(twofold.TimingModel(1.0), twofold.TimingData([1.0], 0.0), ["phase"]), ["deviation", "0"]),
+        ],
+    )
+    def test_bad_input_is_named(self, make, words):
+        with pytest.raises(twofold.Error) as caught:
+            make()
+        for word in words:
+            assert word in str(caught.value)
+
+
+class TestFits:
+    def test_a_straight_line(self):
+        """Phase and frequency of 50 arrivals: the standard deviations of a straight line."""
+        truth = twofold.TimingModel(10.0)
+        numbers = np.arange(50) * 1e6
+        times, rest = truth.arrival(numbers)
+        random = np.random.default_rng(5)
+        data = twofold.TimingData(times, 1e-5, rest=rest + 1e-5 * random.standard_normal(50), numbers=numbers)
+        found = twofold.fit_timing(twofold.TimingModel(10.0, 1e-14), data, ["phase", "f0"])
+        design = np.stack([np.ones(50), times], axis=1) * (1 / (10.0 * 1e-5))
+        covariance = np.linalg.inv(design.T @ design)
+        assert np.allclose(found.covariance, covariance, rtol=1e-9)
+        pulls = (found.values - [0.0, 10.0])[0] / found.sigmas[0], (sum(found.model.frequency) - 10.0) / found.sigmas[1]
+        assert np.abs(pulls).max() < 3.5
+        assert found.judged == "as stated" and found.degrees == 48
+        assert found.chi_squared == pytest.approx((found.residuals**2).sum())
+
+    def test_a_prior(self):
+        truth = twofold.TimingModel(10.0)
+        times, rest = truth.arrival(np.arange(3) * 1e6)
+        data = twofold.TimingData(times, 1e-5, rest=rest)
+        found = twofold.fit_timing(truth, data, ["phase"], priors={"phase": (0.0, 1e-4 / np.sqrt(3))})
+        assert found.sigmas[0] == pytest.approx(1e-4 / np.sqrt(6))
+        with pytest.raises(twofold.Error, match="f0"):
+            twofold.fit_timing(truth, data, ["phase"], priors={"f0": (10.0, 1.0)})
+
+    def test_the_limit_of_a_wobble(self):
+        """Of arrivals that are exact the posterior is half a normal distribution, whose 95 % are at 1.96 standard deviations for both quadratures alike."""
+        model = twofold.TimingModel(100.0, chi=0.8)
+        times, rest = model.arrival(np.arange(2000) * 1e7)
+        data = twofold.TimingData(times, 1e-5, rest=rest)
+        period = 7.1e6
+        limits = twofold.wobble_limits(model, data, ["phase", "f0"], [period])
+        # cot(chi) sin(psi) / (2 pi F0) for each radian; the fit takes up nothing of ten and more turns but some percent.
+        size = 1 / np.tan(0.8) / (2 * np.pi * 100.0)
+        sigma = 1e-5 / (size * np.sqrt(2000 / 2))
+        assert limits["limit"][0] == pytest.approx(1.96 * sigma, rel=0.05)
+        assert limits["period"][0] == period
+        with pytest.raises(twofold.Error, match="period"):
+            twofold.wobble_limits(model, data, ["phase"], [-1.0])
+
+    def test_a_scene_is_found_again_from_its_own_tables(self):
+        scene = twofold.Scene("tp-1", time={"span": 60.0, "samples": 61})
+        names = ["spin", "s_axial"]
+        fisher = scene.fisher({"arrivals": 1e-5}, names)
+        found = scene.fit([scene.pulses()], {"closest_approaches": 1e-5}, names)
+        assert found.unknowns == names and fisher.unknowns == names
+        assert np.abs((found.values - fisher.values) / found.sigmas).max() < 0.01
+        assert np.all(fisher.sigmas > 0) and np.allclose(fisher.covariance, fisher.covariance.T)
+
+
+class TestKernels:
+    def test_pulse_width(self):
+        theta = np.linspace(0.3, 1.3, 11)
+        found = kernels.pulse_width(0.6, theta, 0.8)
+        cosine = (np.cos(0.6) - np.cos(theta) * np.cos(0.8)) / (np.sin(theta) * np.sin(0.8))
+        assert np.allclose(np.cos(found / 2), cosine, atol=1e-14)
+        assert kernels.pulse_width(0.1, 0.3, 1.5) == 0.0 and kernels.pulse_width(1.5, 0.1, 0.1) == 2 * np.pi
+
+    def test_broadcast(self):
+        found = kernels.combination_bound(2.5e-7, 4e3, [[4e8], [8e8]], [1e-4, 2e-4, 3e-4], 1.0)
+        expected = 2.5e-7 * 4e3 * np.array([1e-4, 2e-4, 3e-4]) / np.array([[4e8], [8e8]])
+        assert found.shape == (2, 3) and np.allclose(found, expected, rtol=1e-15)
+        with pytest.raises(twofold.Error, match="broadcast"):
+            kernels.pulse_width([0.1, 0.2], [0.1, 0.2, 0.3], 0.1)
+        with pytest.raises(twofold.Error, match="interval"):
+            kernels.combination_bound(1.0, 1.0, 0.0, 1.0, 1.0)
+
+    def test_potential(self):
+        alpha, beta = 0.3, 0.7
+        n = np.array([np.sin(alpha) * np.sin(beta), -np.cos(alpha) * np.sin(beta), np.cos(beta)])
+        assert kernels.anisotropic_potential(0.02, 0.01, -0.04, alpha, beta) == pytest.approx(n**2 @ [0.02, 0.01, -0.04], rel=1e-15)
+
+    def test_constant_c(self):
+        # I^zz / C = 15 / (4 pi G rho epsilon) to first order, Eq. (43), with I^zz = 2 M R^2 / 5.
+        found = kernels.constant_c(2.8e30, 1.2e4, 1e-6)
+        assert found == pytest.approx(2 / 25 * 6.6743e-11 * 2.8e30**2 / 1.2e4 * 1e-6, rel=1e-5)
+        assert kernels.constant_c(2.8e30, 1.2e4, 2e-6) == pytest.approx(2 * found, rel=1e-5)
+
+    def test_fluid_star(self):
+        assert kernels.fluid_inertia_over_c(2.0) == 1.0
+        density, oblateness = 1e18, 1e-6
+        expected = 15 / (4 * np.pi * 6.6743e-11 * density * oblateness)
+        assert kernels.inertia_over_c(density, oblateness) == pytest.approx(expected, rel=1e-12)

@@ -1,0 +1,465 @@
+"""
+The compiled part of the package.
+"""
+
+from . import kernels as kernels
+from _typeshed import Incomplete, SupportsGetItem
+from numpy import float64
+from numpy.typing import ArrayLike, NDArray
+from os import PathLike
+from typing import Any, Final, SupportsFloat, SupportsIndex, final
+from typing_extensions import disjoint_base
+
+@final
+class Fit:
+    """
+    What data tell of unknown parameters: values, standard deviations, correlations. The result of `Scene.fisher` and, with residuals, of fits.
+    """
+    def __repr__(self, /) -> str: ...
+    @property
+    def chi_squared(self, /) -> float | None:
+        """
+        The sum of the squares of the residuals in standard deviations. None of a Fisher matrix.
+        """
+    @property
+    def covariance(self, /) -> NDArray[float64]:
+        """
+        Their covariance.
+        """
+    @property
+    def degrees(self, /) -> int | None:
+        """
+        Data less unknowns.
+        """
+    @property
+    def judged(self, /) -> str | None:
+        """
+        Whether the residuals are `"as stated"` by their errors, `"larger"` or `"smaller"`, at six standard deviations of chi^2.
+        """
+    @property
+    def model(self, /) -> TimingModel | None:
+        """
+        The fitted model: a `TimingModel`. None of a fit of a scene's motion, whose values are all there is.
+        """
+    @property
+    def nonlinearity(self, /) -> float | None:
+        """
+        By how much chi^2 is off its parabola at one standard deviation: error bars are rough from 0.3 on.
+        """
+    @property
+    def residuals(self, /) -> NDArray[float64] | None:
+        """
+        Measured less fitted, in standard deviations.
+        """
+    @property
+    def sigmas(self, /) -> NDArray[float64]:
+        """
+        Their standard deviations.
+        """
+    @property
+    def undetermined(self, /) -> list[str]:
+        """
+        What the data do not determine, in words.
+        """
+    @property
+    def unknowns(self, /) -> list[str]:
+        """
+        The names of the unknowns.
+        """
+    @property
+    def values(self, /) -> NDArray[float64]:
+        """
+        The values of the unknowns.
+        """
+
+@final
+class Motion:
+    """
+    The motion of a scene's star: its state at any time of the span, by a call. Times are in the `time_unit` of the scene.
+    """
+    def __reduce__(self, /) -> tuple[Any, tuple]: ...
+    def __repr__(self, /) -> str: ...
+    def angles(self, /, t: ArrayLike) -> NDArray[float64]:
+        """
+        The Euler angles alpha, beta and gamma (rad), which count their turns from the start: an array of shape (..., 3). NaN where the symmetry axis is on a pole.
+        """
+    def axis(self, /, t: ArrayLike) -> NDArray[float64]:
+        """
+        The symmetry axis `n` in the inertial frame: an array of shape (..., 3) for times of shape (...).
+        """
+    def error(self, /, t: ArrayLike) -> Any:
+        """
+        Estimated error of the components of `n`, `e_x` and of `L` in units of its size.
+        """
+    @property
+    def method(self, /) -> str:
+        """
+        The method by which it is computed.
+        """
+    @property
+    def scene(self, /) -> Scene:
+        """
+        The scene that moves.
+        """
+    @property
+    def span(self, /) -> tuple[float, float]:
+        """
+        First and last time.
+        """
+    def state(self, /, t: ArrayLike) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
+        """
+        The symmetry axis `n`, the angular momentum `L` and the axis `e_x` of the body: three arrays of shape (..., 3). `L` is in I_xx/t_c in the paper's units, in g cm^2/s for a physical star.
+        """
+
+@final
+class Pulsar:
+    """
+    The pulsar of a scene, by its phases: exact after any number of turns. Times `t` are in seconds since the epoch of the scene (TDB at the barycentre).
+    """
+    def __reduce__(self, /) -> tuple[Any, tuple]: ...
+    def __repr__(self, /) -> str: ...
+    def arrivals(self, /, epochs: ArrayLike | None = None, *, derivatives: SupportsIndex | None = None, causes: bool = False) -> Timing:
+        """
+        The pulses nearest to `epochs` (MJD), or to the times of the scene, and a fit of F0 and so many `derivatives` of it to them. With `causes` the table says what the residuals
+        are made of.
+        """
+    @property
+    def epoch(self, /) -> str:
+        """
+        Modified Julian date of the start (TDB), as a text.
+        """
+    @property
+    def period(self, /) -> float:
+        """
+        Mean period of the pulses (s) at the epoch.
+        """
+    @property
+    def precession_rates(self, /) -> list[float]:
+        """
+        Rates (rad/s) of the precession of the body about its axis and of its angular momentum.
+        """
+    def timing_model(self, /) -> TimingModel:
+        """
+        The phase of the pulses in closed form, with derivatives by its parameters: for a star without Lorentz violation or with the motion of `L` that follows from it as a rate of the inclination.
+        """
+    def wave(self, /, t: ArrayLike) -> tuple[Any, Any]:
+        """
+        Strain `h_+` and `h_x` at times: two arrays. The scene needs `observer.distance`.
+        """
+    def wave_harmonics(self, /, t: ArrayLike) -> tuple:
+        """
+        The two harmonics of the wave at times: amplitudes `h_1` (once a turn) and `h_2` (twice), the phase `Phi` of the symmetry axis about `L` from the line of sight, in (-pi, pi], and the inclination, position angle
+        and wobble (rad): six arrays. With them `h_+' = -h_1 sin(2i)/2 cos(Phi) + h_2 (1 + cos^2 i)/2 cos(2 Phi)` and `h_x' = -h_1 sin i sin(Phi) + h_2 cos i sin(2 Phi)` along the projection of `L` on the sky.
+        """
+
+@final
+class Scene:
+    """
+    A star, how it starts, the coefficients for Lorentz violation, and what is observed: as in a scene file (docs/scenes.md).
+
+    `Scene("tp-1")` is a built-in scene and `Scene("my-star.toml")` that of a file; `Scene(toml=text)` that of a text. Sections are keyword
+    arguments: `Scene("tp-1", star={"spin": 1.2})` changes one number, `Scene("tp-1", pulsar=None)` takes a section away, and a scene can be made of sections alone. Scenes are frozen, compare by their text and can be pickled.
+    """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __new__(cls, source: Any | None = None, /, *, toml: str | None = None, **sections: "object") -> Scene: ...
+    def __reduce__(self, /) -> tuple[Any, tuple]: ...
+    def __repr__(self, /) -> str: ...
+    @staticmethod
+    def _of_text(name: str, toml: str) -> Scene:
+        """
+        A scene with the name and text of another, for pickle.
+        """
+    @property
+    def about(self, /) -> str:
+        """
+        What the scene is, one line.
+        """
+    @property
+    def cautions(self, /) -> list[str]:
+        """
+        Sentences about what is allowed but looks like a mistake.
+        """
+    def fisher(self, /, observe: dict[str, SupportsFloat | SupportsIndex], parameters: SupportsGetItem[int, str] | None = None) -> Fit:
+        """
+        What measurements of the scene would tell of its parameters. `observe` has the standard deviation of each kind of data in the units of the scene, as
+        `{"arrivals": 1e-4, "widths": 1e-4}`; kinds are arrivals, closest_approaches, widths, periods, h_plus, h_cross and strain. `parameters` are names (docs/inference.md); if none are given, those that such data can determine.
+        """
+    def fit(self, /, data: SupportsGetItem[int, Any], observe: dict[str, SupportsFloat | SupportsIndex], parameters: SupportsGetItem[int, str] | None = None) -> Fit:
+        """
+        Fits parameters of the scene to data: tables of `pulses()` and of `table(["h"])`, or paths of such files. `observe` and `parameters` are as of `fisher`; the fit begins at the values of the scene.
+        """
+    def lines(self, /, column: str, *, least: SupportsFloat | SupportsIndex = 1e-6, most: SupportsIndex = 50) -> Table:
+        """
+        The spectral lines of a column (`"m.n"`, `"h_plus"`), strongest first, down to an amplitude of `least` of the largest one. Frequencies are in rad per
+        `time_unit`, phases those at the start.
+        """
+    def motion(self, /, end: SupportsFloat | SupportsIndex | None = None, *, method: str | None = None, tolerance: SupportsFloat | SupportsIndex | None = None) -> Motion:
+        """
+        The motion from the start of the scene to the time `end`, its last one if none is given.
+        """
+    @property
+    def name(self, /) -> str:
+        """
+        Where the scene comes from: a built-in name or a path.
+        """
+    @staticmethod
+    def names() -> list[str]:
+        """
+        The names of the built-in scenes.
+        """
+    def plan(self, /, columns: SupportsGetItem[int, str] | None = None, *, method: str | None = None, tolerance: SupportsFloat | SupportsIndex | None = None) -> str:
+        """
+        What would be computed for groups of columns, or for those of the scene: the method, its cost and error, and what is left out, in words.
+        """
+    def pulsar(self, /) -> Pulsar:
+        """
+        The pulsar over decades: arrival times, its timing model, its wave. The scene needs `time.epoch`, `[observer]` and `[pulsar]`.
+        """
+    def pulses(self, /, *, method: str | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, progress: Any | None = None) -> Table:
+        """
+        The pulses in the span of the scene, as `twofold pulses` writes them.
+        """
+    @property
+    def span(self, /) -> tuple[float, float]:
+        """
+        First and last time, in `time_unit`.
+        """
+    def table(self, /, columns: SupportsGetItem[int, str] | None = None, *, method: str | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, progress: Any | None = None) -> Table:
+        """
+        The table that `twofold run` writes, for groups of columns (`["angles", "e_z", "h"]`) or those of the scene.
+        """
+    @property
+    def time_unit(self, /) -> str:
+        """
+        The unit of time: `t_c` in the paper's units, `s` for a physical star.
+        """
+    @property
+    def toml(self, /) -> str:
+        """
+        The text of the scene file.
+        """
+
+@disjoint_base
+class Sweep:
+    """
+    Many scenes: grids, lists and random draws over the parameters of one (docs/sweep.md). `Sweep("grid.toml")` reads a file, `Sweep(toml=text)` a text.
+
+    A row depends on nothing but its scene: any part can be computed anywhere, in one thread, and the parts together are the table to the byte.
+    """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __len__(self, /) -> int: ...
+    def __new__(cls, path: Any | None = None, /, *, toml: str | None = None, _texts: tuple[str, str, tuple[str, str] | None] | None = None) -> Sweep: ...
+    def __reduce__(self, /) -> tuple[Any, tuple]: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def header(self, /) -> bytes:
+        """
+        The line of names at the head of the table, as CSV.
+        """
+    def rows(self, /, start: SupportsIndex, stop: SupportsIndex) -> tuple[bytes, bytes, int]:
+        """
+        The rows of the scenes from `start` to before `stop` as CSV, without the header, those of the table of errors, and how many scenes failed: by one thread.
+        """
+    def run(self, /, start: SupportsIndex = 0, stop: SupportsIndex | None = None) -> Table:
+        """
+        The table of the scenes from `start` to before `stop`, by one thread; of all if neither is given.
+        """
+    @property
+    def toml(self, /) -> str:
+        """
+        The text of the sweep file.
+        """
+
+@final
+class SweepFile:
+    """
+    The table of a sweep in a file that grows in order, with a journal beside it: what `twofold sweep` writes, begun and continued by either.
+    """
+    def __new__(cls, /, sweep: Sweep, out: str | PathLike[str], *, replace: bool = False) -> SweepFile:
+        """
+        Begins a table at `out`, or continues what is there of it. A file that exists is refused unless it may be replaced.
+        """
+    def append(self, /, stop: SupportsIndex, rows: bytes, errors: bytes, failed: SupportsIndex) -> None:
+        """
+        Appends what `Sweep.rows` has of the scenes from `next` to before `stop`, so that it outlives the process.
+        """
+    def complete(self, /) -> None:
+        """
+        Gives the complete table its name, and that of errors if there are any.
+        """
+    @property
+    def next(self, /) -> int:
+        """
+        The first scene that is not in the table.
+        """
+
+@final
+class Table:
+    """
+    A table of numbers, a column for each name. A missing number is NaN.
+
+    `table["beta"]` is an array, `table.units["beta"]` its unit, `table.csv` the bytes that the command would write. pandas, polars and pyarrow
+    read it by the Arrow PyCapsule interface, as `pyarrow.table(table)`.
+    """
+    def __arrow_c_stream__(self, /, requested_schema: Any | None = None) -> Any:
+        """
+        The table as an Arrow stream. A `requested_schema` is not followed: consumers cast.
+        """
+    def __contains__(self, name: str, /) -> bool: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getitem__(self, name: str, /) -> Any:
+        """
+        A column: an array of float64, or a list of words.
+        """
+    def __len__(self, /) -> int: ...
+    def __new__(cls, /, csv: bytes) -> Table:
+        """
+        A table from the bytes that `csv` has.
+        """
+    def __reduce__(self, /) -> tuple[Any, tuple[bytes]]: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def csv(self, /) -> bytes:
+        """
+        Comma-separated values, as the command writes them.
+        """
+    def keys(self, /) -> list[str]:
+        """
+        The names of the columns.
+        """
+    @property
+    def units(self, /) -> dict:
+        """
+        The unit of each column.
+        """
+
+@final
+class Timing:
+    """
+    Arrival times and what they are late by against a fitted frequency.
+    """
+    def __repr__(self, /) -> str: ...
+    @property
+    def dark(self, /) -> int:
+        """
+        Epochs without a pulse.
+        """
+    @property
+    def derivatives(self, /) -> list[float]:
+        """
+        F1 (Hz/s) and F2 (Hz/s^2), as many as were fitted.
+        """
+    @property
+    def epoch(self, /) -> str:
+        """
+        PEPOCH (MJD), as a text.
+        """
+    @property
+    def frequency(self, /) -> list[float]:
+        """
+        F0 (Hz) at `epoch`, the sum of two doubles.
+        """
+    @property
+    def par(self, /) -> str:
+        """
+        The `.par` of the fit.
+        """
+    @property
+    def table(self, /) -> Table:
+        """
+        Number, arrival time, residual, width, position angle and wave of each pulse.
+        """
+    def tim(self, /, uncertainty: SupportsFloat | SupportsIndex = 1e-6) -> str:
+        """
+        The `.tim` (FORMAT 1, barycentre), with an uncertainty (s) for all.
+        """
+
+@final
+class TimingData:
+    """
+    Arrival times and pulse widths with independent errors. Times and standard deviations are in seconds, times since the epoch of the model.
+
+    `TimingData(times, sigmas)` are arrivals; `rest` is the small part of times that need two doubles, `numbers` has the numbers of the pulses, where they are known.
+    `TimingData(width_times=..., widths=..., width_sigmas=...)` are widths.
+    """
+    def __new__(cls, /, times: ArrayLike | None = None, sigmas: ArrayLike | None = None, *, rest: ArrayLike | None = None, numbers: ArrayLike | None = None, width_times: ArrayLike | None = None, widths: ArrayLike | None = None, width_sigmas: ArrayLike | None = None) -> TimingData: ...
+    def __repr__(self, /) -> str: ...
+    @staticmethod
+    def read(paths: SupportsGetItem[int, str], epoch: Any, *, observe: str | None = None) -> TimingData:
+        """
+        The data of files: a `.tim` (FORMAT 1, barycentred), or tables as `Pulsar.arrivals` has them, whose standard deviations `observe` gives as `"arrivals:1e-6,widths:1e-5"` (s). Times
+        are counted from the epoch of a model (MJD, TDB).
+        """
+    @property
+    def sigmas(self, /) -> NDArray[float64]:
+        """
+        Their standard deviations (s).
+        """
+    @property
+    def times(self, /) -> NDArray[float64]:
+        """
+        Times of the arrivals (s): an array of shape (n, 2), two parts each.
+        """
+
+@final
+class TimingModel:
+    """
+    A pulsar by its timing parameters (docs/timing-model.md). `TimingModel(f0, f1=..., wobble=..., chi=...)`: F0 in Hz, and in SI units and rad what else is not zero; chi and inclination are
+    a right angle if not given. F0 is the sum of two doubles, `f0 + f0_rest`.
+
+    Times are in seconds since the epoch, the sum of two doubles `t + rest`; arrays of any shape are taken.
+    """
+    names: Final[list[str]]
+    """
+    The names of the parameters, in the order of derivatives.
+    """
+    units: Final[dict]
+    """
+    The unit of each parameter.
+    """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getitem__(self, name: str, /) -> float:
+        """
+        The value of a parameter.
+        """
+    def __new__(cls, /, f0: SupportsFloat | SupportsIndex, f0_rest: SupportsFloat | SupportsIndex = 0.0, **parameters: "float") -> TimingModel: ...
+    def __reduce__(self, /) -> tuple[Any, tuple]: ...
+    def __repr__(self, /) -> str: ...
+    def arrival(self, /, number: ArrayLike) -> tuple[Any, Any]:
+        """
+        When pulses of given numbers arrive: two arrays whose sum is the time.
+        """
+    @property
+    def frequency(self, /) -> list[float]:
+        """
+        F0 (Hz), the sum of two doubles.
+        """
+    def moved(self, /, **changes: "float") -> TimingModel:
+        """
+        The model with numbers added to some parameters. F0 keeps 32 digits, so that small changes add up.
+        """
+    def phase(self, /, t: ArrayLike, rest: ArrayLike | None = None) -> tuple[Any, Any]:
+        """
+        The phase at times: whole turns and the rest in turns, two arrays. A pulse is where the rest is zero.
+        """
+    def phase_and_derivatives(self, /, t: ArrayLike, rest: ArrayLike | None = None) -> tuple[Any, Any, Any]:
+        """
+        The phase as from `phase`, and its derivatives (turns per unit of each parameter): an array of shape (..., 12).
+        """
+    def width(self, /, t: ArrayLike) -> Any:
+        """
+        The widths of pulses (s) near times.
+        """
+
+def fit_timing(model: TimingModel, data: TimingData, unknowns: SupportsGetItem[int, str], *, priors: dict | None = None) -> Fit:
+    """
+    Fits a timing model to data. `unknowns` are names as of `TimingModel.names`; `priors` gives a mean and a standard deviation of some, as `{"chi": (1.2, 0.05)}`.
+    """
+
+def wobble_limits(model: TimingModel, data: TimingData, unknowns: SupportsGetItem[int, str], periods: ArrayLike, *, confidence: SupportsFloat | SupportsIndex = 0.95) -> dict:
+    """
+    The wobble that arrival times allow at some periods of precession (s), of a star that was fitted to them without one by the `unknowns`. A dict of arrays: `period` (s), the `best` wobble (rad), the `gain` of chi^2 by it, and the `limit` (rad) that is not exceeded with the probability `confidence`; infinite where the data do not limit it. chi and the share of the torque are those of the model.
+    """
+
+def __getattr__(name: str) -> Incomplete: ...

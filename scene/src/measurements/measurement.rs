@@ -1,0 +1,229 @@
+//! A scene of which something is measured, and numbers of it that are not known.
+
+use twofold::Error;
+use twofold::inference::{Datum, Event, Noise, Place, Signal, Unknown, check_span, data_of};
+use twofold::parameters::{Parameter, Parameters};
+
+use super::{DataFile, missing_section, parameters_of, parse_noise};
+use crate::scene_file::{Scene, nearest};
+
+/// Most times of a scene at which something is measured.
+const MOST_SAMPLES: usize = 100_000;
+
+/// A scene, what is measured of it with which errors, and what is not known.
+#[derive(Debug)]
+pub struct Measurement {
+    /// The scene.
+    pub scene: Scene,
+    /// Its parameters.
+    pub parameters: Parameters<f64>,
+    /// What is measured, with standard deviations.
+    pub noise: Vec<Noise>,
+    /// What is not known.
+    pub unknowns: Vec<Parameter>,
+    /// End of the span in t_c since the start.
+    pub end: f64,
+}
+
+/// Why something cannot be measured of a scene.
+#[derive(Debug)]
+pub enum MeasurementError {
+    /// What was asked for is not allowed; a sentence.
+    Refused(String),
+    /// The scene has no parameters.
+    Model(Error),
+}
+
+impl std::fmt::Display for MeasurementError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Refused(why) => f.write_str(why),
+            Self::Model(error) => error.fmt(f),
+        }
+    }
+}
+
+impl Measurement {
+    /// What `observe` names of a scene, as [`parse_noise`] reads it; unknown are the `parameters` of a list of names, all of them, or if none is given those that such data can determine.
+    ///
+    /// # Errors
+    /// Names that are none, sections that the scene lacks, a span backwards.
+    pub fn new(scene: Scene, observe: &str, parameters: Option<&str>) -> Result<Self, MeasurementError> {
+        let refused = MeasurementError::Refused;
+        let noise = parse_noise(observe, scene.units.time).map_err(|why| refused(format!("--observe: {why}")))?;
+        for (observable, _) in &noise {
+            if let Some(section) = missing_section(&scene, *observable) {
+                return Err(refused(format!(
+                    "--observe {}: the scene lacks the section [{section}] (docs/scenes.md describes it)",
+                    observable.key()
+                )));
+            }
+        }
+        let sees_pulses = noise.iter().any(|(observable, _)| observable.is_of_pulses());
+        let unknowns = match parameters {
+            None if sees_pulses => Parameter::OF_PULSES.to_vec(),
+            None => Parameter::OF_STRAIN.to_vec(),
+            Some(list) => named(list, &Parameter::FITTED).map_err(|why| refused(format!("--parameters: {why}")))?,
+        };
+        let end = (scene.times.last() - scene.times.start()) / scene.units.time;
+        if end <= 0.0 {
+            return Err(refused(format!("[time] has a span of {end:?} t_c: allowed here is one forwards, above zero")));
+        }
+        let parameters = parameters_of(&scene).map_err(MeasurementError::Model)?;
+        if sees_pulses {
+            check_span(&parameters, end).map_err(|why| refused(why.to_string()))?;
+        }
+        Ok(Self { scene, parameters, noise, unknowns, end })
+    }
+
+    /// Whether pulses are observed.
+    pub fn sees_pulses(&self) -> bool {
+        self.noise.iter().any(|(observable, _)| observable.is_of_pulses())
+    }
+
+    /// The pulses of a signal that are data: all of them, or of a long span those near the samples of the scene.
+    ///
+    /// # Errors
+    /// As for [`Signal::events`].
+    pub fn events(&self, signal: &Signal) -> Result<Vec<Event>, Error> {
+        if !self.sees_pulses() {
+            Ok(Vec::new())
+        } else if signal.is_long() {
+            signal.events_after(&self.sample_times())
+        } else {
+            signal.events()
+        }
+    }
+
+    /// The times of strains, in t_c since the start.
+    pub fn samples(&self) -> Vec<f64> {
+        let only_pulses = self.noise.iter().all(|(observable, _)| observable.is_of_pulses());
+        if only_pulses { Vec::new() } else { self.sample_times() }
+    }
+
+    fn sample_times(&self) -> Vec<f64> {
+        let (start, unit) = (self.scene.times.start(), self.scene.units.time);
+        self.scene.times.iter().map(|time| ((time - start) / unit).min(self.end)).collect()
+    }
+
+    /// Refuses a scene with more samples than derivatives are kept of, where they are used for a `signal`.
+    ///
+    /// # Errors
+    /// Too many of them.
+    pub fn check_samples(&self, signal: &Signal) -> Result<(), String> {
+        let used = signal.is_long() || self.noise.iter().any(|(observable, _)| !observable.is_of_pulses());
+        let count = self.scene.times.count();
+        if used && count > MOST_SAMPLES {
+            return Err(format!("`time.samples` = {count}: allowed here are at most {MOST_SAMPLES}"));
+        }
+        Ok(())
+    }
+
+    /// What a number of an unknown is multiplied by for the output, and its unit there.
+    pub fn unit(&self, unknown: Parameter) -> (f64, String) {
+        let units = &self.scene.units;
+        match unknown {
+            Parameter::Spin | Parameter::AlphaRate | Parameter::BetaRate => {
+                (1.0 / units.time, format!("rad/{}", units.time_name))
+            }
+            Parameter::Alpha
+            | Parameter::Beta
+            | Parameter::Gamma
+            | Parameter::Chi
+            | Parameter::Delta
+            | Parameter::Rho
+            | Parameter::ThetaO
+            | Parameter::PhiO => (1.0, "rad".to_owned()),
+            _ => (1.0, "1".to_owned()),
+        }
+    }
+
+    /// The data of the scene itself, without errors. A pulse in the first turn may be cut in a model beside the scene.
+    ///
+    /// # Errors
+    /// As for [`data_of`].
+    pub fn simulated(&self, signal: &Signal) -> Result<Vec<Datum>, Error> {
+        let mut events = self.events(signal)?;
+        events.retain(|event| event.epoch + event.start > signal.turn());
+        data_of(signal, &events, &self.samples(), &self.noise)
+    }
+
+    /// The data in tables that lie within the span of the scene, and how many of the first turn were left out: their pulse may be cut in another model.
+    ///
+    /// # Errors
+    /// A table that is none of pulses or strains, data that are there twice or not at all, and those outside the span.
+    pub fn data_in(&self, tables: &[DataFile], signal: &Signal) -> Result<(Vec<Datum>, usize), String> {
+        let mut data: Vec<Datum> = Vec::new();
+        let names = || tables.iter().map(|table| table.name.as_str()).collect::<Vec<_>>().join(", ");
+        for table in tables {
+            let (file, of_pulses) = (&table.name, table.is_of_pulses()?);
+            if of_pulses && signal.is_long() {
+                return Err(format!(
+                    "{file}: arrival times of one double each, for a span of more than 1e5 rad of rotation: allowed are --simulate and strains"
+                ));
+            }
+            let read = if of_pulses { DataFile::pulses } else { DataFile::strain };
+            let more = read(table, &self.scene, &self.noise)?;
+            let first = more.first().copied();
+            if let Some(again) = first.filter(|datum| data.iter().any(|other| same(other, datum))) {
+                return Err(format!(
+                    "{file}: {} = {:?} is in a file before it: allowed are data measured once",
+                    again.observable.key(),
+                    again.value
+                ));
+            }
+            data.extend(more);
+        }
+        for (observable, _) in &self.noise {
+            if data.iter().all(|datum| datum.observable != *observable) {
+                return Err(format!(
+                    "--observe {}: there is no such datum in {}: allowed are tables of `twofold pulses` and of `twofold run --columns h`",
+                    observable.key(),
+                    names()
+                ));
+            }
+        }
+        for datum in &data {
+            let (Place::Time(time) | Place::Turn { near: time, .. }) = datum.place;
+            if !(0.0..=self.end).contains(&time) {
+                return Err(format!(
+                    "{}: a datum at t = {time:?} t_c after the start: allowed is the span of the scene, 0 to {:?} t_c",
+                    names(),
+                    self.end
+                ));
+            }
+        }
+        let before = data.len();
+        data.retain(|datum| !matches!(datum.place, Place::Turn { near, .. } if near < signal.turn()));
+        let left_out = before - data.len();
+        Ok((data, left_out))
+    }
+}
+
+/// Whether two data are one: of the same kind, number and time, to the last digit.
+fn same(a: &Datum, b: &Datum) -> bool {
+    a.observable == b.observable && a.value == b.value && a.place == b.place
+}
+
+/// The unknowns of a list of names, or all of them by the word `all`.
+///
+/// # Errors
+/// A name that is none or comes twice.
+pub fn named<U: Unknown>(list: &str, all: &[U]) -> Result<Vec<U>, String> {
+    if list.trim() == "all" {
+        return Ok(all.to_vec());
+    }
+    let mut found = Vec::new();
+    for name in list.split(',').map(str::trim) {
+        let unknown = all.iter().copied().find(|unknown| unknown.key() == name).ok_or_else(|| {
+            let names: Vec<_> = all.iter().map(|unknown| unknown.key()).collect();
+            let hint = nearest(name, &names).map_or(String::new(), |near| format!(" (did you mean `{near}`?)"));
+            format!("`{name}` is no parameter{hint}: allowed are {}, or all", names.join(", "))
+        })?;
+        if found.contains(&unknown) {
+            return Err(format!("`{name}` is named twice: allowed is once"));
+        }
+        found.push(unknown);
+    }
+    Ok(found)
+}
