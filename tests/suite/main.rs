@@ -16,3 +16,4 @@ mod scenes;
 mod stability;
 mod values;
 mod verification;
+mod versions;
