@@ -9,6 +9,7 @@ use twofold::epoch::{DAY, Epoch};
 use super::output_folder::OutputFolder;
 use super::run::read_with_spin_down;
 use super::{Failure, note, tell};
+use crate::figures::{png, residuals};
 use twofold_scene::pulsar_timing::{PulsarScene, Series, Timing, TimingError, csv, decimal, par, strain_series, tim};
 use twofold_scene::scene_file::{Columns, Scene, like_julian_date};
 
@@ -72,7 +73,7 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
     let name =
         Path::new(&args.scene).file_stem().map_or_else(|| args.scene.clone(), |stem| stem.to_string_lossy().into());
     let file = |ending: &str| format!("{name}.{ending}");
-    let endings = ["csv", "par", "tim", "h_plus.txt", "h_cross.txt"];
+    let endings = ["csv", "par", "tim", "svg", "png", "h_plus.txt", "h_cross.txt"];
     let folder = OutputFolder::at(&args.out, args.force, |found| endings.iter().any(|ending| found == file(ending)))?;
     let derivatives = match (args.f1, args.f2 || scene.spin_down.is_some()) {
         (true, _) => 1,
@@ -87,6 +88,10 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
     folder.write(&file("csv"), csv(&pulsar, &timing, causes.as_ref()).as_bytes())?;
     folder.write(&file("par"), par(&scene, &timing)?.as_bytes())?;
     folder.write(&file("tim"), tim(&timing, args.uncertainty * 1e-6).as_bytes())?;
+    let picture = residuals(&name, &timing, causes.as_ref());
+    let drawn = png(&picture).map_err(|why| Failure::Failed(format!("{}: {why}", file("png"))))?;
+    folder.write(&file("svg"), picture.as_bytes())?;
+    folder.write(&file("png"), &drawn)?;
     match strain_series(&pulsar, &series)? {
         Some([plus, cross]) => {
             folder.write(&file("h_plus.txt"), plus.as_bytes())?;

@@ -45,7 +45,7 @@ fn every_built_in_pulsar_is_timed_and_runs() {
         assert_eq!(summary.rows, 1000, "{}", built_in.name);
         let folder = Folder::new();
         folder.succeeds(&["timing", built_in.name, "--epochs", "50", "--out", "."]);
-        let endings = ["csv", "h_cross.txt", "h_plus.txt", "par", "tim"];
+        let endings = ["csv", "h_cross.txt", "h_plus.txt", "par", "png", "svg", "tim"];
         assert_eq!(folder.names(), endings.map(|ending| format!("{}.{ending}", built_in.name)));
         assert_eq!(
             numbers(&folder.read(&format!("{}.csv", built_in.name))).len(),

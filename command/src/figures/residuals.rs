@@ -1,0 +1,116 @@
+//! The residuals and widths of a pulsar's pulses against the date.
+
+use twofold_scene::pulsar_timing::{Causes, Timing};
+
+use super::drawing::*;
+
+/// Most points of a curve: more cannot be told apart on a page.
+const MOST_POINTS: usize = 5_000;
+
+/// Units of time that a small number is told in.
+const UNITS: [(f64, &str); 5] = [(1.0, "s"), (1e3, "ms"), (1e6, "μs"), (1e9, "ns"), (1e12, "ps")];
+
+/// The unit in which the largest of some times (s) is at least one, and its factor.
+fn unit(times: &[f64]) -> (f64, &'static str) {
+    let largest = times.iter().fold(0.0, |most: f64, time| most.max(time.abs()));
+    *UNITS.iter().find(|(factor, _)| factor * largest >= 1.0).unwrap_or(&UNITS[4])
+}
+
+/// The picture of a pulsar called `name`, an SVG document: residuals, with their causes if they are given, and widths.
+pub(crate) fn residuals(name: &str, timing: &Timing, causes: Option<&Causes>) -> String {
+    let dates: Vec<_> =
+        timing.pulses.iter().map(|timed| timed.arrival.day() as f64 + timed.arrival.fraction()).collect();
+    let step = dates.len().div_ceil(MOST_POINTS);
+    let widths: Vec<_> = timing.pulses.iter().map(|timed| timed.pulse.duration).collect();
+    let mut curves = vec![(timing.fit.residuals.as_slice(), solid(BLACK, 0.8), "total", BLACK)];
+    if let Some(Causes { torque, geometry, violation, .. }) = causes {
+        curves.extend([
+            (torque.as_slice(), solid("#f2b48c", 3.0), "torque", VERMILION),
+            (geometry.as_slice(), dashed(BLUE, 1.1), "geometry", BLUE),
+            (violation.as_slice(), dash_dotted(GREEN, 1.1), "violation", GREEN),
+        ]);
+        // The sum above its parts.
+        curves.rotate_left(1);
+    }
+    let names = if causes.is_some() { 56.0 } else { 14.0 };
+    let left = LEFT + 12.0;
+    let grid = Grid { left, top: 18.0, width: PAGE - left - names, height: 120.0, between: [0.0, 20.0] };
+    let mut page = Page::new("residuals", PAGE, grid.bottom(2) + BELOW);
+    let ends = dates.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(*x), high.max(*x)]);
+    let x = Axis::linear("date [MJD]", ends[0], ends[1].max(ends[0] + 1.0)).in_full();
+    let derivatives: String = (1..=timing.derivatives).map(|k| format!(", *F*{k}")).collect();
+    let all: Vec<_> = curves.iter().flat_map(|(times, ..)| times.iter().copied()).collect();
+    let (of_residuals, of_widths) = (unit(&all), unit(&widths));
+    let panels = [
+        (curves, of_residuals, "residual", format!("after the fit of *F*0{derivatives}")),
+        (vec![(widths.as_slice(), solid(BLACK, 1.1), "", BLACK)], of_widths, "width", "duration of the pulse".into()),
+    ];
+    for (row, (curves, (factor, unit), what, title)) in panels.into_iter().enumerate() {
+        let values = curves.iter().flat_map(|(times, ..)| times.iter().map(|time| factor * time));
+        let y = Axis::around(&format!("{what} [{unit}]"), values);
+        let panel = Panel::new(grid.frame(0, row), if row == 0 { x.bare() } else { x.clone() }, y);
+        if row == 0 {
+            panel.level(&mut page, 0.0, solid(LIGHT, 0.5));
+        }
+        let mut ends = Vec::new();
+        for (times, line, name, colour) in curves {
+            let points: Vec<_> = dates.iter().zip(times).step_by(step).map(|(x, y)| (*x, factor * y)).collect();
+            if colour == BLACK && row == 0 {
+                // Epochs may be rarer than what they show: no line between them.
+                panel.marks(&mut page, &points, Mark::Disc, 0.9, BLACK);
+            } else {
+                panel.curve(&mut page, &points, line);
+            }
+            ends.extend(points.last().map(|(x, y)| (panel.at(*x, *y), name.to_owned(), colour)));
+        }
+        panel.draw_frame(&mut page);
+        if row == 0 && causes.is_some() {
+            name_ends(&mut page, panel.frame, ends);
+        }
+        panel.letter(&mut page, row, 2, &title);
+    }
+    page.finish(&format!("Residuals and pulse widths of {name}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use twofold_scene::pulsar_timing::PulsarScene;
+    use twofold_scene::scene_file::Scene;
+
+    use super::*;
+
+    #[test]
+    fn units_have_numbers_above_one() {
+        assert_eq!([2.0, -2e-3, 3e-6, 1e-12, 1e-20].map(|time| unit(&[0.0, time]).1), ["s", "ms", "μs", "ps", "ps"]);
+    }
+
+    /// The heights of the dots are a linear function of the residuals, and their places one of the dates.
+    #[test]
+    fn a_dot_for_each_residual() {
+        let scene = Scene::named("b1828-11").expect("a scene");
+        let pulsar = PulsarScene::new(&scene).expect("a pulsar");
+        let epochs: Vec<_> = (0..40).map(|k| pulsar.epoch.after([7e6 * f64::from(k), 0.0]).expect("a date")).collect();
+        let timing = pulsar.timed(&epochs, 2).expect("pulses");
+        let causes = pulsar.causes(&timing).expect("causes");
+        for causes in [None, Some(&causes)] {
+            let picture = residuals("b1828-11", &timing, causes);
+            let number = |text: &str, key: &str| -> f64 {
+                let rest = text.split_once(&format!("{key}=\"")).expect("an attribute").1;
+                rest.split('"').next().and_then(|number| number.parse().ok()).expect("a number")
+            };
+            let dots: Vec<_> =
+                picture.split("<circle").skip(1).map(|dot| (number(dot, "cx"), number(dot, "cy"))).collect();
+            assert_eq!(dots.len(), timing.pulses.len());
+            let late = &timing.fit.residuals;
+            let (first, last) = (dots[0], dots[39]);
+            for (k, (x, y)) in dots.iter().enumerate() {
+                let date = |k: usize| timing.pulses[k].arrival.day() as f64 + timing.pulses[k].arrival.fraction();
+                let along = first.0 + (date(k) - date(0)) / (date(39) - date(0)) * (last.0 - first.0);
+                let height = first.1 + (late[k] - late[0]) / (late[39] - late[0]) * (last.1 - first.1);
+                // Places are written to a hundredth; a difference of two of them by which is divided is some part of the panel.
+                assert!((x - along).abs() < 0.03 && (y - height).abs() < 1.0, "{k}: {x} {along}, {y} {height}");
+            }
+            assert_eq!(picture.contains(">geometry<"), causes.is_some());
+        }
+    }
+}
