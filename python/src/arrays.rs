@@ -41,10 +41,15 @@ impl<'py> FromPyObject<'_, 'py> for Numbers {
         if !["i", "u", "f"].contains(&kind.as_str()) {
             return Err(refused());
         }
-        let array = array.call_method1("astype", ("float64",))?;
-        let array = array.cast_into::<PyArrayDyn<f64>>()?;
-        let shape = array.shape().to_vec();
-        let values = array.readonly().as_array().iter().copied().collect();
+        let array = match array.cast_into::<PyArrayDyn<f64>>() {
+            Ok(array) => array,
+            Err(other) => other.into_inner().call_method1("astype", ("float64",))?.cast_into()?,
+        };
+        let (shape, read) = (array.shape().to_vec(), array.readonly());
+        let values = match read.as_slice() {
+            Ok(values) if array.is_c_contiguous() => values.to_vec(),
+            _ => read.as_array().iter().copied().collect(),
+        };
         Ok(Self { values, shape: (!shape.is_empty()).then_some(shape) })
     }
 }
@@ -128,19 +133,21 @@ pub fn broadcast<'py, const N: usize>(
     arguments: [Numbers; N],
     function: impl Fn([f64; N]) -> Result<f64, twofold::Error> + Sync,
 ) -> PyResult<Bound<'py, PyAny>> {
-    if arguments.iter().all(|numbers| numbers.shape.is_none()) {
-        let values = arguments.map(|numbers| numbers.values[0]);
-        return Ok(PyFloat::new(py, function(values).map_err(raised)?).into_any());
+    let mut arguments = Vec::from(arguments);
+    let shape = arguments.iter().find_map(|numbers| numbers.shape.clone());
+    if arguments.iter().any(|numbers| numbers.shape.is_some() && numbers.shape != shape) {
+        let given = arguments.into_iter().map(|Numbers { values, shape }| {
+            let numbers = Numbers { values: Vec::new(), shape };
+            numbers.shaped(py, values, &[])
+        });
+        let given = PyTuple::new(py, given.collect::<PyResult<Vec<_>>>()?)?;
+        let same = py.import("numpy")?.getattr("broadcast_arrays")?.call1(given).map_err(raised)?;
+        arguments = same.try_iter()?.map(|one| one?.extract::<Numbers>()).collect::<PyResult<Vec<_>>>()?;
     }
-    let given = arguments.into_iter().map(|numbers| {
-        let values = numbers.values.clone();
-        numbers.shaped(py, values, &[])
-    });
-    let given = PyTuple::new(py, given.collect::<PyResult<Vec<_>>>()?)?;
-    let whole = py.import("numpy")?.getattr("broadcast_arrays")?.call1(given).map_err(raised)?;
-    let whole = whole.try_iter()?.map(|one| one?.extract::<Numbers>()).collect::<PyResult<Vec<_>>>()?;
-    let found = whole[0].map(py, |k, _| function(core::array::from_fn(|part| whole[part].values[k])))?;
-    whole[0].shaped(py, found, &[])
+    let at = |part: &Numbers, k: usize| if part.shape.is_some() { part.values[k] } else { part.values[0] };
+    let whole = arguments.iter().find(|numbers| numbers.shape.is_some()).unwrap_or(&arguments[0]);
+    let found = whole.map(py, |k, _| function(core::array::from_fn(|part| at(&arguments[part], k))))?;
+    whole.shaped(py, found, &[])
 }
 
 /// An array of float64, for the stubs.

@@ -15,6 +15,11 @@ mod writing;
 /// The compiled part of the package.
 #[pyo3::pymodule(name = "_twofold")]
 mod module {
+    /// Version of the package.
+    #[pymodule_export]
+    #[allow(non_upper_case_globals)]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+
     #[pymodule_export]
     use crate::error::Error;
     #[pymodule_export]

@@ -12,8 +12,6 @@ states (`t_c`, or seconds of a physical star); angles are in rad, arrays are of 
 `twofold.waves` gives waveforms to lalpulsar, `twofold.likelihood` likelihoods to samplers. Each needs the package that it serves.
 """
 
-from importlib.metadata import version
-
 from twofold._twofold import (
     Error,
     Fit,
@@ -24,13 +22,12 @@ from twofold._twofold import (
     Timing,
     TimingData,
     TimingModel,
+    __version__,
     fit_timing,
     kernels,
     wobble_limits,
 )
 from twofold.sweep import Sweep
-
-__version__ = version("twofold")
 
 __all__ = [
     "Error",
@@ -43,6 +40,7 @@ __all__ = [
     "Timing",
     "TimingData",
     "TimingModel",
+    "__version__",
     "fit_timing",
     "kernels",
     "wobble_limits",

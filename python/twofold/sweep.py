@@ -5,10 +5,13 @@ from __future__ import annotations
 import os
 from collections import deque
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, Future
+from typing import TYPE_CHECKING
 
 from twofold import _twofold
 from twofold._twofold import SweepFile, Table
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor, Future
 
 #: One part: the scene after its last one, rows, rows of errors, how many scenes failed.
 _Part = tuple[int, bytes, bytes, int]

@@ -10,6 +10,11 @@ from os import PathLike
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
 from typing_extensions import disjoint_base
 
+__version__: Final[str]
+"""
+Version of the package.
+"""
+
 @final
 class Fit:
     """
