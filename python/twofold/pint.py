@@ -500,9 +500,11 @@ def _limit(curvature: np.ndarray, pull: np.ndarray, probability: float) -> tuple
     weight = width * np.exp((slope * middle - gain) / 2.0)
     below = ndtr(-middle / width)
 
-    def exceeds(theta: float) -> float:
+    def part(theta: float) -> float:
         return float(weight @ (ndtr((theta - middle) / width) - below))
 
-    whole = float(weight @ ndtr(middle / width))
-    limit = brentq(lambda theta: exceeds(theta) - probability * whole, 0.0, theta + 40.0 * widest, xtol=1e-300, rtol=1e-12)
+    wanted = probability * float(weight @ ndtr(middle / width))
+    low, high = max(theta - 9.0 * widest, 0.0), theta + 40.0 * widest
+    low = low if part(low) < wanted else 0.0
+    limit = brentq(lambda theta: part(theta) - wanted, low, high, xtol=1e-9 * finest, rtol=1e-12)
     return *found, limit if limit <= LARGEST else np.inf
