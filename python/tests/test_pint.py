@@ -5,6 +5,7 @@ import io
 import pickle
 import warnings
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -188,7 +189,7 @@ def test_derivative_by_the_delay(spread):
     numeric = (4 * differences[0] - differences[1]) / 3
     analytic = component.d_wobble_phase_d_delay(spread, delay)
     assert np.max(np.abs(analytic - numeric)) < 1e-8 * np.max(np.abs(analytic))
-    # All of it in PINT: the position of the sky by the delay.
+    # PINT sums it with that of Spindown for every parameter of a delay.
     assert model.d_phase_d_delay_funcs[-1] == component.d_wobble_phase_d_delay
 
 
@@ -491,3 +492,25 @@ def test_limits_that_cannot_be(spread, given, error):
         wobble_limits(model, spread, **{"periods": [100.0] * u.day, **given})
     with pytest.raises(ValueError, match="model: it has a Wobble component"):
         wobble_limits(wobbling(), spread, [100.0] * u.day)
+
+
+def test_the_example_of_the_page_runs(tmp_path, monkeypatch):
+    page = (Path(__file__).parents[2] / "docs" / "pint.md").read_text()
+    example = page.split("```python\n")[1].split("```")[0]
+    assert len([line for line in example.splitlines() if line.strip()]) <= 20
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        exec(example, names)
+    model = names["fitter"].model
+    assert model.WOBBLE.value == pytest.approx(3.0, abs=3e-4)
+    assert model.WOBPERIOD.value == pytest.approx(500.0118, abs=4e-3)
+    assert "WOBPHASE" in (tmp_path / "wobble.par").read_text()
+
+
+def test_the_table_of_the_page_has_the_parameters():
+    page = (Path(__file__).parents[2] / "docs" / "pint.md").read_text()
+    component = twofold.pint.Wobble()
+    for name in component.params:
+        assert f"| `{name}` | {getattr(component, name).units.to_string() or '1'} |" in page

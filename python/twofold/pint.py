@@ -378,10 +378,13 @@ class _Projected:
         d = np.array(columns)
         return d @ d.T, d @ self.residuals
 
-    def chi_squared(self, star: _Star) -> float:
-        """With the wobble of a star, in full."""
-        left = self.residuals + self.project(_Beyond(star, self.t).turns / self.f0)
-        return float(left @ left)
+    def chi_squared(self, stars: list[_Star]) -> np.ndarray:
+        """With the wobbles of some stars, in full."""
+        shifts = np.array([_Beyond(star, self.t).turns / self.f0 / self.sigma for star in stars])
+        count = len(self.sigma)
+        taken_up = shifts @ self.basis[:count]
+        mixed = self.residuals @ self.residuals + 2.0 * shifts @ self.residuals[:count]
+        return mixed + np.sum(shifts**2, axis=1) - np.sum(taken_up**2, axis=1)
 
 
 def add_wobble(
@@ -440,7 +443,8 @@ def _start(
     candidates = [(a, b) for a in wobbles for b in phases]
     if wobble is None and phase is None and linear[0] < most:
         candidates.append(linear)
-    return min(candidates, key=lambda one: data.chi_squared(data.star(days, chi, torque, *one)))
+    found = data.chi_squared([data.star(days, chi, torque, *one) for one in candidates])
+    return candidates[int(np.argmin(found))]
 
 
 def wobble_limits(
