@@ -191,7 +191,7 @@ def figure(path, found, other, dense):
         axes.tick_params(which="both", direction="in", top=True, right=True)
     top.loglog(days, other["limit"], "s--", color="#b35806", ms=3, lw=1, label="epoch means; only $F_0$ and $F_1$ fitted")
     top.loglog(dense["period"].to_value("d"), dense["limit"].to_value("rad"), color="#92c5de", lw=0.7, zorder=1)
-    top.loglog(days, found["limit"].to_value("rad"), "o", color="#2166ac", ms=3.5, label="PINT's model: all parameters and noise\n(line: 400 periods)")
+    top.loglog(days, found["limit"].to_value("rad"), "o", color="#2166ac", ms=3.5, label="PINT's model: all parameters and noise\n(line: between the 40 periods)")
     top.set_ylim(6e-5, 8e-1)
     top.set_ylabel(r"upper limit on the wobble $\theta$ (95 %) [rad]")
     top.legend(frameon=False, loc="upper left")
@@ -251,11 +251,18 @@ def main():
     np.savetxt(options.out / "pint_limits.csv", np.array(columns).T, fmt="%.6e", delimiter=",", header=names, comments="")
     for row in np.array(columns).T:
         print("  {:7.1f} d: {:.2e} rad (gain {:.1f}); epoch means {:.2e} rad (gain {:.1f})".format(*row[[0, 1, 3, 4, 5]]))
-    # About as many as the span of the data tells apart at the shortest period.
-    dense = twofold.pint.wobble_limits(model, toas, np.geomspace(30.0, 3000.0, 400) * u.day)
+    # Four for each frequency that the span of the data tells apart; more at the periods of the position and of the parallax.
+    span = float(np.ptp(toas.get_mjds().value))
+    even = 1.0 / np.linspace(1.0 / 3000.0, 1.0 / 30.0, int(4.0 * span / 30.0))
+    many = np.sort(np.concatenate([even, np.geomspace(300.0, 3000.0, 100), 365.25 + np.arange(-4.0, 5.0), 182.625 + np.arange(-2.0, 3.0)]))
+    dense = twofold.pint.wobble_limits(model, toas, many * u.day)
     figure(options.figure, found, other, dense)
-    gains, finite = dense["gain"].value, np.isfinite(dense["limit"])
-    print(f"at 400 periods: the largest gain is {gains.max():.1f}, at {dense['period'][gains.argmax()]:.1f}; above 0.1 rad at {np.sum(~finite)}")
+    gains = twofold.pint.wobble_limits(model, toas, even * u.day)["gain"].value
+    print(f"{len(even)} even frequencies, {span / 30.0:.0f} of them independent: mean gain {gains.mean():.1f} (2 expected)", end=", ")
+    print(f"above 6 {np.mean(gains > 6.0):.0%} (5 % expected), largest {gains.max():.1f} at {even[gains.argmax()]:.1f} d")
+    for day in (157.0, 164.0, 175.0, 182.625, 190.0, 200.0):
+        near = np.argmin(np.abs(many - day))
+        print(f"  {many[near]:.2f} d: {dense['limit'][near]:.2e}")
 
 
 if __name__ == "__main__":
