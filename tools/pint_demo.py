@@ -44,7 +44,9 @@ def simulated(random, out, model_of, toas_of):
     lines = ["FORMAT 1\n"]
     for day, fraction, pulse in zip(timing.table["arrival_day"], fractions, timing.table["pulse"]):
         days = int(day) + int(np.floor(fraction))
-        lines.append(f"pulsar 0 {days}{fraction % 1.0:.17f} {sigma * 1e6} @ -pn {int(pulse)}\n".replace(f"{days}0.", f"{days}."))
+        lines.append(
+            f"pulsar 0 {days}{fraction % 1.0:.17f} {sigma * 1e6} @ -pn {int(pulse)}\n".replace(f"{days}0.", f"{days}.")
+        )
     (out / "simulated.tim").write_text("".join(lines))
     model = model_of(timing.par)
     since = (float(model.PEPOCH.value) - 49621.0) * DAY
@@ -123,9 +125,7 @@ def real_times(model, toas, repeats):
     import twofold.pint
 
     star, start = copy.deepcopy(model), time.perf_counter()
-    component = twofold.pint.add_wobble(
-        star, toas, period=180 * u.day, chi=45 * u.deg, free=("WOBBLE", "WOBPHASE")
-    )
+    component = twofold.pint.add_wobble(star, toas, period=180 * u.day, chi=45 * u.deg, free=("WOBBLE", "WOBPHASE"))
     print(f"start values by a search: {time.perf_counter() - start:.1f} s")
     delay = star.delay(toas)
 
@@ -152,7 +152,9 @@ def real_times(model, toas, repeats):
     times(1, fit(model, "without"))
     plain, wobbling = times(repeats, fit(model, "without"), fit(star, "with"))
     print(f"the phase and all its derivatives at {len(toas)} arrival times: {one * 1e3:.2f} ms")
-    print(f"GLS fit of two steps: {plain:.1f} s without the component, {wobbling:.1f} s with it: {wobbling / plain:.2f}")
+    print(
+        f"GLS fit of two steps: {plain:.1f} s without the component, {wobbling:.1f} s with it: {wobbling / plain:.2f}"
+    )
     for name, fitter in kept.items():
         rms = fitter.resids.rms_weighted().to_value("us")
         print(f"  {name}: chi^2 = {fitter.resids.chi2:.2f}, weighted residuals {rms:.3f} us")
@@ -180,7 +182,9 @@ def figure(path, found, other, dense):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    plt.rcParams.update({"font.size": 9, "font.family": "serif", "mathtext.fontset": "dejavuserif", "axes.linewidth": 0.7})
+    plt.rcParams.update(
+        {"font.size": 9, "font.family": "serif", "mathtext.fontset": "dejavuserif", "axes.linewidth": 0.7}
+    )
     figure, (top, bottom) = plt.subplots(
         2, 1, figsize=(5.2, 5.2), sharex=True, height_ratios=(2, 1), constrained_layout=True
     )
@@ -189,14 +193,25 @@ def figure(path, found, other, dense):
         for day in (365.25, 182.625):
             axes.axvline(day, color="0.85", lw=5, zorder=0)
         axes.tick_params(which="both", direction="in", top=True, right=True)
-    top.loglog(days, other["limit"], "s--", color="#b35806", ms=3, lw=1, label="epoch means; only $F_0$ and $F_1$ fitted")
+    top.loglog(
+        days, other["limit"], "s--", color="#b35806", ms=3, lw=1, label="epoch means; only $F_0$ and $F_1$ fitted"
+    )
     top.loglog(dense["period"].to_value("d"), dense["limit"].to_value("rad"), color="#92c5de", lw=0.7, zorder=1)
-    top.loglog(days, found["limit"].to_value("rad"), "o", color="#2166ac", ms=3.5, label="PINT's model: all parameters and noise\n(line: between the 40 periods)")
+    top.loglog(
+        days,
+        found["limit"].to_value("rad"),
+        "o",
+        color="#2166ac",
+        ms=3.5,
+        label="PINT's model: all parameters and noise\n(line: between the 40 periods)",
+    )
     top.set_ylim(6e-5, 8e-1)
     top.set_ylabel(r"upper limit on the wobble $\theta$ (95 %) [rad]")
     top.legend(frameon=False, loc="upper left")
     for day, word in ((365.25, "1 yr"), (182.625, "1/2 yr")):
-        top.text(day, 0.02, word, transform=top.get_xaxis_transform(), ha="center", va="bottom", color="0.35", fontsize=8)
+        top.text(
+            day, 0.02, word, transform=top.get_xaxis_transform(), ha="center", va="bottom", color="0.35", fontsize=8
+        )
     bottom.semilogx(days, other["gain"], "s--", color="#b35806", ms=3, lw=1)
     bottom.semilogx(dense["period"].to_value("d"), dense["gain"].value, color="#92c5de", lw=0.7, zorder=1)
     bottom.semilogx(days, found["gain"].value, "o", color="#2166ac", ms=3.5)
@@ -248,18 +263,31 @@ def main():
     columns = [periods, found["limit"].to_value("rad"), found["best"].to_value("rad"), found["gain"].value]
     columns += [other["limit"], other["gain"]]
     names = "period [d], limit [rad], best [rad], gain, limit of epoch means [rad], gain of epoch means"
-    np.savetxt(options.out / "pint_limits.csv", np.array(columns).T, fmt="%.6e", delimiter=",", header=names, comments="")
+    np.savetxt(
+        options.out / "pint_limits.csv", np.array(columns).T, fmt="%.6e", delimiter=",", header=names, comments=""
+    )
     for row in np.array(columns).T:
-        print("  {:7.1f} d: {:.2e} rad (gain {:.1f}); epoch means {:.2e} rad (gain {:.1f})".format(*row[[0, 1, 3, 4, 5]]))
+        print(
+            "  {:7.1f} d: {:.2e} rad (gain {:.1f}); epoch means {:.2e} rad (gain {:.1f})".format(*row[[0, 1, 3, 4, 5]])
+        )
     # Four for each frequency that the span of the data tells apart; more at the periods of the position and of the parallax.
     span = float(np.ptp(toas.get_mjds().value))
     even = 1.0 / np.linspace(1.0 / 3000.0, 1.0 / 30.0, int(4.0 * span / 30.0))
-    many = np.sort(np.concatenate([even, np.geomspace(300.0, 3000.0, 100), 365.25 + np.arange(-4.0, 5.0), 182.625 + np.arange(-2.0, 3.0)]))
+    many = np.sort(
+        np.concatenate(
+            [even, np.geomspace(300.0, 3000.0, 100), 365.25 + np.arange(-4.0, 5.0), 182.625 + np.arange(-2.0, 3.0)]
+        )
+    )
     dense = twofold.pint.wobble_limits(model, toas, many * u.day)
     figure(options.figure, found, other, dense)
     gains = twofold.pint.wobble_limits(model, toas, even * u.day)["gain"].value
-    print(f"{len(even)} even frequencies, {span / 30.0:.0f} of them independent: mean gain {gains.mean():.1f} (2 expected)", end=", ")
-    print(f"above 6 {np.mean(gains > 6.0):.0%} (5 % expected), largest {gains.max():.1f} at {even[gains.argmax()]:.1f} d")
+    print(
+        f"{len(even)} even frequencies, {span / 30.0:.0f} of them independent: mean gain {gains.mean():.1f} (2 expected)",
+        end=", ",
+    )
+    print(
+        f"above 6 {np.mean(gains > 6.0):.0%} (5 % expected), largest {gains.max():.1f} at {even[gains.argmax()]:.1f} d"
+    )
     for day in (157.0, 164.0, 175.0, 182.625, 190.0, 200.0):
         near = np.argmin(np.abs(many - day))
         print(f"  {many[near]:.2f} d: {dense['limit'][near]:.2e}")

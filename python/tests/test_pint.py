@@ -94,7 +94,11 @@ def b1828(tmp_path_factory):
     since = (float(model.PEPOCH.value) - 49621.0) * DAY
     kappa = 3.6568e-13 / 2.4688717147
     tau = 2.0 * since / (1.0 + np.sqrt(1.0 + 2.0 * kappa * since))
-    truth = {"WOBBLE": 3.0, "WOBPERIOD": 500.0 * (1 + kappa * tau), "WOBPHASE": (90.0 + tau / DAY / 500.0 * 360.0) % 360.0}
+    truth = {
+        "WOBBLE": 3.0,
+        "WOBPERIOD": 500.0 * (1 + kappa * tau),
+        "WOBPHASE": (90.0 + tau / DAY / 500.0 * 360.0) % 360.0,
+    }
     return model, toas, truth
 
 
@@ -126,11 +130,19 @@ def test_turns_and_derivatives_are_those_of_the_timing_model():
     """The Rust library has the phase in two doubles, so that its differences are right to 1e-16 of a turn; psi of thousands of rad is right to 1e-12."""
     random = np.random.default_rng(1)
     t = np.linspace(-4e8, 4e8, 101)
-    names = {"wobble": "wobble", "chi": "chi", "phase": "precession_phase", "rate": "precession_rate", "torque": "torque_share"}
+    names = {
+        "wobble": "wobble",
+        "chi": "chi",
+        "phase": "precession_phase",
+        "rate": "precession_rate",
+        "torque": "torque_share",
+    }
     for _ in range(200):
         star, with_wobble, without = drawn(random)
         beyond = _Beyond(star, t)
-        (whole, rest, by), (plain, plain_rest, plain_by) = (of.phase_and_derivatives(t) for of in (with_wobble, without))
+        (whole, rest, by), (plain, plain_rest, plain_by) = (
+            of.phase_and_derivatives(t) for of in (with_wobble, without)
+        )
         expected = (whole - plain) + (rest - plain_rest)
         assert np.max(np.abs(beyond.turns - expected)) < 1e-12 * max(1.0, np.max(np.abs(expected))), star
         column = twofold.TimingModel.names.index
@@ -141,7 +153,10 @@ def test_turns_and_derivatives_are_those_of_the_timing_model():
         for name in ("f0", "f1"):
             whole_of_it = plain_by[:, column(name)]
             expected = by[:, column(name)] - whole_of_it
-            assert np.max(np.abs(beyond.derivatives[name] - expected)) < 1e-14 * np.max(np.abs(whole_of_it)), (name, star)
+            assert np.max(np.abs(beyond.derivatives[name] - expected)) < 1e-14 * np.max(np.abs(whole_of_it)), (
+                name,
+                star,
+            )
 
 
 def test_no_rounding_at_1e11_turns():
@@ -183,7 +198,8 @@ def test_derivative_by_the_delay(spread):
     component, delay = model.components["Wobble"], model.delay(spread)
     step = 2e4 * u.s
     differences = [
-        (component.wobble_phase(spread, delay + k * step) - component.wobble_phase(spread, delay - k * step)) / (2 * k * step)
+        (component.wobble_phase(spread, delay + k * step) - component.wobble_phase(spread, delay - k * step))
+        / (2 * k * step)
         for k in (1, 2)
     ]
     numeric = (4 * differences[0] - differences[1]) / 3
@@ -376,7 +392,9 @@ def test_a_negative_wobble_is_one_of_the_opposite_phase(spread):
 def test_a_wobble_is_added_as_given(spread):
     model = wobbling()
     model.remove_component("Wobble")
-    component = add_wobble(model, period=1e-3 * u.yr, chi=1 * u.rad, wobble=0.1 * u.rad, phase=1 * u.rad, free=["WOBBLE"])
+    component = add_wobble(
+        model, period=1e-3 * u.yr, chi=1 * u.rad, wobble=0.1 * u.rad, phase=1 * u.rad, free=["WOBBLE"]
+    )
     assert model.WOBPERIOD.value == pytest.approx(0.36525) and model.WOBCHI.value == pytest.approx(np.degrees(1))
     assert component.free_params_component == ["WOBBLE"]
     assert (model.WOBBLE.quantity.to_value(u.rad), model.WOBPHASE.quantity.to_value(u.rad)) == pytest.approx((0.1, 1.0))
@@ -483,7 +501,10 @@ def test_the_gain_is_what_a_fit_finds(tmp_path):
 
 @pytest.mark.parametrize(
     ("given", "error"),
-    [({"probability": 1.0}, "probability = 1.0: allowed is"), ({"periods": [-1.0, 2.0] * u.day}, "periods: -1.0 d: allowed")],
+    [
+        ({"probability": 1.0}, "probability = 1.0: allowed is"),
+        ({"periods": [-1.0, 2.0] * u.day}, "periods: -1.0 d: allowed"),
+    ],
 )
 def test_limits_that_cannot_be(spread, given, error):
     model = wobbling()

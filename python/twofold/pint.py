@@ -9,7 +9,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from functools import cached_property
 
 import astropy.units as u
@@ -186,10 +186,15 @@ class _Beyond:
         found["chi"] += b_chi / (2.0 * np.pi)
         found["phase"] += turning
         found["rate"] += turning * tau
-        by_kappa = -star.f0 * (
-            self.late / slowing
-            + (tau**2 / 2.0 * varying + slowing * self.delta * (self.plain + self.delta / 2.0)) / (slowing * plainly)
-        ) - star.rate * turning * (tau**2 / 2.0 + self.late) / slowing
+        by_kappa = (
+            -star.f0
+            * (
+                self.late / slowing
+                + (tau**2 / 2.0 * varying + slowing * self.delta * (self.plain + self.delta / 2.0))
+                / (slowing * plainly)
+            )
+            - star.rate * turning * (tau**2 / 2.0 + self.late) / slowing
+        )
         found["f0"] = self.delta - kappa / star.f0 * by_kappa
         found["f1"] = -by_kappa / star.f0
         found["t"] = star.f0 * varying / (slowing * plainly) + star.rate * turning / slowing
@@ -221,9 +226,7 @@ class Wobble(PhaseComponent):
             ("WOBTORQUE", "", 0.0, "Share of the braking torque that goes with sin^2 of the magnetic axis' angle to L"),
         ):
             self.add_param(
-                floatParameter(
-                    name=name, units=units, value=value, description=description, tcb2tdb_scale_factor=one
-                )
+                floatParameter(name=name, units=units, value=value, description=description, tcb2tdb_scale_factor=one)
             )
         self.phase_funcs_component += [self.wobble_phase]
         self.phase_derivs_wrt_delay += [self.d_wobble_phase_d_delay]
@@ -241,7 +244,9 @@ class Wobble(PhaseComponent):
         super().validate()
         for name in self.params:
             if getattr(self, name).value is None:
-                raise MissingParameter("Wobble", name, f"{name} has no value: allowed is a number, in {self._unit(name)}")
+                raise MissingParameter(
+                    "Wobble", name, f"{name} has no value: allowed is a number, in {self._unit(name)}"
+                )
         if "Spindown" not in self._parent.components or self._parent.PEPOCH.value is None:
             raise MissingParameter("Wobble", "PEPOCH", "PEPOCH has no value: WOBPHASE is that of this epoch")
         if not self.WOBPERIOD.value > 0.0:
@@ -340,7 +345,9 @@ class _Projected:
         basis, weights = model.noise_model_designmatrix(toas), model.noise_model_basis_weight(toas)
         if basis is not None:
             if np.ndim(weights) != 1:
-                raise ValueError("model: noise with correlated amplitudes: allowed is noise with a weight for each column")
+                raise ValueError(
+                    "model: noise with correlated amplitudes: allowed is noise with a weight for each column"
+                )
             prior = np.diag(1.0 / np.sqrt(weights))
             below = np.hstack([np.zeros((len(weights), matrix.shape[1])), prior])
             matrix = np.vstack([np.hstack([matrix, basis / self.sigma[:, None]]), below])
