@@ -11,7 +11,7 @@ use twofold_scene::columns::Column;
 use twofold_scene::explained_plan::explained;
 use twofold_scene::measurements::{DataFile, Measurement};
 use twofold_scene::pulsar_timing::PulsarScene;
-use twofold_scene::scene_file;
+use twofold_scene::scene_file::{self, Columns};
 use twofold_scene::trajectory::{LinesWanted, write_csv, write_lines, write_pulses};
 
 use crate::error::raised;
@@ -34,7 +34,7 @@ pub struct Scene {
 
 impl Scene {
     fn of_text(name: String, toml: String) -> PyResult<Self> {
-        let scene = Arc::new(scene_file::Scene::from_toml(&name, &toml).map_err(raised)?);
+        let scene = Arc::new(scene_file::Scene::from_toml_with(&name, &toml, Columns::OfTheFileLater).map_err(raised)?);
         Ok(Self { name, toml, scene })
     }
 
@@ -190,6 +190,7 @@ impl Scene {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Table> {
         let scene = self.with(columns, method, tolerance)?;
+        scene.check_rotation(&scene.columns).map_err(raised)?;
         Ok(written(py, progress, |writer, tell| write_csv(&scene, writer, tell))?.0)
     }
 

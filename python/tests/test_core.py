@@ -51,6 +51,14 @@ class TestScene:
         assert np.allclose(angles[:, 0], 1.1 / np.cos(0.4) * np.arange(11.0), atol=1e-12)
         assert np.allclose(angles[:, 1], 0.4, atol=1e-13)
 
+    def test_a_span_that_only_arrival_times_are_of(self):
+        """A motion of 1e11 turns has no table with angles that count them, but a pulsar."""
+        years = {"epoch": "55000.0", "years": 10.0, "samples": 10}
+        scene = twofold.Scene("b1828-11", star={"bulge": None}, lorentz_violation={"alpha_2": None, "w": None, "eigenvalues": [0.0, 0.0, 0.0]}, time=years)
+        assert len(scene.pulsar().arrivals().table) == 10
+        with pytest.raises(twofold.Error, match="rotation"):
+            scene.table(["angles"])
+
     def test_a_file(self, tmp_path, scene):
         path = tmp_path / "star.toml"
         path.write_text(scene.toml)

@@ -69,6 +69,8 @@ pub struct Scene {
 pub enum Columns<'a> {
     /// Those of the file.
     OfTheFile,
+    /// Those of the file, and whether they can be computed at all is seen later, by [`Scene::check_rotation`].
+    OfTheFileLater,
     /// The groups of these names.
     Named(&'a [&'a str]),
     /// None: the file may name groups without what these need.
@@ -83,8 +85,7 @@ impl Scene {
 
     /// As [`Scene::named`], for other columns than those of the file.
     pub fn named_with(name_or_path: &str, columns: Columns<'_>) -> Result<Self, SceneError> {
-        let text = text_of(name_or_path)?;
-        SCENE.parse(name_or_path, &text, |document| Self::from_document(document, columns, None))
+        Self::from_toml_with(name_or_path, &text_of(name_or_path)?, columns)
     }
 
     /// Reads and checks the text of a scene file; `file` is how messages call it.
@@ -93,7 +94,15 @@ impl Scene {
     /// A [`SceneError`] for text that is not TOML, for keys that are unknown, missing or exclude one another, and for
     /// values of a wrong type or out of range.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SceneError> {
-        SCENE.parse(file, text, |document| Self::from_document(document, Columns::OfTheFile, None))
+        Self::from_toml_with(file, text, Columns::OfTheFile)
+    }
+
+    /// As [`Scene::from_toml`], for other columns than those of the file.
+    ///
+    /// # Errors
+    /// As for [`Scene::from_toml`].
+    pub fn from_toml_with(file: &str, text: &str, columns: Columns<'_>) -> Result<Self, SceneError> {
+        SCENE.parse(file, text, |document| Self::from_document(document, columns, None))
     }
 
     /// The scene of a document, with `times` in place of its own section `[time]` if there are any.
@@ -155,13 +164,14 @@ impl Scene {
             cautions: [spin_caution, epoch_caution].into_iter().flatten().collect(),
         };
         if let Some(output) = &output {
-            observation::read_output(output, &mut scene, matches!(columns, Columns::OfTheFile))?;
+            let of_the_file = matches!(columns, Columns::OfTheFile | Columns::OfTheFileLater);
+            observation::read_output(output, &mut scene, of_the_file)?;
         }
         if let Columns::Named(names) = columns {
             let refused = |why| Fault { span: None, message: format!("--columns: {why}") };
             scene.choose_columns(names).map_err(refused)?;
         }
-        if !matches!(columns, Columns::Unused) {
+        if !matches!(columns, Columns::Unused | Columns::OfTheFileLater) {
             let section = time_section.as_ref().unwrap_or(document);
             scene.check_rotation(&scene.columns).map_err(|why| section.fault(why))?;
         }

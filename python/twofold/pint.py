@@ -1,0 +1,521 @@
+"""A wobble in PINT's timing models (docs/pint.md).
+
+>>> import twofold.pint                                     # registers the component, so that get_model reads its parameters
+>>> twofold.pint.add_wobble(model, toas, period=500 * u.day, chi=89 * u.deg, torque=1.0)
+
+`Wobble` is a phase component beside PINT's `Spindown`. `wobble_limits` says how large a wobble arrival times allow, by its period.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+import astropy.units as u
+import numpy as np
+from pint.exceptions import InvalidModelParameters, MissingParameter
+from pint.models.parameter import floatParameter
+from pint.models.timing_model import PhaseComponent, TimingModel
+from pint.residuals import Residuals
+from pint.toa import TOAs
+from scipy.optimize import brentq
+from scipy.special import ndtr
+
+import twofold
+
+__all__ = ["Wobble", "add_wobble", "wobble_limits"]
+
+DAY = 86400.0
+
+#: Largest wobble (rad) for which residuals are taken as in proportion to it, as in `twofold.wobble_limits`.
+LARGEST = 0.1
+
+#: Part of its rotation that a star may lose between the epoch and an arrival.
+MOST_LOST = 0.1
+
+
+@dataclass(frozen=True)
+class _Star:
+    """A wobbling star in Hz, s and rad: the symbols of docs/timing-model.md and docs/spin-down.md."""
+
+    f0: float
+    f1: float
+    wobble: float
+    chi: float
+    rate: float
+    phase: float
+    torque: float
+
+    def check(self, t: np.ndarray | None = None) -> None:
+        """Raises InvalidModelParameters for a star that the timing model does not have."""
+        degrees = [f"{angle:.12g} deg" for angle in np.degrees([self.wobble, self.chi])]
+        least = min(self.chi, np.pi - self.chi)
+        if not 0.0 < least:
+            raise InvalidModelParameters(f"WOBCHI = {degrees[1]}: allowed is above 0 and below 180 deg")
+        if not abs(self.wobble) < min(least, np.pi / 2):
+            raise InvalidModelParameters(
+                f"WOBBLE = {degrees[0]}: allowed is below {np.degrees(min(least, np.pi / 2)):.12g} deg, which is how far"
+                f" WOBCHI = {degrees[1]} is from 0 or from 180 deg, and below 90 deg"
+            )
+        if not (self.rate > 0.0 and np.isfinite(self.rate)):
+            raise InvalidModelParameters(f"WOBPERIOD = {2 * np.pi / self.rate / DAY:.12g} d: allowed is above 0")
+        if not 0.0 <= self.torque <= 1.0:
+            raise InvalidModelParameters(f"WOBTORQUE = {self.torque:.12g}: allowed is from 0 to 1")
+        try:
+            twofold.TimingModel(
+                self.f0,
+                f1=self.f1,
+                wobble=abs(self.wobble),
+                chi=self.chi,
+                precession_rate=self.rate,
+                precession_phase=self.phase,
+                torque_share=self.torque,
+            )
+        except twofold.Error as error:
+            raise InvalidModelParameters(f"WOBPERIOD = {2 * np.pi / self.rate / DAY:.12g} d: {error}") from error
+        if t is not None and t.size:
+            lost = self.f1 / self.f0 * t[np.argmax(np.abs(t))]
+            if not abs(lost) <= MOST_LOST:
+                raise InvalidModelParameters(
+                    f"F1 t / F0 = {lost:.3g} at an arrival time: allowed is at most {MOST_LOST} in size: PEPOCH nearer"
+                )
+
+
+class _Beyond:
+    """The turns of a wobbling star beyond those of the same star without a wobble, at times (s) since the epoch.
+
+    `F0 (tau - tau_0) + B(psi) / 2 pi`: the stretched times with the varying torque and without it obey `t = tau + kappa tau^2 / 2 + Q(tau) - Q(0)` and `t = tau_0 + kappa tau_0^2 / 2`. Their difference
+    `delta` is found from `delta (1 + kappa (tau_0 + delta / 2)) = Q(0) - Q(tau)`, where nothing large is subtracted.
+    """
+
+    def __init__(self, star: _Star, t: np.ndarray):
+        self.star, self.t = star, t
+        wobble, chi, share = star.wobble, star.chi, star.torque
+        (sin, cos), (sin_chi, cos_chi) = (np.sin(wobble), np.cos(wobble)), (np.sin(chi), np.cos(chi))
+        self.kappa = kappa = -star.f1 / star.f0
+        # sin^2 theta_m = a_0 + a_1 cos psi + a_2 cos 2 psi, and Q = -kappa (q_1 cos psi + q_2 cos 2 psi).
+        a = 1.0 - (cos * cos_chi) ** 2 - (sin * sin_chi) ** 2 / 2.0
+        self.a = np.array([a, -2.0 * sin * cos * sin_chi * cos_chi, -((sin * sin_chi) ** 2) / 2.0])
+        self.mean = 1.0 - share + share * a
+        self.per_rate = np.array([1.0, 0.25]) / star.rate**2
+        self.q = share / self.mean * self.a[1:] * self.per_rate
+        self.plain = 2.0 * t / (1.0 + np.sqrt(1.0 + 2.0 * kappa * t))
+        self.delta = np.zeros_like(t)
+        self._follow()
+        # What varies moves the rotation by a hundredth at most: each step is that much nearer.
+        for _ in range(12 if kappa != 0.0 and self.q.any() else 0):
+            last = self.delta
+            self.delta = -kappa * self.late / (1.0 + kappa * (self.plain + last / 2.0))
+            self._follow()
+            if star.f0 * np.max(np.abs(self.delta - last), initial=0.0) < 1e-17:
+                break
+        tilt, dip = np.sin(wobble) * cos_chi, 2.0 * np.sin(wobble / 2.0) ** 2
+        self.along = sin_chi * (1.0 - dip * self.cos**2) - tilt * self.cos
+        self.across = -self.sin * (tilt + sin_chi * dip * self.cos)
+        self.turns = star.f0 * self.delta + np.arctan2(self.across, self.along) / (2.0 * np.pi)
+
+    def _follow(self) -> None:
+        """The angle psi at the present `delta`, and `(Q(tau) - Q(0)) / kappa`."""
+        star = self.star
+        self.tau = self.plain + self.delta
+        psi = star.phase + star.rate * self.tau
+        self.sin, self.cos = np.sin(psi), np.cos(psi)
+        self.sin_2, self.cos_2 = 2.0 * self.sin * self.cos, 1.0 - 2.0 * self.sin**2
+        self.late = self._late(self.q)
+
+    def _late(self, q: np.ndarray) -> np.ndarray:
+        """`(Q(tau) - Q(0)) / kappa` with coefficients `q`."""
+        phase = self.star.phase
+        return q[0] * (np.cos(phase) - self.cos) + q[1] * (np.cos(2.0 * phase) - self.cos_2)
+
+    @cached_property
+    def derivatives(self) -> dict[str, np.ndarray]:
+        """Derivatives of the turns by the fields of the star, in their units, and by the time (`t`)."""
+        star, kappa, tau = self.star, self.kappa, self.tau
+        wobble, chi = star.wobble, star.chi
+        (sin_w, cos_w), (sin_chi, cos_chi) = (np.sin(wobble), np.cos(wobble)), (np.sin(chi), np.cos(chi))
+        sin, cos, dip = self.sin, self.cos, 2.0 * np.sin(wobble / 2.0) ** 2
+        norm = self.along**2 + self.across**2
+        # The geometry B at a fixed psi.
+        b_wobble = (
+            -sin * (cos_w * cos_chi + sin_chi * sin_w * cos) * self.along
+            + (sin_chi * sin_w * cos + cos_w * cos_chi) * cos * self.across
+        ) / norm
+        b_chi = (
+            -sin * (cos_chi * dip * cos - sin_w * sin_chi) * self.along
+            - (cos_chi * (1.0 - dip * cos**2) + sin_w * sin_chi * cos) * self.across
+        ) / norm
+        b_psi = (
+            (sin_chi * dip * sin**2 - cos * (sin_w * cos_chi + sin_chi * dip * cos)) * self.along
+            - (2.0 * sin_chi * dip * cos + sin_w * cos_chi) * sin * self.across
+        ) / norm
+        # The lateness at a fixed tau, over kappa.
+        by_psi = self.q[0] * sin + 2.0 * self.q[1] * self.sin_2
+        by_psi_0 = self.q[0] * np.sin(star.phase) + 2.0 * self.q[1] * np.sin(2.0 * star.phase)
+        a_wobble = np.array(
+            [
+                2.0 * sin_w * cos_w * (cos_chi**2 - sin_chi**2 / 2.0),
+                -2.0 * (cos_w**2 - sin_w**2) * sin_chi * cos_chi,
+                -sin_w * cos_w * sin_chi**2,
+            ]
+        )
+        a_chi = np.array(
+            [
+                2.0 * sin_chi * cos_chi * (cos_w**2 - sin_w**2 / 2.0),
+                -2.0 * sin_w * cos_w * (cos_chi**2 - sin_chi**2),
+                -(sin_w**2) * sin_chi * cos_chi,
+            ]
+        )
+        share = star.torque / self.mean
+        late = {
+            "wobble": self._late(share * self.per_rate * (a_wobble[1:] - share * a_wobble[0] * self.a[1:])),
+            "chi": self._late(share * self.per_rate * (a_chi[1:] - share * a_chi[0] * self.a[1:])),
+            "phase": by_psi - by_psi_0,
+            "rate": by_psi * tau - 2.0 / star.rate * self.late,
+            "torque": self._late(self.per_rate * self.a[1:]) / self.mean**2,
+        }
+        # dt/dtau with the varying torque, without it, and what is between.
+        varying = -kappa * (self.delta + star.rate * by_psi)
+        plainly = 1.0 + kappa * self.plain
+        slowing = plainly - varying
+        turning = b_psi / (2.0 * np.pi)
+        speed = star.f0 + star.rate * turning
+        found = {name: -kappa * speed / slowing * by for name, by in late.items()}
+        found["wobble"] += b_wobble / (2.0 * np.pi)
+        found["chi"] += b_chi / (2.0 * np.pi)
+        found["phase"] += turning
+        found["rate"] += turning * tau
+        by_kappa = (
+            -star.f0
+            * (
+                self.late / slowing
+                + (tau**2 / 2.0 * varying + slowing * self.delta * (self.plain + self.delta / 2.0))
+                / (slowing * plainly)
+            )
+            - star.rate * turning * (tau**2 / 2.0 + self.late) / slowing
+        )
+        found["f0"] = self.delta - kappa / star.f0 * by_kappa
+        found["f1"] = -by_kappa / star.f0
+        found["t"] = star.f0 * varying / (slowing * plainly) + star.rate * turning / slowing
+        return found
+
+
+class Wobble(PhaseComponent):
+    """The phase that a wobble adds to a plain spin-down: free precession with the period WOBPERIOD, seen by its geometry and by the torque that varies with it.
+
+    PINT's `Spindown` keeps F0, F1 and higher derivatives; the precession phase is that at PEPOCH. See docs/pint.md.
+
+    Parameters supported:
+
+    .. paramtable::
+        :class: twofold.pint.Wobble
+    """
+
+    register = True
+    category = "wobble"
+
+    def __init__(self) -> None:
+        super().__init__()
+        one = u.Quantity(1)
+        for name, units, value, description in (
+            ("WOBBLE", "deg", 0.0, "Wobble angle of the symmetry axis to the angular momentum"),
+            ("WOBCHI", "deg", None, "Angle of the magnetic axis to the symmetry axis"),
+            ("WOBPERIOD", "day", None, "Period of the free precession at PEPOCH"),
+            ("WOBPHASE", "deg", 0.0, "Precession phase psi at PEPOCH"),
+            ("WOBTORQUE", "", 0.0, "Share of the braking torque that goes with sin^2 of the magnetic axis' angle to L"),
+        ):
+            self.add_param(
+                floatParameter(name=name, units=units, value=value, description=description, tcb2tdb_scale_factor=one)
+            )
+        self.phase_funcs_component += [self.wobble_phase]
+        self.phase_derivs_wrt_delay += [self.d_wobble_phase_d_delay]
+        self._last: tuple[_Star, np.ndarray, _Beyond] | None = None
+
+    def setup(self) -> None:
+        super().setup()
+        for name in self.params:
+            self.register_deriv_funcs(self.d_wobble_phase_d_param, name)
+        # What the varying torque does depends on F0 and F1, which are parameters of Spindown.
+        for name in ("F0", "F1"):
+            self.deriv_funcs[name] = [self.d_wobble_phase_d_param]
+
+    def validate(self) -> None:
+        super().validate()
+        for name in self.params:
+            if getattr(self, name).value is None:
+                raise MissingParameter(
+                    "Wobble", name, f"{name} has no value: allowed is a number, in {self._unit(name)}"
+                )
+        if "Spindown" not in self._parent.components or self._parent.PEPOCH.value is None:
+            raise MissingParameter("Wobble", "PEPOCH", "PEPOCH has no value: WOBPHASE is that of this epoch")
+        if not self.WOBPERIOD.value > 0.0:
+            raise InvalidModelParameters(f"WOBPERIOD = {self.WOBPERIOD.value} d: allowed is above 0")
+        if self.WOBBLE.value < 0.0:
+            raise InvalidModelParameters(
+                f"WOBBLE = {self.WOBBLE.value} deg: allowed is 0 or more; the same star has"
+                f" WOBBLE = {-self.WOBBLE.value} deg and WOBPHASE = {(self.WOBPHASE.value + 180.0) % 360.0} deg"
+            )
+        self._star().check()
+
+    def _unit(self, name: str) -> str:
+        return str(getattr(self, name).units) or "1"
+
+    def positive(self) -> None:
+        """Writes the same star with WOBBLE above zero and WOBPHASE from 0 to 360 deg: a fit may end with a negative WOBBLE, which is one of the opposite phase."""
+        if self.WOBBLE.value < 0.0:
+            self.WOBBLE.value = -self.WOBBLE.value
+            self.WOBPHASE.value = self.WOBPHASE.value + 180.0
+        self.WOBPHASE.value = self.WOBPHASE.value % 360.0
+
+    def _star(self) -> _Star:
+        spin = self._parent.components["Spindown"]
+        f1 = spin.F1.value if "F1" in spin.params and spin.F1.value is not None else 0.0
+        period = float(self.WOBPERIOD.value) * DAY
+        return _Star(
+            f0=float(spin.F0.value),
+            f1=float(f1),
+            wobble=np.radians(float(self.WOBBLE.value)),
+            chi=np.radians(float(self.WOBCHI.value)),
+            rate=2.0 * np.pi / period if period else np.inf,
+            phase=np.radians(float(self.WOBPHASE.value)),
+            torque=float(self.WOBTORQUE.value),
+        )
+
+    def _beyond(self, toas: TOAs, delay: u.Quantity) -> _Beyond:
+        """The last one again if neither the star nor the times have changed: PINT asks for each derivative by itself."""
+        star, t = self._star(), _times(self._parent, toas, delay)
+        if self._last is None or self._last[0] != star or not np.array_equal(self._last[1], t):
+            star.check(t)
+            self._last = star, t, _Beyond(star, t)
+        return self._last[2]
+
+    def wobble_phase(self, toas: TOAs, delay: u.Quantity) -> u.Quantity:
+        """Turns beyond those of Spindown."""
+        return u.Quantity(self._beyond(toas, delay).turns, copy=False)
+
+    def d_wobble_phase_d_param(self, toas: TOAs, param: str, delay: u.Quantity) -> u.Quantity:
+        """Derivative of the phase by a parameter of this component, or by F0 or F1, of which Spindown has the other part."""
+        of = self._beyond(toas, delay).derivatives
+        if param == "WOBPERIOD":
+            period = float(self.WOBPERIOD.value)
+            return of["rate"] * (-2.0 * np.pi / DAY / period**2) << 1 / u.day
+        angle = np.radians(1.0)
+        match param:
+            case "WOBBLE":
+                return of["wobble"] * angle << 1 / u.deg
+            case "WOBCHI":
+                return of["chi"] * angle << 1 / u.deg
+            case "WOBPHASE":
+                return of["phase"] * angle << 1 / u.deg
+            case "WOBTORQUE":
+                return u.Quantity(of["torque"], copy=False)
+            case "F0":
+                return of["f0"] << u.s
+            case "F1":
+                return of["f1"] << u.s**2
+        raise ValueError(f"{param}: allowed is one of {', '.join([*self.params, 'F0', 'F1'])}")
+
+    def d_wobble_phase_d_delay(self, toas: TOAs, delay: u.Quantity) -> u.Quantity:
+        """Derivative of the phase by the delay."""
+        return -self._beyond(toas, delay).derivatives["t"] << 1 / u.s
+
+    def __getstate__(self) -> dict:
+        return {**self.__dict__, "_last": None}
+
+
+def _times(model: TimingModel, toas: TOAs, delay: u.Quantity) -> np.ndarray:
+    """Times (s) of emission since PEPOCH. A double has them to 1e-8 s, in which a wobble makes 1e-16 of a turn."""
+    epoch = model.PEPOCH.quantity.tdb.mjd_long
+    since = (np.asarray(toas.table["tdbld"]) - epoch) * np.longdouble(DAY) - delay.to_value(u.s)
+    return since.astype(float)
+
+
+class _Projected:
+    """Residuals and columns in standard deviations, less what the free parameters of a model and its noise can take up.
+
+    The noise that PINT has as a basis with weights (ECORR, red noise) is as many unknowns with a normal prior: rows below those of the arrivals.
+    """
+
+    def __init__(self, model: TimingModel, toas: TOAs):
+        if not np.all(toas.get_errors() > 0 * u.us):
+            raise ValueError("toas: allowed are arrival times with errors above zero")
+        self.sigma = model.scaled_toa_uncertainty(toas).to_value(u.s)
+        matrix = np.asarray(model.designmatrix(toas)[0], float) / self.sigma[:, None]
+        basis, weights = model.noise_model_designmatrix(toas), model.noise_model_basis_weight(toas)
+        if basis is not None:
+            if np.ndim(weights) != 1:
+                raise ValueError(
+                    "model: noise with correlated amplitudes: allowed is noise with a weight for each column"
+                )
+            prior = np.diag(1.0 / np.sqrt(weights))
+            below = np.hstack([np.zeros((len(weights), matrix.shape[1])), prior])
+            matrix = np.vstack([np.hstack([matrix, basis / self.sigma[:, None]]), below])
+        self.rows = matrix.shape[0]
+        lengths = np.linalg.norm(matrix, axis=0)
+        left, sizes, _ = np.linalg.svd(matrix / np.where(lengths > 0.0, lengths, 1.0), full_matrices=False)
+        self.basis = left[:, sizes > 1e-13]
+        self.delay = model.delay(toas)
+        self.t = _times(model, toas, self.delay)
+        self.f0 = float(model.F0.value)
+        f1 = getattr(model, "F1", None)
+        self.f1 = float(f1.value) if f1 is not None and f1.value is not None else 0.0
+        self.residuals = self.project(Residuals(toas, model).time_resids.to_value(u.s))
+
+    def project(self, seconds: np.ndarray) -> np.ndarray:
+        column = np.zeros(self.rows)
+        column[: len(self.sigma)] = np.asarray(seconds, float) / self.sigma
+        # Twice, so that what rounding left goes too.
+        for _ in range(2):
+            column = column - self.basis @ (self.basis.T @ column)
+        return column
+
+    def star(self, period: float, chi: float, torque: float, wobble: float = 0.0, phase: float = 0.0) -> _Star:
+        """A star with a period in days and angles in rad."""
+        star = _Star(self.f0, self.f1, wobble, chi, 2.0 * np.pi / (period * DAY), phase, torque)
+        star.check(self.t)
+        return star
+
+    def small(self, period: float, chi: float, torque: float) -> tuple[np.ndarray, np.ndarray]:
+        """Curvature and pull of chi^2 by a small wobble `x = theta (cos psi_0, sin psi_0)`: chi^2 is `x.(curvature x) - 2 pull.x` more than without one."""
+        columns = []
+        for phase in (0.0, np.pi / 2.0):
+            star = self.star(period, chi, torque, phase=phase)
+            columns.append(self.project(-_Beyond(star, self.t).derivatives["wobble"] / self.f0))
+        d = np.array(columns)
+        return d @ d.T, d @ self.residuals
+
+    def chi_squared(self, stars: list[_Star]) -> np.ndarray:
+        """With the wobbles of some stars, in full."""
+        shifts = np.array([_Beyond(star, self.t).turns / self.f0 / self.sigma for star in stars])
+        count = len(self.sigma)
+        taken_up = shifts @ self.basis[:count]
+        mixed = self.residuals @ self.residuals + 2.0 * shifts @ self.residuals[:count]
+        return mixed + np.sum(shifts**2, axis=1) - np.sum(taken_up**2, axis=1)
+
+
+def add_wobble(
+    model: TimingModel,
+    toas: TOAs | None = None,
+    *,
+    period: u.Quantity,
+    chi: u.Quantity,
+    torque: float = 0.0,
+    wobble: u.Quantity | None = None,
+    phase: u.Quantity | None = None,
+    free: Iterable[str] = ("WOBBLE", "WOBPERIOD", "WOBPHASE"),
+) -> Wobble:
+    """Adds a wobble to a timing model and returns the component; the parameters `free` are fitted, the others held.
+
+    Start values of `wobble` and `phase` that are not given are those which agree best with `toas`: of a small wobble by linear least squares beside all free parameters and the noise of the model, and of
+    a grid of larger ones. The model has to be connected in phase without the wobble.
+    """
+    days, angle = period.to_value(u.day), chi.to_value(u.rad)
+    if "Wobble" in model.components:
+        raise ValueError("model: it has a Wobble component: allowed is a model without one")
+    if toas is None and (wobble is None or phase is None):
+        raise ValueError("toas = None: allowed are arrival times, or both wobble and phase")
+    start = [None if given is None else given.to_value(u.rad) for given in (wobble, phase)]
+    component = Wobble()
+    component.WOBCHI.quantity, component.WOBPERIOD.quantity, component.WOBTORQUE.value = chi, period, torque
+    free = list(free)
+    for name in free:
+        if name not in component.params:
+            raise ValueError(f"free = {name}: allowed is one of {', '.join(component.params)}")
+        getattr(component, name).frozen = False
+    if None in start:
+        if not days > 0.0:
+            raise InvalidModelParameters(f"WOBPERIOD = {days} d: allowed is above 0")
+        start = _start(_Projected(model, toas), days, angle, torque, *start)
+    component.WOBBLE.quantity, component.WOBPHASE.quantity = (value * u.rad for value in start)
+    model.add_component(component, validate=False)
+    try:
+        model.validate()
+    except ValueError:
+        model.remove_component("Wobble")
+        raise
+    return component
+
+
+def _start(
+    data: _Projected, days: float, chi: float, torque: float, wobble: float | None, phase: float | None
+) -> tuple[float, float]:
+    """The wobble and its phase (rad) that agree best with data."""
+    most = min(chi, np.pi - chi, np.pi / 2.0)
+    curvature, pull = data.small(days, chi, torque)
+    x = np.linalg.lstsq(curvature, pull, rcond=None)[0]
+    linear = (float(np.hypot(*x)), float(np.arctan2(x[1], x[0]) % (2.0 * np.pi)))
+    wobbles = np.geomspace(0.01, 0.9, 14) * most if wobble is None else [wobble]
+    phases = np.arange(32) * np.pi / 16.0 if phase is None else [phase]
+    candidates = [(a, b) for a in wobbles for b in phases]
+    if wobble is None and phase is None and linear[0] < most:
+        candidates.append(linear)
+    found = data.chi_squared([data.star(days, chi, torque, *one) for one in candidates])
+    return candidates[int(np.argmin(found))]
+
+
+def wobble_limits(
+    model: TimingModel,
+    toas: TOAs,
+    periods: u.Quantity,
+    *,
+    chi: u.Quantity = 45 * u.deg,
+    torque: float = 0.0,
+    probability: float = 0.95,
+) -> dict[str, u.Quantity]:
+    """The wobble that arrival times allow at some periods of precession: arrays `period`, `best` and `phase` (the wobble of least chi^2), `gain` (by how much chi^2 falls by it) and `limit`.
+
+    The likelihood is PINT's of generalised least squares, made linear: all free parameters of the model and its correlated noise are taken out, the noise with the sizes that the model has. The limit
+    is the quantile of the posterior of the wobble angle with a flat prior for it and for the phase; it is infinite above 0.1 rad. `chi` and the share of the torque are held.
+    """
+    if "Wobble" in model.components:
+        raise ValueError("model: it has a Wobble component: allowed is a model without one")
+    if not 0.0 < probability < 1.0:
+        raise ValueError(f"probability = {probability}: allowed is above 0 and below 1")
+    days = np.atleast_1d(periods.to_value(u.day))
+    if not np.all(days > 0.0):
+        raise ValueError(f"periods: {np.min(days)} d: allowed is above 0")
+    data = _Projected(model, toas)
+    rows = []
+    for period in days:
+        curvature, pull = data.small(float(period), chi.to_value(u.rad), torque)
+        rows.append(_limit(curvature, pull, probability))
+    best, phase, gain, limit = np.array(rows).T
+    return {
+        "period": days * u.day,
+        "best": best * u.rad,
+        "phase": phase * u.rad,
+        "gain": gain * u.one,
+        "limit": limit * u.rad,
+    }
+
+
+def _limit(curvature: np.ndarray, pull: np.ndarray, probability: float) -> tuple[float, float, float, float]:
+    """The best wobble, its phase, the gain and the quantile of `theta` under `exp((2 pull.x - x.(curvature x)) / 2)` with a flat prior for `theta` and the phase."""
+    sizes = np.linalg.eigvalsh(curvature)
+    if not sizes[0] > 0.0:
+        return np.nan, np.nan, 0.0, np.inf
+    finest, widest = 1.0 / np.sqrt(sizes[1]), 1.0 / np.sqrt(sizes[0])
+    best = np.linalg.solve(curvature, pull)
+    theta, gain = float(np.hypot(*best)), float(pull @ best)
+    found = theta, float(np.arctan2(best[1], best[0]) % (2.0 * np.pi)), gain
+    if widest > LARGEST:
+        return *found, np.inf
+    # A needle of the width `finest` across is seen at an angle of that over the wobble.
+    number = int(max(512, min(16.0 * np.pi * (theta + 9.0 * widest) / finest, 2e5)))
+    angles = np.arange(number) * (2.0 * np.pi / number)
+    directions = np.array([np.cos(angles), np.sin(angles)])
+    bend, slope = np.einsum("in,ij,jn->n", directions, curvature, directions), pull @ directions
+    # Along each direction the posterior is a normal distribution, cut off at zero.
+    width, middle = 1.0 / np.sqrt(bend), slope / bend
+    weight = width * np.exp((slope * middle - gain) / 2.0)
+    below = ndtr(-middle / width)
+
+    def part(theta: float) -> float:
+        return float(weight @ (ndtr((theta - middle) / width) - below))
+
+    wanted = probability * float(weight @ ndtr(middle / width))
+    low, high = max(theta - 9.0 * widest, 0.0), theta + 40.0 * widest
+    low = low if part(low) < wanted else 0.0
+    limit = brentq(lambda theta: part(theta) - wanted, low, high, xtol=1e-9 * finest, rtol=1e-12)
+    return *found, limit if limit <= LARGEST else np.inf
