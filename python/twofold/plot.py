@@ -198,7 +198,7 @@ def pulses(scene: Scene, *, axes: Sequence[Axes] | None = None) -> list[Axes]:
         t, turn = table["midpoint"][of], table["turn"][of]
         follows = np.diff(turn) == 1.0
         period = np.where(np.append(False, follows), table["period"][of], np.nan)
-        filled = {"color": BLACK, "markersize": 3.0, "markeredgewidth": 0.8, "ls": "none", "marker": "o"}
+        filled: dict[str, Any] = {"color": BLACK, "markersize": 3.0, "markeredgewidth": 0.8, "ls": "none", "marker": "o"}
         if beam == 2:
             filled |= {"markerfacecolor": "#ffffff"}
         for panel, values in zip(panels, (period, table["duration"][of]), strict=True):
@@ -329,7 +329,7 @@ def spectrum(
     axes.set_ylim(foot, height.max() * (height.max() / foot) ** 0.45)
     where = [(place, k) for k, place in enumerate(x) if shown[k]][: max(named, 0)]
     # A name needs 8 points of width.
-    apart = 0.016 * (high - low) * PAGE / axes.get_figure(root=True).get_size_inches()[0]
+    apart = 0.11 * (high - low) * axes.figure.dpi / axes.bbox.width
     taken: list[float] = []
     for place, k in where:
         room = all(abs(place - other) > apart for other in taken)

@@ -99,7 +99,7 @@ def unit(text: str) -> u.UnitBase | None:
         return _ONE
     square = re.fullmatch(r"\((.*)\)\^(\d)", text)
     if square:
-        return unit(square[1]) ** int(square[2])
+        return (unit(square[1]) or _ONE) ** int(square[2])
     found = _ONE
     for k, part in enumerate(text.split("/")):
         for word in part.split():
