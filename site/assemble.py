@@ -32,15 +32,16 @@ PAGES = {"../python/README.md": "../start/python.md"}
 
 def main(target: Path, katex: Path) -> None:
     shutil.copytree(ROOT / "site", target, ignore=shutil.ignore_patterns("*.py", "__pycache__", "requirements.txt"))
-    guide(target / "docs")
+    guide(target)
     equations(target / "docs")
     modules(target / "api")
     gallery(target)
     static(target / "_static" / "katex", katex)
 
 
-def guide(target: Path) -> None:
-    """The pages of docs/."""
+def guide(site: Path) -> None:
+    """The pages of docs/, listed on the first page."""
+    target = site / "docs"
     for path in sorted((ROOT / "docs").rglob("*.*")):
         copy = target / path.relative_to(ROOT / "docs")
         copy.parent.mkdir(parents=True, exist_ok=True)
@@ -52,8 +53,10 @@ def guide(target: Path) -> None:
     subjects["The paper, verified"].insert(2, "typeset")
     listed = {name for names in subjects.values() for name in names}
     subjects["More"] = sorted(path.stem for path in target.glob("*.md") if path.stem not in listed)
-    trees = [tree(names, subject) for subject, names in subjects.items() if names]
-    (target / "index.md").write_text("# The model and the program\n\n" + "\n".join(trees))
+    with (site / "index.md").open("a") as page:
+        for subject, names in subjects.items():
+            if names:
+                page.write("\n" + tree([f"docs/{name}" for name in names], subject, hidden=True))
     parts = sorted(f"reliability/{path.stem}" for path in (target / "reliability").glob("*.md"))
     with (target / "reliability.md").open("a") as page:
         page.write("\n" + tree(parts, hidden=True))
@@ -101,7 +104,7 @@ def equations(target: Path) -> None:
         if int(number) != last:
             last = int(number)
             label, subject = about[last]
-            page.append(f"## ({number}) {subject}")
+            page += [f"## Eq. ({number})", f"{subject[0].upper()}{subject[1:]}."]
         heading = {"printed": "", "corrected": "**What holds.**", "used": "**As computed.**", "note": "**Note.**"}[kind]
         words = f"{heading} {remark}".strip()
         if words:

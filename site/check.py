@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 import sys
+import tempfile
 from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
@@ -57,6 +58,7 @@ def complaints(folder: Path) -> list[str]:
                 found.append(f"{name}: link to nothing: {to}")
             elif parts.fragment and file in pages and unquote(parts.fragment) not in pages[file].ids:
                 found.append(f"{name}: no such place: {to}")
+    # Style sheets, too.
     for path in folder.rglob("*.css"):
         for to in re.findall(r"""(?:@import\s+|url\()["']?([^"')]+)""", path.read_text()):
             if to.startswith(("data:", "#")):
@@ -65,14 +67,41 @@ def complaints(folder: Path) -> list[str]:
                 found.append(f"{path.relative_to(folder)}: asks a server for {to}")
             elif not (path.parent / re.split("[?#]", to)[0]).is_file():
                 found.append(f"{path.relative_to(folder)}: link to nothing: {to}")
-    if len(pages) < 10:
-        found.append(f"{len(pages)} pages")
     return found
 
 
+def test_of_itself() -> None:
+    """A page with a fault must be found out, or the verdict on the site means nothing."""
+    faults = {
+        "": '<p><a href="#here" id="here">here</a> <a href="https://a.b/">away</a> <a href="other.html#there">there</a></p>',
+        "asks a server for https://a.b/c.js": '<script src="https://a.b/c.js"></script>',
+        "asks a server for //a.b/c.css": '<link rel="stylesheet" href="//a.b/c.css">',
+        "link to nothing: gone.html": '<a href="gone.html">gone</a>',
+        "link to nothing: gone.png": '<img src="gone.png" alt="">',
+        "no such place: #gone": '<a href="#gone">gone</a>',
+        "no such place: other.html#gone": '<a href="other.html#gone">gone</a>',
+        "formula not set: wrong": '<span class="katex-error" title="wrong">x</span>',
+        "sheet.css: asks a server for https://a.b/font": '<link rel="stylesheet" href="sheet.css">',
+    }
+    for fault, body in faults.items():
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name).resolve()
+            (folder / "page.html").write_text(f"<html><body>{body}</body></html>")
+            (folder / "other.html").write_text('<p id="there">there</p>')
+            (folder / "sheet.css").write_text("p {src: url(https://a.b/font)}" if "sheet.css" in fault else "")
+            found = complaints(folder)
+            if (not found) if fault else found:
+                sys.exit(f"site: test of the check: {fault or 'no fault'}: {found}")
+            if fault and not any(fault in one for one in found):
+                sys.exit(f"site: test of the check: {fault} is not among {found}")
+
+
 if __name__ == "__main__":
+    test_of_itself()
     folder = Path(sys.argv[1]).resolve()
     found = complaints(folder)
+    if not (folder / "index.html").is_file():
+        found.append(f"{folder} has no index.html")
     for line in found:
         print(f"site: {line}", file=sys.stderr)
     if found:

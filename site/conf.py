@@ -1,13 +1,15 @@
 """Sphinx's settings. The pages are assembled by `assemble.py`, see docs/site.md."""
 
+import logging
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 
+logging.getLogger("traitlets").setLevel(logging.WARNING)
+
 project = "twofold"
 author = "the authors of twofold"
-copyright = "MIT or Apache-2.0, at your choice"
 html_title = "twofold"
 
 extensions = [
@@ -48,6 +50,7 @@ html_theme = "furo"
 # Of the assembled pages: the style sheet, and KaTeX with its fonts.
 html_static_path = [str(Path(__file__).parents[1] / "target/site/source/_static")]
 html_css_files = ["site.css"]
+html_show_copyright = False
 html_copy_source = False
 html_show_sourcelink = False
 html_theme_options = {

@@ -33,7 +33,7 @@ except ImportError as error:
 
 from twofold._twofold import Error, Motion, Scene, Table, Timing
 
-__all__ = ["COLUMN", "PAGE", "angles", "arrivals", "pulses", "spectrum", "sphere", "style", "waterfall"]
+__all__ = ["COLUMN", "PAGE", "angles", "arrivals", "frame", "pulses", "spectrum", "sphere", "style", "waterfall"]
 
 Numbers = NDArray[np.float64]
 
@@ -174,8 +174,9 @@ def sphere(
         _arrow(axes, np.zeros(2), tip, colour, 1.4)
         _name(axes, tip, name, colour, offset)
     axes.set_aspect("equal")
-    axes.set_xlim(-1.28, 1.28)
-    axes.set_ylim(-1.28, 1.28)
+    tips = 1.22 * page
+    axes.set_xlim(min(-1.03, tips[0].min() - 0.12), max(1.03, tips[0].max() + 0.12))
+    axes.set_ylim(min(-1.03, tips[1].min() - 0.12), max(1.03, tips[1].max() + 0.12))
     axes.set_axis_off()
     return axes
 
@@ -288,7 +289,7 @@ def waterfall(
     else:
         axes.set_xlabel(f"time from the foretold pulse {unit}", fontsize=_LABEL)
         axes.set_ylabel("date [MJD]", fontsize=_LABEL)
-    _frame(axes, minor=False)
+    frame(axes, minor=False)
     axes.tick_params(which="both", top=False, right=False, direction="out")
     return axes
 
@@ -346,7 +347,7 @@ def spectrum(
         rf"angular frequency{less} $\times$ $t_\mathrm{{c}}$" if in_tc else f"angular frequency{less} [rad/s]",
         fontsize=_LABEL,
     )
-    _frame(axes)
+    frame(axes)
     axes.yaxis.set_major_locator(ticker.LogLocator(numticks=8))
     axes.yaxis.set_minor_locator(ticker.NullLocator())
     return axes
@@ -386,7 +387,7 @@ def arrivals(timing: Timing, *, axes: Sequence[Axes] | None = None) -> list[Axes
     panels[1].plot(date, factor * table["duration"], color=BLACK, lw=1.1)
     panels[1].set_ylabel(f"pulse length {unit}", fontsize=_LABEL)
     for panel in panels:
-        _frame(panel)
+        frame(panel)
         panel.set_xlim(date.min(), date.max())
         panel.tick_params(labelbottom=panel is panels[-1])
     panels[-1].set_xlabel("date [MJD]", fontsize=_LABEL)
@@ -468,7 +469,7 @@ def _panels(axes: Sequence[Axes] | None, count: int, width: float, height: float
 
 def _time_axis(panels: list[Axes], unit: str, span: tuple[float, float]) -> None:
     for panel in panels:
-        _frame(panel)
+        frame(panel)
         panel.set_xlim(min(span), max(span))
         panel.tick_params(labelbottom=panel is panels[-1])
     panels[-1].set_xlabel(f"$t$ {_unit(unit)}", fontsize=_LABEL)
@@ -478,8 +479,8 @@ def _unit(unit: str) -> str:
     return r"/ $t_\mathrm{c}$" if unit == "t_c" else f"[{unit}]"
 
 
-def _frame(axes: Axes, *, minor: bool = True) -> None:
-    """Thin lines, ticks inwards on all sides."""
+def frame(axes: Axes, *, minor: bool = True) -> None:
+    """Gives `axes` the frame of these figures: thin lines, ticks inwards on all sides, without minor ones if `minor` is false."""
     for spine in axes.spines.values():
         spine.set_linewidth(0.6)
     axes.tick_params(which="both", direction="in", width=0.6, labelsize=_SMALL, top=True, right=True)
