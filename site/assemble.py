@@ -104,11 +104,12 @@ def equations(target: Path) -> None:
         if int(number) != last:
             last = int(number)
             label, subject = about[last]
-            page += [f"## Eq. ({number})", f"{subject[0].upper()}{subject[1:]}."]
+            # A symbol keeps its case.
+            words = subject[0].upper() + subject[1:] if re.match(r"[a-z]{3,} ", subject) else subject
+            page += [f"## Eq. ({number})", f"{words}."]
         heading = {"printed": "", "corrected": "**What holds.**", "used": "**As computed.**", "note": "**Note.**"}[kind]
-        words = f"{heading} {remark}".strip()
-        if words:
-            page.append(words)
+        if heading or remark:
+            page.append(f"{heading} {remark}".strip())
         if latex.strip():
             page.append(f"```{{math}}\n{latex.strip()}\n```")
     (target / "typeset.md").write_text("\n\n".join(page) + "\n")

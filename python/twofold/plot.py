@@ -19,7 +19,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 try:
     import matplotlib.pyplot as plt
@@ -221,7 +221,7 @@ def waterfall(
     rows: int = 200,
     window: tuple[float, float] | None = None,
     samples: int = 301,
-    intensity: Callable[[Numbers], ArrayLike] | None = None,
+    intensity: Callable[[Numbers], Numbers] | None = None,
     axes: Axes | None = None,
 ) -> Axes:
     """The shapes of pulses as shades, later turns above earlier ones.
