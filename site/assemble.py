@@ -81,17 +81,17 @@ def with_links(text: str, path: Path) -> str:
         return f"`{name}`" if name.endswith(words.strip("`")) else f"{words} (`{name}`)"
 
     # Links stand outside of blocks of code.
-    pieces = re.split(r"(^```.*?^```$)", text, flags=re.M | re.S)
+    pieces = re.split(r"(^```.*?^```$)", text, flags=re.MULTILINE | re.DOTALL)
     pieces[::2] = [re.sub(r"(?<!!)\[([^\]]+)\]\(([^)\s]+)\)", link, piece) for piece in pieces[::2]]
     return "".join(pieces)
 
 
 def equations(target: Path) -> None:
     """The paper's equations, typeset."""
-    rows = re.findall(r"^\| \((\d+)\) \| (?:`(\w+)`)? ?\| (.*?) \|", (ROOT / "docs/equations.md").read_text(), re.M)
+    rows = re.findall(r"^\| \((\d+)\) \| (?:`(\w+)`)? ?\| (.*?) \|", (ROOT / "docs/equations.md").read_text(), re.MULTILINE)
     about = {int(number): (label, subject) for number, label, subject in rows}
     text = (ROOT / "command/data/equations.tex").read_text()
-    entries = re.findall(r"^% \((\d+)\) (\w+)(?:: (.*))?\n((?:[^%\n].*\n|\n)*)", text, re.M)
+    entries = re.findall(r"^% \((\d+)\) (\w+)(?:: (.*))?\n((?:[^%\n].*\n|\n)*)", text, re.MULTILINE)
     if {int(number) for number, kind, *_ in entries if kind == "printed"} != set(about):
         raise SystemExit("command/data/equations.tex and docs/equations.md have not the same equations")
     page = [
@@ -103,7 +103,7 @@ def equations(target: Path) -> None:
     for number, kind, remark, latex in entries:
         if int(number) != last:
             last = int(number)
-            label, subject = about[last]
+            _label, subject = about[last]
             # A symbol keeps its case.
             words = subject[0].upper() + subject[1:] if re.match(r"[a-z]{3,} ", subject) else subject
             page += [f"## Eq. ({number})", f"{words}."]
@@ -143,10 +143,10 @@ def gallery(target: Path) -> None:
     cards, skipped, names = [], [], []
     folder = target / "gallery"
     paths = [path for path in folder.glob("*.md") if path.stem != "index"]
-    settings = {path: dict(re.findall(r"^(about|needs|order): (.*)$", path.read_text(), re.M)) for path in paths}
+    settings = {path: dict(re.findall(r"^(about|needs|order): (.*)$", path.read_text(), re.MULTILINE)) for path in paths}
     for path in sorted(paths, key=lambda path: (int(settings[path].get("order", 99)), path.stem)):
         text = path.read_text()
-        title, its = re.search(r"^# (.*)$", text, re.M), settings[path]
+        title, its = re.search(r"^# (.*)$", text, re.MULTILINE), settings[path]
         if title is None or "about" not in its:
             raise SystemExit(f"site/gallery/{path.name}: allowed is a notebook with a title and a line `about: ...`")
         missing = [name for name in its.get("needs", "").split() if importlib.util.find_spec(name) is None]
@@ -154,6 +154,8 @@ def gallery(target: Path) -> None:
             print(f"site: not executed: gallery/{path.name}, for want of {', '.join(missing)}", file=sys.stderr)
             skipped.append(f"gallery/{path.name}")
             note = f"\n\n:::{{note}}\nNot executed when this site was built, for want of {', '.join(missing)}.\n:::\n"
+            # A kernel would say which language it speaks.
+            text = text.replace("---\n", "---\nlanguage_info:\n  name: python\n  pygments_lexer: ipython3\n", 1)
             path.write_text(text.replace(title[0], title[0] + note, 1))
         names.append(path.stem)
         cards.append(f":::{{grid-item-card}} {title[1]}\n:link: {path.stem}\n:link-type: doc\n\n{its['about']}\n:::")

@@ -1,5 +1,8 @@
 """Figures: the data of the lines that are drawn."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -157,3 +160,10 @@ def test_fonts_come_from_one_family():
     assert family == "sans-serif" or family in matplotlib.font_manager.get_font_names()
     with plt.rc_context(fonts):
         plot.angles(twofold.Scene("tp-1"), until=3.0)[0].figure.canvas.draw()
+
+
+def test_a_missing_package_is_named():
+    code = "import sys; sys.modules['matplotlib'] = None; import twofold.plot"
+    done = subprocess.run([sys.executable, "-c", code], check=False, capture_output=True, text=True)
+    assert "ImportError: twofold.plot needs matplotlib" in done.stderr
+    assert "pip install 'twofold[plot]'" in done.stderr

@@ -1,5 +1,8 @@
 """Quantities of astropy in and out."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -121,3 +124,10 @@ def test_arrival_times_keep_both_of_their_parts():
     assert found.meta["F0"].to_value(u.Hz) == plain.frequency[0]
     assert found.meta["F1"].unit == u.Hz / u.s
     assert found.meta["PEPOCH"].mjd == float(plain.epoch)
+
+
+def test_a_missing_package_is_named():
+    code = "import sys; sys.modules['astropy'] = None; import twofold.units"
+    done = subprocess.run([sys.executable, "-c", code], check=False, capture_output=True, text=True)
+    assert "ImportError: twofold.units needs astropy" in done.stderr
+    assert "pip install 'twofold[units]'" in done.stderr

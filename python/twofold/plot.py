@@ -184,8 +184,8 @@ def sphere(
 def pulses(scene: Scene, *, axes: Sequence[Axes] | None = None) -> list[Axes]:
     """The periods of the pulses of a scene, from midpoint to midpoint, and their lengths, against time.
 
-    Lines join pulses of turns that follow one another, and break where a turn is dark; there is no period then. Pulses of a second beam are rings. Pulsars over years, of which not every pulse can be listed,
-    are drawn by `arrivals`.
+    Lines join pulses of turns that follow one another, and break where a turn is dark; there is no period then. Pulses of a second beam are
+    rings. Pulsars over years, of which not every pulse can be listed, are drawn by `arrivals`.
     """
     table = scene.pulses()
     panels = _panels(axes, 2, COLUMN, 1.25)

@@ -59,7 +59,7 @@ _KEYS: dict[tuple[str, str], Any] = {
     ("spin_down", "index"): _ONE,
     **{("lorentz_violation", key): _ONE for key in ("eigenvalues", "tensor", "alpha_2")},
     ("lorentz_violation", "w"): constants.c,
-    **{("initial", k): _ANGLE for k in "alpha beta gamma alpha_0 beta_0 phase wobble azimuth precession_phase".split()},
+    **{("initial", k): _ANGLE for k in ["alpha", "beta", "gamma", "alpha_0", "beta_0", "phase", "wobble", "azimuth", "precession_phase"]},
     **{("initial", key): (u.rad / t_c, u.rad / u.s) for key in ("alpha_rate", "beta_rate", "amplitude")},
     **{("observer", key): _ANGLE for key in ("theta_o", "phi_o", "inclination", "azimuth")},
     ("observer", "distance"): u.kpc,
