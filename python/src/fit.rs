@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use numpy::{PyArray1, PyArrayMethods};
+use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use twofold::inference::{self, Fisher, MeasuredArrival, MeasuredWidth, Model, Prior, Residuals, Unknown};
@@ -203,6 +204,14 @@ impl Fit {
     #[getter]
     fn residuals<'py>(&self, py: Python<'py>) -> Option<Array<'py>> {
         self.residuals.as_ref().map(|residuals| array(py, residuals.iter().copied()))
+    }
+
+    /// The value of an unknown and its standard deviation.
+    fn __getitem__(&self, name: &str) -> PyResult<(f64, f64)> {
+        let found = self.unknowns.iter().position(|unknown| unknown == name);
+        let unknowns = || self.unknowns.join(", ");
+        let place = found.ok_or_else(|| PyKeyError::new_err(format!("`{name}` is not fitted; fitted are {}", unknowns())))?;
+        Ok((self.values[place], self.sigmas[place]))
     }
 
     fn __repr__(&self) -> String {

@@ -167,6 +167,18 @@ impl Scene {
         self.scene.cautions.iter().map(String::as_str).collect()
     }
 
+    /// Modified Julian date (TDB) of the start, as a text; none of a scene without one.
+    #[getter]
+    fn epoch(&self) -> Option<String> {
+        self.scene.epoch.as_ref().map(ToString::to_string)
+    }
+
+    /// The beam: the angle `chi` of the magnetic axis to the symmetry axis, its azimuth `delta` and the semi-open angle `rho` (rad); none of a scene without one.
+    #[getter]
+    fn beam(&self) -> Option<(f64, f64, f64)> {
+        self.scene.pulsar.map(|pulsar| (pulsar.chi, pulsar.delta, pulsar.rho))
+    }
+
     /// The unit of time: `t_c` in the paper's units, `s` for a physical star.
     #[getter]
     fn time_unit(&self) -> &str {

@@ -9,14 +9,14 @@ use arrow_schema::{DataType, Field, Schema};
 use numpy::PyArray1;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyCapsule, PyDict, PyList};
+use pyo3::types::{PyBytes, PyCapsule, PyDict, PyIterator, PyList};
 
 use crate::error::raised;
 
 /// A table of numbers, a column for each name. A missing number is NaN.
 ///
-/// `table["beta"]` is an array, `table.units["beta"]` its unit, `table.csv` the bytes that the command would write. pandas, polars and pyarrow
-/// read it by the Arrow PyCapsule interface, as `pyarrow.table(table)`.
+/// `table["beta"]` is an array, `table.units["beta"]` its unit, `table.csv` the bytes that the command would write; `dict(table)` has all columns. polars and pyarrow
+/// read it by the Arrow PyCapsule interface, as `polars.DataFrame(table)`, and so does pandas where pyarrow is installed, as `pandas.DataFrame.from_arrow(table)`.
 #[pyclass(frozen, module = "twofold")]
 pub struct Table {
     pub(crate) csv: Vec<u8>,
@@ -124,6 +124,10 @@ impl Table {
 
     fn __contains__(&self, name: &str) -> bool {
         self.columns.iter().any(|column| column.name == name)
+    }
+
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
+        PyList::new(py, self.keys())?.try_iter()
     }
 
     fn __len__(&self) -> usize {

@@ -59,6 +59,10 @@ class TestScene:
         with pytest.raises(twofold.Error, match="rotation"):
             scene.table(["angles"])
 
+    def test_what_a_scene_has(self, scene):
+        assert scene.epoch is None and scene.beam is not None and scene.beam[2] == 0.6
+        assert twofold.Scene("wave-source").beam is None and twofold.Scene("b1828-11").epoch == "49621.0"
+
     def test_a_file(self, tmp_path, scene):
         path = tmp_path / "star.toml"
         path.write_text(scene.toml)
@@ -154,6 +158,7 @@ class TestTable:
         assert set(table["cut"]) == {"start", ""} and np.isnan(table["period"][0])
         assert np.all(table["end"] > table["start"])
         assert "start" in table and "stop" not in table
+        assert list(dict(table)) == list(table) == table.keys()
         with pytest.raises(KeyError, match="stop.*closest_approach"):
             table["stop"]
 
@@ -310,7 +315,9 @@ class TestFits:
         times, rest = truth.arrival(np.arange(3) * 1e6)
         data = twofold.TimingData(times, 1e-5, rest=rest)
         found = twofold.fit_timing(truth, data, ["phase"], priors={"phase": (0.0, 1e-4 / np.sqrt(3))})
-        assert found.sigmas[0] == pytest.approx(1e-4 / np.sqrt(6))
+        assert found.sigmas[0] == pytest.approx(1e-4 / np.sqrt(6)) and found["phase"] == (found.values[0], found.sigmas[0])
+        with pytest.raises(KeyError, match="f0.*fitted are phase"):
+            found["f0"]
         with pytest.raises(twofold.Error, match="f0"):
             twofold.fit_timing(truth, data, ["phase"], priors={"f0": (10.0, 1.0)})
 
