@@ -210,7 +210,8 @@ impl Fit {
     fn __getitem__(&self, name: &str) -> PyResult<(f64, f64)> {
         let found = self.unknowns.iter().position(|unknown| unknown == name);
         let unknowns = || self.unknowns.join(", ");
-        let place = found.ok_or_else(|| PyKeyError::new_err(format!("`{name}` is not fitted; fitted are {}", unknowns())))?;
+        let place =
+            found.ok_or_else(|| PyKeyError::new_err(format!("`{name}` is not fitted; fitted are {}", unknowns())))?;
         Ok((self.values[place], self.sigmas[place]))
     }
 

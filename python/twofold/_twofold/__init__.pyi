@@ -4,6 +4,7 @@ The compiled part of the package.
 
 from . import kernels as kernels
 from _typeshed import Incomplete, SupportsGetItem
+from collections.abc import Iterator
 from numpy import float64
 from numpy.typing import ArrayLike, NDArray
 from os import PathLike
@@ -20,6 +21,10 @@ class Fit:
     """
     What data tell of unknown parameters: values, standard deviations, correlations. The result of `Scene.fisher` and, with residuals, of fits.
     """
+    def __getitem__(self, name: str, /) -> tuple[float, float]:
+        """
+        The value of an unknown and its standard deviation.
+        """
     def __repr__(self, /) -> str: ...
     @property
     def chi_squared(self, /) -> float | None:
@@ -181,9 +186,19 @@ class Scene:
         What the scene is, one line.
         """
     @property
+    def beam(self, /) -> tuple[float, float, float] | None:
+        """
+        The beam: the angle `chi` of the magnetic axis to the symmetry axis, its azimuth `delta` and the semi-open angle `rho` (rad); none of a scene without one.
+        """
+    @property
     def cautions(self, /) -> list[str]:
         """
         Sentences about what is allowed but looks like a mistake.
+        """
+    @property
+    def epoch(self, /) -> str | None:
+        """
+        Modified Julian date (TDB) of the start, as a text; none of a scene without one.
         """
     def fisher(self, /, observe: dict[str, SupportsFloat | SupportsIndex], parameters: SupportsGetItem[int, str] | None = None) -> Fit:
         """
@@ -304,8 +319,8 @@ class Table:
     """
     A table of numbers, a column for each name. A missing number is NaN.
 
-    `table["beta"]` is an array, `table.units["beta"]` its unit, `table.csv` the bytes that the command would write. pandas, polars and pyarrow
-    read it by the Arrow PyCapsule interface, as `pyarrow.table(table)`.
+    `table["beta"]` is an array, `table.units["beta"]` its unit, `table.csv` the bytes that the command would write; `dict(table)` has all columns. polars and pyarrow
+    read it by the Arrow PyCapsule interface, as `polars.DataFrame(table)`, and so does pandas where pyarrow is installed, as `pandas.DataFrame.from_arrow(table)`.
     """
     def __arrow_c_stream__(self, /, requested_schema: Any | None = None) -> Any:
         """
@@ -317,6 +332,7 @@ class Table:
         """
         A column: an array of float64, or a list of words.
         """
+    def __iter__(self, /) -> Iterator: ...
     def __len__(self, /) -> int: ...
     def __new__(cls, /, csv: bytes) -> Table:
         """
