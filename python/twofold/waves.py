@@ -26,8 +26,11 @@ _GPS_BEGINS = 44244 + Fraction(51184, 86400 * 1000)
 
 def seconds_since_epoch(pulsar: Pulsar, gps: float) -> float:
     """The time `t` of a pulsar (s since its epoch, TDB at the barycentre) at a barycentric time in seconds of GPS, as lalpulsar counts them: TDB less 51.184 s."""
-    since = Fraction(gps) - 86400 * (Fraction(pulsar.epoch) - _GPS_BEGINS)
-    return float(since)
+    return float(Fraction(gps) - _gps_of_epoch(pulsar))
+
+
+def _gps_of_epoch(pulsar: Pulsar) -> Fraction:
+    return 86400 * (Fraction(pulsar.epoch) - _GPS_BEGINS)
 
 
 def _nearest(angle: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -45,7 +48,7 @@ class Waveform:
     position angle on, a waveform of one `psi` is refused. Then take two, `hand="right"` and `hand="left"`: the circular parts of the harmonic, whose sum is the wave however `L` turns.
 
     Turns are counted from knots `knot_distance` apart (s; 16384 periods if not given), at most a million on a side, between which the rate of turns may change smoothly. A strong violation of Lorentz symmetry, by which `L` goes
-    round in some 1e5 turns or less, needs a smaller distance. A phase of `n` turns is rounded to `7e-16 n` rad: a reference in the data is best.
+    round in some 1e5 turns or less, needs a smaller distance. A phase of `n` turns is rounded to `1.4e-15 n` rad: a reference in the data is best.
     """
 
     def __init__(
@@ -182,7 +185,7 @@ class Waveform:
 def strain(pulsar: Pulsar, start: float, duration: float, rate: float, *, gwpy: bool | None = None) -> tuple[Any, Any]:
     """The strain `h_+` and `h_x` of a pulsar as series: `rate` samples a second (Hz) from `start` (s since the epoch) on, over `duration` (s).
 
-    Two `gwpy.timeseries.TimeSeries` where GWpy can be imported, or two arrays; `gwpy=False` asks for arrays. Axes of the polarizations: north and east, as those of `Pulsar.wave`. Times are those at the barycentre.
+    Two `gwpy.timeseries.TimeSeries` where GWpy can be imported, or two arrays; `gwpy=False` asks for arrays. Axes of the polarizations: north and east, as those of `Pulsar.wave`. Times are those at the barycentre, of the series in seconds of GPS as `seconds_since_epoch` takes them.
     """
     if not np.isfinite(start):
         raise Error(f"start = {start!r} s: allowed is a finite number")
@@ -201,6 +204,5 @@ def strain(pulsar: Pulsar, start: float, duration: float, rate: float, *, gwpy: 
         if gwpy:
             raise
         return plus, cross
-    # Samples are counted from an epoch of GWpy's, which holds fractions of a second in nanoseconds.
-    made = [TimeSeries(h, t0=start, sample_rate=rate, name=name, unit="strain") for h, name in ((plus, "h_plus"), (cross, "h_cross"))]
-    return made[0], made[1]
+    options = {"t0": float(_gps_of_epoch(pulsar) + Fraction(start)), "sample_rate": rate, "unit": "strain"}
+    return TimeSeries(plus, name="h_plus", **options), TimeSeries(cross, name="h_cross", **options)

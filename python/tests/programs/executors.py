@@ -6,6 +6,7 @@
 
 import multiprocessing
 import os
+import resource
 import subprocess
 import sys
 import tempfile
@@ -68,6 +69,11 @@ def same_bytes(sweep: twofold.Sweep, one_core: bytes) -> None:
         workers = subprocess.run(command, check=True, timeout=300, capture_output=True, text=True).stdout.split()[-1]
         must_be("MPI", out.read_bytes(), one_core)
 
+        if "TWOFOLD" in os.environ:
+            whole = Path(folder, "whole.csv")
+            subprocess.run([os.environ["TWOFOLD"], "sweep", str(text), "--out", str(whole)], check=True, capture_output=True)
+            must_be("the command", whole.read_bytes(), one_core)
+
         from dask.distributed import Client, LocalCluster
 
         with (
@@ -84,23 +90,31 @@ def same_bytes(sweep: twofold.Sweep, one_core: bytes) -> None:
     )
 
 
-def seconds(sweep: twofold.Sweep, workers: int) -> float:
+def times(sweep: twofold.Sweep, workers: int) -> tuple[float, float]:
+    """Seconds by the clock, and seconds of all processors together."""
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
     with ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn")) as executor:
         # Workers import before the clock starts.
         list(executor.map(time.sleep, [0.5] * workers))
         began = time.perf_counter()
         sweep.map(executor)
-        return time.perf_counter() - began
+        clock = time.perf_counter() - began
+    now = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return clock, sum(b.ru_utime + b.ru_stime - a.ru_utime - a.ru_stime for a, b in zip(used, now, strict=True))
 
 
 def ratio() -> None:
     """Two processes against one, in turns, so that other load hits both."""
-    sweep = twofold.Sweep(toml=GRID.format(draws=int(os.environ.get("TWOFOLD_DRAWS", "150"))))
+    sweep = twofold.Sweep(toml=GRID.format(draws=int(os.environ.get("TWOFOLD_DRAWS", "200"))))
     rounds = int(os.environ.get("TWOFOLD_ROUNDS", "3"))
-    taken = [(seconds(sweep, 1), seconds(sweep, 2)) for _ in range(rounds)]
-    best = min(one for one, _ in taken) / min(two for _, two in taken)
-    each = ", ".join(f"{one:.1f} s / {two:.1f} s = {one / two:.2f}" for one, two in taken)
-    print(f"executors: {len(sweep)} scenes by one process / by two: {each}; the quickest of each: {best:.2f}")
+    taken = [(times(sweep, 1), times(sweep, 2)) for _ in range(rounds)]
+    best = min(one for (one, _), _ in taken) / min(two for _, (two, _) in taken)
+    each = ", ".join(f"{one:.1f} s / {two:.1f} s = {one / two:.2f}" for (one, _), (two, _) in taken)
+    work = ", ".join(f"{one:.1f} s and {two:.1f} s" for (_, one), (_, two) in taken)
+    load = os.getloadavg()[0]
+    print(
+        f"executors: {len(sweep)} scenes by one process / by two: {each}; the quickest of each: {best:.2f}; seconds of processors: {work}; load {load:.1f} on {os.cpu_count()} cores"
+    )
     least = float(os.environ.get("TWOFOLD_LEAST_RATIO", "0"))
     if best < least:
         sys.exit(f"executors: two processes are {best:.2f} times one, allowed is {least} and more")
