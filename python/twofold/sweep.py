@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
+from contextlib import closing
 from typing import TYPE_CHECKING
 
 from twofold import _twofold
@@ -15,6 +16,17 @@ if TYPE_CHECKING:
 
 #: One part: the scene after its last one, rows, rows of errors, how many scenes failed.
 _Part = tuple[int, bytes, bytes, int]
+
+
+def _rows(sweep: Sweep, version: str, start: int, stop: int) -> tuple[bytes, bytes, int]:
+    """A part, in a worker. Last digits may change between versions, so workers must have that of the caller."""
+    if _version() != version:
+        raise _twofold.Error(f"a worker has twofold {_version()}: allowed is {version}, as where the sweep was begun")
+    return sweep.rows(start, stop)
+
+
+def _version() -> str:
+    return _twofold.__version__
 
 
 class Sweep(_twofold.Sweep):
@@ -28,19 +40,21 @@ class Sweep(_twofold.Sweep):
         self,
         executor: Executor,
         *,
-        scenes_at_once: int = 256,
+        scenes_at_once: int | None = None,
         parts_at_once: int = 64,
         progress: Callable[[float], object] | None = None,
     ) -> Table:
         """The whole table in memory, by the workers of an executor: processes, threads, MPI ranks, Dask.
 
-        The executor has at most `parts_at_once` parts of `scenes_at_once` scenes at a time. `progress` is called with the part that is done, from 0 to 1.
+        The executor has at most `parts_at_once` parts of `scenes_at_once` scenes at a time: if not given, a 256th of the sweep, from 8 to 256. Take fewer where a scene takes seconds, and
+        twice as many parts as there are workers, or more. `progress` is called with the part that is done, from 0 to 1.
         """
         rows = [self.header]
-        for stop, more, _, _ in self._parts(executor, 0, scenes_at_once, parts_at_once):
-            rows.append(more)
-            if progress is not None:
-                progress(stop / len(self))
+        with closing(self._parts(executor, 0, scenes_at_once, parts_at_once)) as parts:
+            for stop, more, _, _ in parts:
+                rows.append(more)
+                if progress is not None:
+                    progress(stop / len(self))
         return Table(b"".join(rows))
 
     def write(
@@ -48,7 +62,7 @@ class Sweep(_twofold.Sweep):
         path: str | os.PathLike[str],
         executor: Executor,
         *,
-        scenes_at_once: int = 256,
+        scenes_at_once: int | None = None,
         parts_at_once: int = 64,
         replace: bool = False,
         progress: Callable[[float], object] | None = None,
@@ -58,23 +72,33 @@ class Sweep(_twofold.Sweep):
         The file grows as `path.partial` with a journal beside it. After an interruption, a dead worker or a loss of power the same call, or `twofold sweep`, goes on
         where it ended. Scenes that failed are in `path.errors.csv`, with the reason.
         """
+        # Workers begin before the file is open: forked ones would have its lock as well, and keep it.
+        executor.submit(_version)
         file = SweepFile(self, os.fspath(path), replace=replace)
-        for stop, rows, errors, failed in self._parts(executor, file.next, scenes_at_once, parts_at_once):
-            file.append(stop, rows, errors, failed)
-            if progress is not None:
-                progress(stop / len(self))
-        file.complete()
+        try:
+            with closing(self._parts(executor, file.next, scenes_at_once, parts_at_once)) as parts:
+                for stop, rows, errors, failed in parts:
+                    file.append(stop, rows, errors, failed)
+                    if progress is not None:
+                        progress(stop / len(self))
+            file.complete()
+        finally:
+            # The traceback of an error keeps this frame: without this the file would stay locked for who goes on.
+            del file
 
-    def _parts(self, executor: Executor, first: int, scenes_at_once: int, parts_at_once: int) -> Iterator[_Part]:
+    def _parts(self, executor: Executor, first: int, scenes_at_once: int | None, parts_at_once: int) -> Generator[_Part, None, None]:
         """The parts from the scene `first` on, in order."""
+        if scenes_at_once is None:
+            scenes_at_once = max(8, min(256, len(self) // 256))
         for name, value in (("scenes_at_once", scenes_at_once), ("parts_at_once", parts_at_once)):
             if value < 1:
                 raise _twofold.Error(f"{name} = {value}: allowed is a whole number above zero")
         waiting: deque[tuple[int, Future[tuple[bytes, bytes, int]]]] = deque()
+        version = _version()
         try:
             for start in range(first, len(self), scenes_at_once):
                 stop = min(start + scenes_at_once, len(self))
-                waiting.append((stop, executor.submit(self.rows, start, stop)))
+                waiting.append((stop, executor.submit(_rows, self, version, start, stop)))
                 if len(waiting) == parts_at_once:
                     stop, future = waiting.popleft()
                     yield stop, *future.result()

@@ -1,0 +1,227 @@
+"""Sweeps by executors: the same bytes however they are computed, and after a worker was killed."""
+
+import multiprocessing
+import os
+import pickle
+import signal
+import threading
+import time
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+
+import pytest
+import twofold
+
+GRID = """
+scene = "tp-2"
+seed = 1
+draws = 4
+[[vary]]
+parameter = "star.inertia_ratio"
+grid = { from = 1.01, to = 2.02, points = 25 }
+[[vary]]
+parameter = "lorentz_violation.eigenvalues[2]"
+random = { distribution = "normal", mean = -0.04, deviation = 0.01 }
+[time]
+times = [10.0, 30.0]
+[output]
+columns = ["e_z", "errors"]
+summaries = ["lambda"]
+"""
+
+
+@pytest.fixture(scope="module")
+def sweep():
+    return twofold.Sweep(toml=GRID)
+
+
+@pytest.fixture(scope="module")
+def one_core(sweep):
+    """The table of one call in one thread: header and rows."""
+    assert len(sweep) == 100
+    rows, _, _ = sweep.rows(0, 100)
+    return sweep.header + rows
+
+
+class Slowed(twofold.Sweep):
+    """Takes a while for each part, to be killed in it."""
+
+    def rows(self, start, stop):
+        time.sleep(0.05)
+        return super().rows(start, stop)
+
+
+class Recorded(Executor):
+    """Hands parts to another executor, and keeps which."""
+
+    def __init__(self, executor):
+        self.executor, self.parts = executor, []
+
+    def submit(self, function, *arguments):
+        if arguments:
+            self.parts.append(arguments[-2:])
+        return self.executor.submit(function, *arguments)
+
+
+def processes(method, workers=2):
+    return ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context(method))
+
+
+@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
+@pytest.mark.parametrize("method", ["spawn", "fork"])
+def test_processes_give_the_bytes_of_one_core(sweep, one_core, method, tmp_path):
+    with processes(method) as executor:
+        assert sweep.map(executor, scenes_at_once=7, parts_at_once=3).csv == one_core
+        sweep.write(tmp_path / "table.csv", executor, scenes_at_once=9)
+    assert (tmp_path / "table.csv").read_bytes() == one_core
+    # One file, as by the command: none of the growing ones is left but the journal of a complete table.
+    assert not (tmp_path / "table.csv.partial").exists()
+
+
+def test_threads_and_any_size_of_parts(sweep, one_core):
+    for scenes_at_once in (1, 8, 33, 100, 1000, None):
+        with ThreadPoolExecutor(2) as executor:
+            done = []
+            assert sweep.map(executor, scenes_at_once=scenes_at_once, parts_at_once=5, progress=done.append).csv == one_core
+            assert done == sorted(done) and done[-1] == 1.0
+
+
+def test_shards_are_the_whole(sweep, one_core):
+    parts = [sweep.rows(start, stop)[0] for start, stop in ((0, 33), (33, 34), (34, 100))]
+    assert sweep.header + b"".join(parts) == one_core
+    assert sweep.run().csv == one_core
+    assert pickle.loads(pickle.dumps(sweep)).run(0, 5).csv == sweep.run(0, 5).csv
+
+
+def test_never_more_parts_at_once_than_allowed(sweep, one_core):
+    class Lazy(Executor):
+        most = pending = 0
+
+        def submit(self, function, *arguments):
+            self.pending += 1
+            self.most = max(self.most, self.pending)
+            owner = self
+
+            class Later(Future):
+                def result(self, timeout=None):
+                    owner.pending -= 1
+                    return function(*arguments)
+
+            return Later()
+
+    lazy = Lazy()
+    assert sweep.map(lazy, scenes_at_once=5, parts_at_once=4).csv == one_core
+    assert lazy.most == 4 and lazy.pending == 0
+
+
+@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
+@pytest.mark.parametrize("method", ["spawn", "fork"])
+def test_a_killed_worker(one_core, method, tmp_path):
+    path = tmp_path / "table.csv"
+    slowed = Slowed(toml=GRID)
+    with pytest.raises(BrokenProcessPool) as error, processes(method) as executor:
+        victims = []
+
+        def kill(done):
+            if done >= 0.2 and not victims:
+                victims.append(next(iter(executor._processes)))
+                os.kill(victims[0], signal.SIGKILL)
+
+        slowed.write(path, executor, scenes_at_once=4, parts_at_once=4, progress=kill)
+    assert not path.exists()
+    # The error is still held, with its traceback, and another executor goes on.
+    assert error.value is not None
+    with processes(method) as executor:
+        recorded = Recorded(executor)
+        twofold.Sweep(toml=GRID).write(path, recorded, scenes_at_once=4)
+    first = recorded.parts[0][0]
+    # 20 scenes and more were told to be done, and are not computed again.
+    assert 20 <= first < 100
+    assert recorded.parts == [(start, start + 4) for start in range(first, 100, 4)]
+    assert path.read_bytes() == one_core
+
+
+@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
+@pytest.mark.parametrize("method", ["spawn", "fork"])
+def test_an_error_in_the_middle_with_workers_that_live_on(sweep, one_core, method, tmp_path):
+    path = tmp_path / "table.csv"
+
+    def stop(done):
+        if done >= 0.5:
+            raise KeyboardInterrupt
+
+    with processes(method) as executor:
+        with pytest.raises(KeyboardInterrupt) as error:
+            sweep.write(path, executor, scenes_at_once=5, parts_at_once=3, progress=stop)
+        assert error.value is not None
+        recorded = Recorded(executor)
+        sweep.write(path, recorded, scenes_at_once=5)
+    assert recorded.parts[0] == (50, 55)
+    assert path.read_bytes() == one_core
+
+
+def test_a_table_that_exists(sweep, one_core, tmp_path):
+    path = tmp_path / "table.csv"
+    path.write_text("mine\n")
+    with ThreadPoolExecutor(2) as executor:
+        with pytest.raises(twofold.Error, match="table.csv exists: allowed is replace=True"):
+            sweep.write(path, executor)
+        assert path.read_text() == "mine\n"
+        sweep.write(path, executor, replace=True)
+    assert path.read_bytes() == one_core
+
+
+def test_two_writers_of_one_table(sweep, tmp_path):
+    path, begun, go = tmp_path / "table.csv", threading.Event(), threading.Event()
+
+    def wait(_):
+        begun.set()
+        go.wait(20)
+
+    with ThreadPoolExecutor(2) as executor, ThreadPoolExecutor(1) as writer:
+        first = writer.submit(sweep.write, path, executor, progress=wait)
+        assert begun.wait(20)
+        try:
+            with pytest.raises(twofold.Error):
+                sweep.write(path, executor)
+        finally:
+            go.set()
+        first.result()
+    assert path.exists()
+
+
+def test_scenes_that_fail_are_rows_and_have_reasons(tmp_path):
+    text = GRID.replace("from = 1.01", "from = -0.5")
+    failing = twofold.Sweep(toml=text)
+    with ThreadPoolExecutor(2) as executor:
+        failing.write(tmp_path / "table.csv", executor, scenes_at_once=6)
+    rows, errors, failed = failing.rows(0, 100)
+    assert 0 < failed < 100
+    assert (tmp_path / "table.csv").read_bytes() == failing.header + rows
+    assert (tmp_path / "table.csv.errors.csv").read_bytes().endswith(errors)
+    assert rows.count(b",failed,") == failed
+
+
+def test_a_worker_of_another_version_is_refused(sweep, monkeypatch):
+    class Elsewhere(Executor):
+        def submit(self, function, *arguments):
+            monkeypatch.setattr(twofold, "__version__", "0.0.1")
+            future = Future()
+            try:
+                future.set_result(function(*arguments))
+            except twofold.Error as error:
+                future.set_exception(error)
+            return future
+
+    with pytest.raises(twofold.Error, match="a worker has twofold 0.0.1: allowed is "):
+        sweep.map(Elsewhere())
+
+
+def test_what_is_refused(sweep):
+    with ThreadPoolExecutor(1) as executor:
+        for options in ({"scenes_at_once": 0}, {"parts_at_once": -1}):
+            name, value = next(iter(options.items()))
+            with pytest.raises(twofold.Error, match=f"{name} = {value}: allowed is a whole number above zero"):
+                sweep.map(executor, **options)
+    with pytest.raises(twofold.Error, match="scenes 90 to 101: allowed are parts of 0 to 100"):
+        sweep.rows(90, 101)

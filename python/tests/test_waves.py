@@ -1,0 +1,156 @@
+"""Harmonics against the whole wave, counted turns, series."""
+
+import numpy as np
+import pytest
+import twofold
+from twofold.waves import Waveform, seconds_since_epoch, strain
+
+
+def source(eigenvalues=(0.0, 0.0, 0.0), momentum=(0.5, 0.3, 0.8), spin=100.0, **observer):
+    return twofold.Scene(
+        "wave-source",
+        time={"epoch": "58000.0"},
+        star={"spin_frequency": spin},
+        pulsar={"chi": 1.0, "rho": 0.3},
+        lorentz_violation={"eigenvalues": list(eigenvalues)},
+        initial={"momentum": list(momentum)},
+        observer=observer,
+    ).pulsar()
+
+
+def added(pulsar, reference, dt, hands, knot_distance=None):
+    """Both harmonics together along north and east."""
+    total = np.zeros((2, *np.shape(dt)))
+    for harmonic in ("once", "twice"):
+        for hand in hands:
+            waveform = Waveform(pulsar, harmonic, reference=reference, hand=hand, knot_distance=knot_distance)
+            phase, a_plus, a_cross = waveform(dt)
+            plus, cross = a_plus * np.cos(phase), a_cross * np.sin(phase)
+            # The axis of lalpulsar at psi is at the position angle psi - pi/2.
+            cos, sin = np.cos(2 * waveform.psi - np.pi), np.sin(2 * waveform.psi - np.pi)
+            total += [plus * cos - cross * sin, plus * sin + cross * cos]
+    return total
+
+
+def size(pulsar, t):
+    once, twice, *_ = pulsar.wave_harmonics(t)
+    return np.max(once + twice)
+
+
+@pytest.mark.parametrize("hands", [(None,), ("right", "left")])
+@pytest.mark.parametrize("inclination", ["20 deg", "90 deg", "130 deg"])
+def test_harmonics_add_up_to_the_wave(hands, inclination):
+    pulsar = source(inclination=inclination, azimuth="40 deg")
+    dt = np.linspace(-300.0, 300.0, 2001)
+    reference = 12345.678
+    whole = np.array(pulsar.wave(reference + dt))
+    # 3e4 turns a side: their phase is rounded to 5e-11 rad.
+    assert abs(added(pulsar, reference, dt, hands) - whole).max() <= 1e-10 * size(pulsar, reference + dt)
+
+
+def test_hands_follow_an_angular_momentum_that_turns():
+    # s is so small that the wave has it only by the motion of L; after 30 years L has turned.
+    pulsar = source(eigenvalues=(2e-10, 1e-10, -3e-10))
+    reference, dt = 1e9, np.linspace(0.0, 200.0, 1001)
+    begin = pulsar.wave_harmonics(np.array([0.0, reference]))[4]
+    assert abs(begin[1] - begin[0]) > 1e-3
+    whole = np.array(pulsar.wave(reference + dt))
+    assert abs(added(pulsar, reference, dt, ("right", "left")) - whole).max() <= 1e-10 * size(pulsar, reference)
+    whole = np.array(pulsar.wave(dt))
+    assert abs(added(pulsar, 0.0, dt, ("right", "left")) - whole).max() <= 1e-10 * size(pulsar, 0.0)
+    with pytest.raises(twofold.Error, match="^psi: L turns by .* hand='right'"):
+        Waveform(pulsar, "twice")(1e9)
+
+
+def test_a_strong_violation_by_hands():
+    # L goes round in seconds. The harmonics are those of a torque-free star, so they are off by what s does to a turn, and no more: the hands add nothing to it.
+    pulsar = source(eigenvalues=(1e-2, 0.5e-2, -1.5e-2), spin=2.0)
+    dt = np.linspace(-10.0, 10.0, 1001)
+    once, twice, phase, i, angle, _ = pulsar.wave_harmonics(dt)
+    assert np.ptp(angle) > 0.05
+    plus = -once * np.sin(2 * i) / 2 * np.cos(phase) + twice * (1 + np.cos(i) ** 2) / 2 * np.cos(2 * phase)
+    cross = -once * np.sin(i) * np.sin(phase) + twice * np.cos(i) * np.sin(2 * phase)
+    cos, sin = np.cos(2 * angle), np.sin(2 * angle)
+    formula = np.array([plus * cos - cross * sin, plus * sin + cross * cos])
+    found = added(pulsar, 0.0, dt, ("right", "left"), knot_distance=0.5)
+    assert abs(found - formula).max() <= 1e-11 * size(pulsar, dt)
+
+
+def test_phases_are_counted_alike_one_by_one_and_at_once():
+    pulsar = source()
+    waveform = Waveform(pulsar, "once", reference=50.0)
+    dt = np.linspace(-2000.0, 2000.0, 401)
+    phase, plus, cross = waveform(dt)
+    # The frequency of a free star does not change: |L| / I^xx.
+    rate = np.diff(phase) / np.diff(dt)
+    assert np.ptp(rate) <= 1e-9 * rate[0]
+    other = Waveform(pulsar, "once", reference=50.0)
+    for k in (400, 3, 200, 0, 201):
+        one = other(float(dt[k]))
+        assert all(isinstance(value, float) for value in one)
+        assert one == (phase[k], plus[k], cross[k])
+    assert phase[200] == pulsar.wave_harmonics(50.0)[2]
+    twice, *_ = Waveform(pulsar, "twice", reference=50.0)(dt.reshape(1, -1))
+    assert twice.shape == (1, 401)
+    assert abs(twice[0] - 2 * phase).max() <= 1e-9
+
+
+def test_a_star_that_slows_down():
+    sections = {"time": {"epoch": "58000.0"}, "pulsar": {"chi": 1.0, "rho": 0.3}, "spin_down": {"f1": -1e-9, "torque": "constant"}}
+    pulsar = twofold.Scene("wave-source", **sections).pulsar()
+    dt = np.linspace(0.0, 1e7, 11)
+    turns = Waveform(pulsar, "once")(dt)[0] / (2 * np.pi)
+    fit = np.polyfit(dt / 1e7, turns, 3)
+    # F1 / 2 t^2 are 5e4 turns. F2 = n F1^2 / F0, with n up to 3, is 5 turns at most, and what follows 1e-3.
+    assert abs(2 * fit[1] / 1e14 / -1e-9 - 1) < 1e-3
+    assert abs(fit[0]) < 3e-20 * 1e21 / 6
+    assert abs(turns - np.polyval(fit, dt / 1e7)).max() < 1e-3
+
+
+def test_what_is_refused():
+    pulsar = source()
+    with pytest.raises(twofold.Error, match='harmonic = "?\'?thrice.*allowed are "once" and "twice"'):
+        Waveform(pulsar, "thrice")
+    with pytest.raises(twofold.Error, match="hand = 'both'"):
+        Waveform(pulsar, "once", hand="both")
+    with pytest.raises(twofold.Error, match="reference = nan"):
+        Waveform(pulsar, "once", reference=np.nan)
+    with pytest.raises(twofold.Error, match="knot_distance = 0"):
+        Waveform(pulsar, "once", knot_distance=0.0)
+    with pytest.raises(twofold.Error, match="dt: allowed are finite numbers"):
+        Waveform(pulsar, "once")(np.inf)
+    with pytest.raises(twofold.Error, match="a million knots"):
+        Waveform(pulsar, "once", knot_distance=1e-3)(2000.0)
+    with pytest.raises(twofold.Error, match="observer.distance"):
+        Waveform(source(distance=None), "once")
+    strong = source(eigenvalues=(1e-2, 0.5e-2, -1.5e-2), spin=2.0)
+    with pytest.raises(twofold.Error, match="knot_distance = .* smaller distance"):
+        Waveform(strong, "once", hand="right")(np.linspace(0.0, 1e4, 101))
+
+
+def test_seconds_of_gps():
+    pulsar = source()
+    # MJD 58000.0 TDB is 51.184 s before 1188432000 s after 1980 January 6 in days of 86400 s.
+    assert seconds_since_epoch(pulsar, (58000 - 44244) * 86400 - 51.184) == pytest.approx(0.0, abs=2e-7)
+    assert seconds_since_epoch(pulsar, 1188518400) == 1188518400 - (58000 - 44244) * 86400 + 51.184
+
+
+def test_series_in_equal_steps():
+    pulsar = source()
+    plus, cross = strain(pulsar, 3.0, 0.5, 1024.0, gwpy=False)
+    assert plus.shape == cross.shape == (512,)
+    whole = pulsar.wave(3.0 + np.arange(512) / 1024)
+    assert np.array_equal(plus, whole[0]) and np.array_equal(cross, whole[1])
+    for arguments in ((np.nan, 1.0, 16.0), (0.0, -1.0, 16.0), (0.0, 1.0, 0.0), (0.0, 1e9, 1e9)):
+        with pytest.raises(twofold.Error):
+            strain(pulsar, *arguments)
+
+
+def test_series_of_gwpy():
+    pytest.importorskip("gwpy")
+    pulsar = source()
+    plus, cross = strain(pulsar, 3.0, 0.5, 1024.0)
+    assert (plus.name, cross.name) == ("h_plus", "h_cross")
+    assert abs(seconds_since_epoch(pulsar, float(plus.t0.value)) - 3.0) < 2e-7
+    assert plus.sample_rate.value == cross.sample_rate.value == 1024.0
+    assert np.array_equal(plus.value, strain(pulsar, 3.0, 0.5, 1024.0, gwpy=False)[0])

@@ -1,0 +1,136 @@
+"""What arrival times say of a pulsar, as a likelihood for samplers.
+
+`TimingLikelihood` goes to bilby as it is, and with it to dynesty and all other samplers there; without bilby it is a plain class with `log_likelihood(parameters)`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from twofold._twofold import Error, TimingData, TimingModel
+
+try:
+    from bilby import Likelihood as _Likelihood
+except ImportError:
+    _Likelihood = object
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["TimingLikelihood"]
+
+#: What the widths of pulses alone depend on.
+_OF_WIDTHS = ("inclination", "inclination_rate", "rho")
+
+
+class TimingLikelihood(_Likelihood):  # type: ignore[misc, valid-type]
+    """The Gaussian likelihood of arrival times with independent errors.
+
+    `parameters` of a call are values of a model's parameters (`TimingModel.names`) that replace those of `model`. F0 is the exception: `f0_offset` (Hz) is what is added to the model's, since a double of F0 itself is too coarse for decades of data.
+    Widths of pulses in the data are not used.
+
+    The pulses have the numbers of the turns nearest to them at `model`, or `numbers`; they keep them. So the model must be right to half a turn at each of them.
+
+    `marginalised` names parameters on which the phase depends linearly, to all that matters (`"phase"`, `"f0"`, `"f1"`, `"f2"`): they are integrated over with flat priors, exactly, and do not appear among the parameters. The sampler has less to do, and finds the same. The prior's width is left out, so that evidences compare only where the same are marginalised.
+
+    A parameter outside its range has the logarithm `-inf`.
+    """
+
+    def __init__(
+        self,
+        model: TimingModel,
+        data: TimingData,
+        *,
+        numbers: ArrayLike | None = None,
+        marginalised: Sequence[str] = (),
+    ) -> None:
+        super().__init__()
+        for name in marginalised:
+            if name not in ("phase", "f0", "f1", "f2"):
+                raise Error(f'marginalised: {name!r}: allowed are "phase", "f0", "f1" and "f2"')
+        times, self._sigmas = data.times, data.sigmas
+        if not len(times):
+            raise Error("data: no arrival times: allowed are one and more")
+        self.model, self.marginalised = model, tuple(marginalised)
+        self._t, self._rest = np.ascontiguousarray(times[:, 0]), np.ascontiguousarray(times[:, 1])
+        whole, fraction, derivatives = model.phase_and_derivatives(self._t, self._rest)
+        if numbers is None:
+            self.numbers = whole + np.rint(fraction)
+        else:
+            # Numbers count from any one: that of the first arrival belongs to the nearest turn.
+            given = np.array(numbers, dtype=float)
+            if given.shape != self._t.shape or not np.array_equal(given, np.rint(given)):
+                raise Error(f"numbers: an array of shape {given.shape}: allowed are {len(self._t)} whole numbers")
+            self.numbers = given - given[0] + whole[0] + np.rint(fraction[0])
+        # Turns a second at each arrival: residuals are times.
+        step = 0.5 / model.frequency[0]
+        before, after = (model.phase(self._t + sign * step, self._rest) for sign in (-1, 1))
+        gap = (self._t + step) - (self._t - step)
+        self._scale = 1.0 / (self._sigmas * ((after[0] - before[0]) + (after[1] - before[1])) / gap)
+        self._norm = -np.log(self._sigmas).sum() - len(self._t) / 2 * np.log(2 * np.pi)
+        self._basis = np.zeros((len(self._t), 0))
+        if self.marginalised:
+            columns = derivatives[:, [TimingModel.names.index(name) for name in self.marginalised]] * self._scale[:, None]
+            sizes = np.linalg.norm(columns, axis=0)
+            self._basis, values, _ = np.linalg.svd(columns / sizes, full_matrices=False)
+            if not values.min() > 1e-10 * values.max():
+                raise Error(f"marginalised: {', '.join(self.marginalised)}: allowed are parameters that the arrival times determine")
+            # The integral of exp(-chi^2/2) over the parameters.
+            self._norm += len(sizes) / 2 * np.log(2 * np.pi) - np.log(values).sum() - np.log(sizes).sum()
+
+    def __repr__(self) -> str:
+        return f"<TimingLikelihood: {len(self._t)} arrivals, {self.model!r}>"
+
+    def _moved(self, parameters: Mapping[str, float]) -> TimingModel:
+        changes = {}
+        for name, value in parameters.items():
+            if name == "f0_offset":
+                changes["f0"] = float(value)
+            elif name == "f0":
+                raise Error(f"f0 = {value!r}: allowed is f0_offset (Hz), what is added to F0 of the model")
+            elif name in _OF_WIDTHS:
+                raise Error(f"{name} = {value!r}: arrival times do not depend on it; allowed are {', '.join(self._allowed())}")
+            elif name in TimingModel.names:
+                changes[name] = float(value) - self.model[name]
+            else:
+                raise Error(f"{name} = {value!r}: allowed are {', '.join(self._allowed())}")
+            if name.removesuffix("_offset") in self.marginalised:
+                raise Error(f"{name} = {value!r}: it is marginalised; allowed are other parameters")
+        return self.model.moved(**changes)
+
+    def _allowed(self) -> list[str]:
+        names = ["f0_offset" if name == "f0" else name for name in TimingModel.names if name not in _OF_WIDTHS]
+        return [name for name in names if name.removesuffix("_offset") not in self.marginalised]
+
+    def residuals(self, parameters: Mapping[str, float]) -> NDArray[np.float64]:
+        """Measured less expected arrival times, in standard deviations, nothing marginalised."""
+        whole, fraction = self._moved(parameters).phase(self._t, self._rest)
+        return ((whole - self.numbers) + fraction) * self._scale
+
+    def log_likelihood(self, parameters: Mapping[str, float] | None = None) -> float:
+        """The logarithm of the probability density of the data."""
+        if parameters is None:
+            parameters = getattr(self, "parameters", None) or {}
+        try:
+            residuals = self.residuals(parameters)
+        except Error:
+            # What is no parameter stays an error; what leaves its range is not probable.
+            self._check(parameters)
+            return -np.inf
+        left = residuals - self._basis @ (self._basis.T @ residuals)
+        return float(self._norm - left @ left / 2)
+
+    def _check(self, parameters: Mapping[str, float]) -> None:
+        for name in parameters:
+            if name not in self._allowed():
+                self._moved({name: parameters[name]})
+
+    def noise_log_likelihood(self) -> float:
+        """Not a number: there is no model without a pulsar."""
+        return np.nan
+
+    def log_likelihood_ratio(self, parameters: Mapping[str, float] | None = None) -> Any:
+        return self.log_likelihood(parameters)
