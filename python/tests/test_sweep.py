@@ -205,7 +205,7 @@ def test_scenes_that_fail_are_rows_and_have_reasons(tmp_path):
 def test_a_worker_of_another_version_is_refused(sweep, monkeypatch):
     class Elsewhere(Executor):
         def submit(self, function, *arguments):
-            monkeypatch.setattr(twofold, "__version__", "0.0.1")
+            monkeypatch.setattr(twofold._twofold, "__version__", "0.0.1")
             future = Future()
             try:
                 future.set_result(function(*arguments))
