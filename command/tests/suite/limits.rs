@@ -107,6 +107,10 @@ fn widths_limit_the_motion_of_the_axis_and_s() {
     let expected = 103.08 * 40.0_f64.to_radians().sin() / i.sin() * 4.0 * i.sin() * sigma / (TAU * 641.928);
     // The page has three digits of the deviation.
     assert!((limit / expected - 1.0).abs() < 5e-3, "{limit} for {expected}");
+    // s = -alpha_2 w w, so that the combination is 2 alpha_2 |w|^2; both numbers have four digits.
+    let alpha_2 = page.split("|alpha_2| is then at most ").nth(1).expect("alpha_2").split(',').next();
+    let alpha_2: f64 = alpha_2.and_then(|alpha_2| alpha_2.parse().ok()).expect("a number");
+    assert!((alpha_2 * 2.0 * (369.0_f64 / 299_792.458).powi(2) / limit - 1.0).abs() < 1e-3, "{alpha_2}");
 }
 
 #[test]
