@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 use twofold::inference::{self, Fisher, MeasuredArrival, MeasuredWidth, Model, Prior, Residuals, Unknown};
 use twofold::observables::pulsar::timing_model::TimingParameter;
 use twofold_scene::measurements::{DataFile, named, parse_noise};
@@ -17,7 +17,7 @@ use crate::timing_model::{TimingModel, timing_parameter};
 
 /// Arrival times and pulse widths with independent errors. Times and standard deviations are in seconds, times since the epoch of the model.
 ///
-/// `TimingData(times, sigmas)` are arrivals; `rest` is the small part of times that need two doubles, `numbers` has the numbers of the pulses, where they are known.
+/// `TimingData(times, sigmas)` are arrivals; `rest` is the small part of times that need two doubles, `numbers` has the numbers of the pulses, NaN where one is not known.
 /// `TimingData(width_times=..., widths=..., width_sigmas=...)` are widths.
 #[pyclass(frozen, module = "twofold")]
 pub struct TimingData {
@@ -46,10 +46,15 @@ impl TimingData {
         }
         let rest = of("rest", rest)?.unwrap_or(vec![0.0; count]);
         let numbers = of("numbers", numbers)?;
+        for number in numbers.iter().flatten().filter(|number| !number.is_nan()) {
+            let is_whole = number.fract() == 0.0 && number.abs() <= 9e15;
+            let allowed = "a whole number up to 9e15 in size, or NaN where it is not known";
+            twofold::Error::ensure(is_whole, "number", *number, allowed).map_err(raised)?;
+        }
         let arrival = |k: usize| MeasuredArrival {
             time: [times[k], rest[k]],
             sigma: sigmas[k],
-            number: numbers.as_ref().map(|numbers| numbers[k].round() as i64),
+            number: numbers.as_ref().filter(|numbers| !numbers[k].is_nan()).map(|numbers| numbers[k] as i64),
         };
         let (at, wide) = (read("width_times", width_times)?, read("widths", widths)?);
         let errors = read("width_sigmas", width_sigmas)?;
@@ -91,6 +96,37 @@ impl TimingData {
     #[getter]
     fn sigmas<'py>(&self, py: Python<'py>) -> Array<'py> {
         array(py, self.data.arrivals.iter().map(|arrival| arrival.sigma))
+    }
+
+    /// Numbers of the pulses, NaN where they are not known.
+    #[getter]
+    fn numbers<'py>(&self, py: Python<'py>) -> Array<'py> {
+        array(py, self.data.arrivals.iter().map(|arrival| arrival.number.map_or(f64::NAN, |number| number as f64)))
+    }
+
+    /// Widths: an array of shape (n, 3) of their times, the widths and their standard deviations (s).
+    #[getter]
+    fn widths<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+        let values = self.data.widths.iter().flat_map(|width| [width.time, width.duration, width.sigma]).collect();
+        Ok(Array(PyArray1::from_vec(py, values).reshape([self.data.widths.len(), 3])?.into_any()))
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.data == other.data
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let (py, data) = (slf.py(), &slf.get().data);
+        let options = PyDict::new(py);
+        options.set_item("times", array(py, data.arrivals.iter().map(|arrival| arrival.time[0])))?;
+        options.set_item("rest", array(py, data.arrivals.iter().map(|arrival| arrival.time[1])))?;
+        options.set_item("sigmas", array(py, data.arrivals.iter().map(|arrival| arrival.sigma)))?;
+        options.set_item("numbers", slf.get().numbers(py))?;
+        options.set_item("width_times", array(py, data.widths.iter().map(|width| width.time)))?;
+        options.set_item("widths", array(py, data.widths.iter().map(|width| width.duration)))?;
+        options.set_item("width_sigmas", array(py, data.widths.iter().map(|width| width.sigma)))?;
+        let made = py.import("functools")?.getattr("partial")?.call((slf.get_type(),), Some(&options))?;
+        Ok((made, PyTuple::empty(py)))
     }
 
     fn __repr__(&self) -> String {

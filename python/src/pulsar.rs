@@ -63,6 +63,12 @@ impl Pulsar {
         Ok(TimingModel { model: self.pulsar.clock.timing_model().map_err(raised)? })
     }
 
+    /// The scene of the pulsar.
+    #[getter]
+    fn scene(&self, py: Python<'_>) -> Py<Scene> {
+        self.scene.clone_ref(py)
+    }
+
     /// Modified Julian date of the start (TDB), as a text.
     #[getter]
     fn epoch(&self) -> String {

@@ -211,6 +211,10 @@ class TestPulsar:
         assert np.ptp(off) == 0 and np.ptp(rest) < 1e-6
         assert len(timing.derivatives) == 2 and timing.tim(2e-6).count("\n") == len(table) + 1
 
+    def test_a_position_without_a_name(self):
+        par = twofold.Scene("b1828-11", pulsar={"name": None}).pulsar().arrivals().par
+        assert "PSR       PULSAR\n" in par and "RAJ       18:30" in par
+
     def test_epochs(self, pulsar):
         timing = pulsar.arrivals([49621.0, 50000.0, 50001.5], derivatives=0)
         assert list(timing.table["arrival_day"]) == [49621.0, 50000.0, 50001.0]
@@ -320,6 +324,15 @@ class TestFits:
             found["f0"]
         with pytest.raises(twofold.Error, match="f0"):
             twofold.fit_timing(truth, data, ["phase"], priors={"f0": (10.0, 1.0)})
+
+    def test_data_are_pickled(self):
+        data = twofold.TimingData([1.0, 2.0], 1e-6, rest=[1e-9, 0.0], numbers=[7.0, np.nan], width_times=[1.0], widths=[0.1], width_sigmas=[0.01])
+        again = pickle.loads(pickle.dumps(data))
+        assert again == data and data != twofold.TimingData([1.0, 2.0], 1e-6)
+        assert np.array_equal(again.numbers, [7.0, np.nan], equal_nan=True)
+        assert np.array_equal(again.times, [[1.0, 1e-9], [2.0, 0.0]]) and np.array_equal(again.widths, [[1.0, 0.1, 0.01]])
+        with pytest.raises(twofold.Error, match="number = 0.5"):
+            twofold.TimingData([1.0], 1e-6, numbers=[0.5])
 
     def test_the_limit_of_a_wobble(self):
         """Of arrivals that are exact the posterior is half a normal distribution, whose 95 % are at 1.96 standard deviations for both quadratures alike."""

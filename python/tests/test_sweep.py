@@ -225,3 +225,18 @@ def test_what_is_refused(sweep):
                 sweep.map(executor, **options)
     with pytest.raises(twofold.Error, match="scenes 90 to 101: allowed are parts of 0 to 100"):
         sweep.rows(90, 101)
+
+
+def test_any_built_in_scene_is_a_base():
+    """A template can be varied; one with spin-down or a bulge is refused for that, not as unknown."""
+    text = """
+scene = "{}"
+[[vary]]
+parameter = "star.mass"
+values = [1.2, 1.4]
+[time]
+times = [0.01]
+"""
+    assert len(twofold.Sweep(toml=text.format("wave-source")).run()) == 2
+    with pytest.raises(twofold.Error, match="spin_down"):
+        twofold.Sweep(toml=text.format("b1828-11"))

@@ -148,6 +148,11 @@ class Pulsar:
         """
         Rates (rad/s) of the precession of the body about its axis and of its angular momentum.
         """
+    @property
+    def scene(self, /) -> Scene:
+        """
+        The scene of the pulsar.
+        """
     def timing_model(self, /) -> TimingModel:
         """
         The phase of the pulses in closed form, with derivatives by its parameters: for a star without Lorentz violation or with the motion of `L` that follows from it as a rate of the inclination.
@@ -401,11 +406,18 @@ class TimingData:
     """
     Arrival times and pulse widths with independent errors. Times and standard deviations are in seconds, times since the epoch of the model.
 
-    `TimingData(times, sigmas)` are arrivals; `rest` is the small part of times that need two doubles, `numbers` has the numbers of the pulses, where they are known.
+    `TimingData(times, sigmas)` are arrivals; `rest` is the small part of times that need two doubles, `numbers` has the numbers of the pulses, NaN where one is not known.
     `TimingData(width_times=..., widths=..., width_sigmas=...)` are widths.
     """
+    def __eq__(self, other: object, /) -> bool: ...
     def __new__(cls, /, times: ArrayLike | None = None, sigmas: ArrayLike | None = None, *, rest: ArrayLike | None = None, numbers: ArrayLike | None = None, width_times: ArrayLike | None = None, widths: ArrayLike | None = None, width_sigmas: ArrayLike | None = None) -> TimingData: ...
+    def __reduce__(self, /) -> tuple[Any, tuple]: ...
     def __repr__(self, /) -> str: ...
+    @property
+    def numbers(self, /) -> NDArray[float64]:
+        """
+        Numbers of the pulses, NaN where they are not known.
+        """
     @staticmethod
     def read(paths: SupportsGetItem[int, str], epoch: Any, *, observe: str | None = None) -> TimingData:
         """
@@ -421,6 +433,11 @@ class TimingData:
     def times(self, /) -> NDArray[float64]:
         """
         Times of the arrivals (s): an array of shape (n, 2), two parts each.
+        """
+    @property
+    def widths(self, /) -> NDArray[float64]:
+        """
+        Widths: an array of shape (n, 3) of their times, the widths and their standard deviations (s).
         """
 
 @final

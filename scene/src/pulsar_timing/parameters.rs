@@ -5,7 +5,7 @@ use twofold::Error;
 
 use super::Timing;
 use super::decimal::decimal;
-use crate::scene_file::{Catalogued, Scene};
+use crate::scene_file::{Catalogued, NAMELESS, Scene};
 
 /// Number of the pulse from which the numbers in the files are counted: the one nearest to `PEPOCH`, at which `TZRMJD` is.
 fn reference(timing: &Timing) -> i64 {
@@ -20,7 +20,7 @@ pub fn par(scene: &Scene, timing: &Timing) -> Result<String, Error> {
     for source in &scene.sources {
         line("#", source);
     }
-    let name = scene.catalogued.as_ref().map_or("PULSAR", |catalogued| catalogued.name.as_str());
+    let name = scene.catalogued.as_ref().map_or(NAMELESS, |catalogued| catalogued.name.as_str());
     line("PSR", name);
     if let Some(Catalogued { position: Some((ascension, declination)), .. }) = &scene.catalogued {
         line("RAJ", &ascension.text);

@@ -21,7 +21,7 @@ pub(crate) use document::{Entry, Fault, FileFormat, Replaced, Section};
 pub use document::{SceneError, did_you_mean, listed, nearest, shortened};
 pub use motion::Units;
 pub use observation::{COLUMN_GROUPS, Catalogued, Pulsar, Times, Viewer, column_group, like_julian_date};
-pub(crate) use observation::{columns_in, read_end, read_times, read_tolerance_and_method};
+pub(crate) use observation::{NAMELESS, columns_in, read_end, read_times, read_tolerance_and_method};
 pub use spin_down::{IndexOrSecond, SpinDown};
 
 /// Largest scene file that is read, in bytes.

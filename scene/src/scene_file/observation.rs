@@ -150,12 +150,16 @@ pub(super) fn read_pulsar(section: &Section<'_>) -> Result<Pulsar, Fault> {
     })
 }
 
+/// The name of a pulsar that has none, in files for timing programs.
+pub(crate) const NAMELESS: &str = "PULSAR";
+
 pub(super) fn read_catalogued(section: &Section<'_>) -> Result<Option<Catalogued>, Fault> {
-    let Some(name) = section.optional("name") else { return Ok(None) };
     let is_name = |name: &str| !name.is_empty() && name.chars().all(|c| c.is_ascii_graphic());
-    if !is_name(name.string()?) {
-        return Err(name.refuse("a name without spaces"));
-    }
+    let name = match section.optional("name") {
+        Some(name) if !is_name(name.string()?) => return Err(name.refuse("a name without spaces")),
+        Some(name) => Some(name.string()?.to_owned()),
+        None => None,
+    };
     let position = match (section.optional("right_ascension"), section.optional("declination")) {
         (None, None) => None,
         (Some(_), None) => return Err(section.missing("`pulsar.declination` beside `pulsar.right_ascension`")),
@@ -168,7 +172,8 @@ pub(super) fn read_catalogued(section: &Section<'_>) -> Result<Option<Catalogued
             Some((right, up.ok_or_else(|| declination.refuse("degrees, minutes and seconds as \"+21:34:59.1\""))?))
         }
     };
-    Ok(Some(Catalogued { name: name.string()?.to_owned(), position }))
+    let is_catalogued = name.is_some() || position.is_some();
+    Ok(is_catalogued.then(|| Catalogued { name: name.unwrap_or_else(|| NAMELESS.to_owned()), position }))
 }
 
 pub(crate) const MOST_SAMPLES: usize = 10_000_000;

@@ -10,7 +10,7 @@ use super::outputs::{ERRORS, Outputs, Summary};
 use super::parameters::{Law, Parameters, Source};
 use super::{MOST_COLUMNS, MOST_SCENES, Sweep};
 use crate::scene_file::{
-    BUILT_IN, COLUMN_GROUPS, Columns, Entry, Fault, FileFormat, Replaced, SCENE, Scene, SceneError, Section, Times,
+    COLUMN_GROUPS, Columns, Entry, Fault, FileFormat, Replaced, SCENE, Scene, SceneError, Section, Times, built_in,
     columns_in, did_you_mean, listed, read_end, read_times, read_tolerance_and_method,
 };
 
@@ -38,7 +38,7 @@ impl SweepText {
 
     /// A sweep file at `path` whose text is known, and the scene that it names.
     pub fn of(path: &str, text: String) -> Result<Self, SceneError> {
-        Self::with(path, text, |name| match BUILT_IN.iter().find(|scene| scene.name == name) {
+        Self::with(path, text, |name| match built_in(name) {
             Some(built_in) => Ok((name.to_owned(), built_in.toml.to_owned())),
             None => {
                 let file = Path::new(path).parent().unwrap_or(Path::new("")).join(name);

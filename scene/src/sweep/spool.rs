@@ -292,7 +292,7 @@ impl fmt::Display for SpoolError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             SpoolError::Different(why) => write!(f, "the part that is there cannot be continued: {why}"),
-            SpoolError::InUse => write!(f, "another process is writing it"),
+            SpoolError::InUse => write!(f, "another process is writing it (its journal is locked)"),
             SpoolError::File(path, error) => write!(f, "{} cannot be written: {error}", path.display()),
         }
     }
