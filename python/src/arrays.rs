@@ -35,6 +35,9 @@ impl<'py> FromPyObject<'_, 'py> for Numbers {
         let py = given.py();
         let refused = || PyTypeError::new_err("allowed is a real number or an array of real numbers");
         let numpy = py.import(pyo3::intern!(py, "numpy"))?;
+        if given.hasattr(pyo3::intern!(py, "mask"))? {
+            return Err(PyTypeError::new_err("an array with a mask: allowed is one without"));
+        }
         let array = numpy.call_method1(pyo3::intern!(py, "asarray"), (given,)).map_err(|_| refused())?;
         let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
         // Longer doubles are rounded; what is no real number is not converted.

@@ -1,6 +1,7 @@
 //! What data say of a star: fits of timing models, Fisher matrices, limits.
 
 use std::f64::consts::TAU;
+use std::path::PathBuf;
 
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyKeyError;
@@ -44,6 +45,11 @@ impl TimingData {
         if sigmas.len() != count {
             return Err(raised("times without sigmas: allowed are arrival times with a standard deviation each"));
         }
+        for sigma in sigmas.iter() {
+            let allowed = "a finite number above zero";
+            twofold::Error::ensure(*sigma > 0.0 && sigma.is_finite(), "standard deviation", *sigma, allowed)
+                .map_err(raised)?;
+        }
         let rest = of("rest", rest)?.unwrap_or(vec![0.0; count]);
         let numbers = of("numbers", numbers)?;
         for number in numbers.iter().flatten().filter(|number| !number.is_nan()) {
@@ -75,12 +81,14 @@ impl TimingData {
     /// are counted from the epoch of a model (MJD, TDB).
     #[staticmethod]
     #[pyo3(signature = (paths, epoch, *, observe=None))]
-    fn read(paths: Vec<String>, epoch: &Bound<'_, PyAny>, observe: Option<&str>) -> PyResult<Self> {
+    fn read(paths: Vec<PathBuf>, epoch: &Bound<'_, PyAny>, observe: Option<&str>) -> PyResult<Self> {
         let epoch = read_epoch(epoch)?;
         let noise = observe.map_or_else(|| Ok(Vec::new()), |text| parse_noise(text, 1.0)).map_err(raised)?;
         let mut data = inference::TimingData::default();
         for path in paths {
-            DataFile::read(&path).and_then(|file| file.add_timing(&epoch, &noise, &mut data)).map_err(raised)?;
+            DataFile::read(&path.to_string_lossy())
+                .and_then(|file| file.add_timing(&epoch, &noise, &mut data))
+                .map_err(raised)?;
         }
         Ok(Self { data })
     }
@@ -275,9 +283,10 @@ pub fn fit_timing(
     for (name, prior) in priors.iter().flat_map(|priors| priors.iter()) {
         let name: String = name.extract()?;
         let parameter = timing_parameter(&name)?;
-        let (mean, sigma): (f64, f64) = prior.extract().map_err(|_| {
+        let [mean, sigma]: [f64; 2] = prior.extract().map_err(|_| {
             raised(format!("priors[{name:?}]: allowed is a pair of numbers, the mean and the standard deviation"))
         })?;
+        twofold::Error::ensure(mean.is_finite(), "mean of a prior", mean, "a finite number").map_err(raised)?;
         if !unknowns.contains(&parameter) {
             return Err(raised(format!("priors[{name:?}]: allowed is an unknown")));
         }

@@ -78,7 +78,10 @@ impl Motion {
 
     /// Estimated error of the components of `n`, `e_x` and of `L` in units of its size.
     fn error<'py>(&self, py: Python<'py>, t: Numbers) -> PyResult<Bound<'py, PyAny>> {
-        let found = t.map(py, |_, t| Ok::<_, twofold::Error>(self.motion.error_estimate(self.scene.since_start(t))))?;
+        let found = t.map(py, |_, t| {
+            let t = self.scene.since_start(t);
+            self.motion.axis_state(t).map(|_| self.motion.error_estimate(t))
+        })?;
         t.shaped(py, found, &[])
     }
 

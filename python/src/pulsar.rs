@@ -46,6 +46,9 @@ impl Pulsar {
                 since_start.map(|t| self.pulsar.epoch.after(t)).collect::<Result<_, _>>().map_err(raised)?
             }
         };
+        if epochs.is_empty() {
+            return Err(raised("epochs: none: allowed are one and more"));
+        }
         let derivatives = derivatives.unwrap_or(if scene.spin_down.is_some() { 2 } else { 0 });
         let found = py.detach(|| {
             let timing = self.pulsar.timed(&epochs, derivatives).map_err(|error| error.to_string())?;

@@ -1,10 +1,11 @@
 //! Scenes: a star, its initial motion, the coefficients for Lorentz violation, an observer and a beam.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString, PyTuple};
+use pyo3::types::{PyDict, PyList, PyString, PyTuple};
 use twofold::inference::{Fisher, InferenceError, Signal, data_of, fit, nonlinearity};
 use twofold::plan::Output;
 use twofold_scene::columns::Column;
@@ -91,14 +92,14 @@ fn changed(py: Python<'_>, text: &str, sections: &Bound<'_, PyDict>) -> PyResult
             continue;
         };
         let whole = match document.get_item(&name)? {
-            Some(found) => found.cast_into::<PyDict>()?,
+            Some(found) => {
+                found.cast_into::<PyDict>().map_err(|_| raised(format!("{name} is no section of the scene")))?
+            }
             None => PyDict::new(py),
         };
         for (key, value) in keys {
             if !value.is_none() {
-                // Arrays and numbers of numpy as Python's.
-                let value = if value.hasattr("tolist")? { value.call_method0("tolist")? } else { value };
-                whole.set_item(key, value)?;
+                whole.set_item(key, plain(value)?)?;
             } else if whole.contains(&key)? {
                 whole.del_item(key)?;
             }
@@ -106,6 +107,20 @@ fn changed(py: Python<'_>, text: &str, sections: &Bound<'_, PyDict>) -> PyResult
         document.set_item(name, whole)?;
     }
     py.import("tomli_w")?.call_method1("dumps", (document,)).map_err(raised)?.extract()
+}
+
+/// Arrays and numbers of numpy as Python's, and so in lists.
+fn plain(value: Bound<'_, PyAny>) -> PyResult<Bound<'_, PyAny>> {
+    if value.hasattr("tolist")? {
+        return value.call_method0("tolist");
+    }
+    match value.cast::<PyList>() {
+        Ok(list) => {
+            let items = list.iter().map(plain).collect::<PyResult<Vec<_>>>()?;
+            Ok(PyList::new(value.py(), items)?.into_any())
+        }
+        Err(_) => Ok(value),
+    }
 }
 
 #[pymethods]
@@ -275,7 +290,7 @@ impl Scene {
         let (measurement, signal) = self.measured(&observe, parameters)?;
         let read = |(k, one): (usize, &Bound<'_, PyAny>)| match one.cast::<Table>() {
             Ok(table) => DataFile::of_bytes(&format!("data[{k}]"), table.get().csv.clone()).map_err(raised),
-            Err(_) => DataFile::read(&one.extract::<String>()?).map_err(raised),
+            Err(_) => DataFile::read(&one.extract::<PathBuf>()?.to_string_lossy()).map_err(raised),
         };
         let tables = data.iter().enumerate().map(read).collect::<PyResult<Vec<_>>>()?;
         let (data, _) = measurement.data_in(&tables, &signal).map_err(raised)?;

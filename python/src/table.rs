@@ -13,6 +13,9 @@ use pyo3::types::{PyBytes, PyCapsule, PyDict, PyIterator, PyList};
 
 use crate::error::raised;
 
+/// Columns of words, also where all fields are empty: another column has words only if a field is no number.
+const WORDS: [&str; 3] = ["cut", "status", "combination"];
+
 /// A table of numbers, a column for each name. A missing number is NaN.
 ///
 /// `table["beta"]` is an array, `table.units["beta"]` its unit, `table.csv` the bytes that the command would write; `dict(table)` has all columns. polars and pyarrow
@@ -43,9 +46,11 @@ impl Table {
         let mut columns: Vec<_> = header
             .iter()
             .map(|title| {
-                let (name, unit) =
-                    title.split_once(" [").map_or((title, ""), |(name, unit)| (name, &unit[..unit.len() - 1]));
-                Column { name: name.to_owned(), unit: unit.to_owned(), values: Values::Numbers(Vec::new()) }
+                let parts = title.strip_suffix(']').and_then(|title| title.split_once(" ["));
+                let (name, unit) = parts.unwrap_or((title, ""));
+                let values =
+                    if WORDS.contains(&name) { Values::Words(Vec::new()) } else { Values::Numbers(Vec::new()) };
+                Column { name: name.to_owned(), unit: unit.to_owned(), values }
             })
             .collect();
         let mut rows = 0;
@@ -71,7 +76,7 @@ impl Table {
 
 /// The number of a field; an empty one is missing, not a number.
 fn number(field: &str) -> Option<f64> {
-    if field.is_empty() { Some(f64::NAN) } else { field.parse().ok() }
+    if field.is_empty() { Some(f64::NAN) } else { field.parse().ok().filter(|number: &f64| number.is_finite()) }
 }
 
 impl Column {

@@ -19,9 +19,22 @@ pub struct TimingModel {
     pub(crate) model: timing_model::TimingModel,
 }
 
-/// The small parts of times.
+/// Largest phase in turns: every whole number up to it is a double.
+const MOST_TURNS: f64 = 9e15;
+
+/// The small parts of times, where the times are finite.
 fn small_parts(t: &Numbers, rest: Option<Numbers>) -> PyResult<Vec<f64>> {
-    rest.map_or_else(|| Ok(vec![0.0; t.values.len()]), |rest| t.beside("rest", rest))
+    let rest = rest.map_or_else(|| Ok(vec![0.0; t.values.len()]), |rest| t.beside("rest", rest))?;
+    for (name, value) in t.values.iter().map(|t| ("t (s)", *t)).chain(rest.iter().map(|rest| ("rest (s)", *rest))) {
+        twofold::Error::ensure(value.is_finite(), name, value, "a finite number").map_err(raised)?;
+    }
+    Ok(rest)
+}
+
+/// Refuses phases that a double does not hold.
+fn check_turns(turns: impl Iterator<Item = i64>) -> PyResult<()> {
+    let most = turns.map(|whole| (whole as f64).abs()).fold(0.0, f64::max);
+    twofold::Error::ensure(most <= MOST_TURNS, "phase (turns)", most, "at most 9e15 in size").map_err(raised)
 }
 
 #[pymethods]
@@ -35,8 +48,8 @@ impl TimingModel {
 
     /// The names of the parameters, in the order of derivatives.
     #[classattr]
-    fn names() -> [&'static str; 12] {
-        TimingParameter::ALL.map(TimingParameter::key)
+    fn names(py: Python<'_>) -> PyResult<Bound<'_, PyTuple>> {
+        PyTuple::new(py, TimingParameter::ALL.map(TimingParameter::key))
     }
 
     /// The unit of each parameter.
@@ -75,6 +88,7 @@ impl TimingModel {
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let rest = small_parts(&t, rest)?;
         let found = t.map(py, |k, t| self.model.phase([t, rest[k]]))?;
+        check_turns(found.iter().map(|turns| turns.whole))?;
         let whole = t.shaped(py, found.iter().map(|turns| turns.whole as f64).collect(), &[])?;
         Ok((whole, t.shaped(py, found.iter().map(|turns| turns.fraction).collect(), &[])?))
     }
@@ -89,6 +103,7 @@ impl TimingModel {
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let rest = small_parts(&t, rest)?;
         let found = t.map(py, |k, t| self.model.phase_and_derivatives([t, rest[k]]))?;
+        check_turns(found.iter().map(|(turns, _)| turns.whole))?;
         let whole = t.shaped(py, found.iter().map(|(turns, _)| turns.whole as f64).collect(), &[])?;
         let fraction = t.shaped(py, found.iter().map(|(turns, _)| turns.fraction).collect(), &[])?;
         let derivatives = found.iter().flat_map(|(_, derivatives)| *derivatives).collect();
@@ -117,12 +132,13 @@ impl TimingModel {
         self.frequency() == other.frequency() && TimingParameter::ALL.into_iter().all(same)
     }
 
-    fn __repr__(&self) -> String {
+    fn __repr__(&self) -> PyResult<String> {
         let others = TimingParameter::ALL.into_iter().filter(|parameter| *parameter != TimingParameter::F0);
-        let others = others.filter(|parameter| self.model.value(*parameter) != 0.0);
+        let bare = timing_model::TimingModel::new(self.frequency(), &[]).map_err(raised)?;
+        let others = others.filter(|parameter| self.model.value(*parameter) != bare.value(*parameter));
         let others: String = others.map(|one| format!(", {}={:?}", one.key(), self.model.value(one))).collect();
         let [f0, rest] = self.frequency();
-        format!("TimingModel({f0:?}, {rest:?}{others})")
+        Ok(format!("TimingModel({f0:?}, {rest:?}{others})"))
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {

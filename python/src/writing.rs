@@ -47,8 +47,8 @@ pub fn written<T: Send>(
 ) -> PyResult<(Table, T)> {
     let stopped = OnceLock::new();
     let mut writing = Writing { bytes: Vec::new(), looked: 0, stopped: &stopped };
+    let mut told = -STEP;
     let result = py.detach(|| {
-        let mut told = -STEP;
         let mut tell = |part: f64| {
             let Some(progress) = progress.as_ref().filter(|_| part >= told + STEP && stopped.get().is_none()) else {
                 return;
@@ -65,5 +65,8 @@ pub fn written<T: Send>(
         return Err(error);
     }
     let found = result.map_err(raised)?;
+    if let Some(progress) = progress.filter(|_| told < 1.0) {
+        progress.call1(py, (1.0,))?;
+    }
     Ok((Table::of_csv(bytes).map_err(raised)?, found))
 }

@@ -162,3 +162,13 @@ def test_what_is_refused(model, data):
         TimingLikelihood(model, data, marginalised=["wobble"])
     with pytest.raises(twofold.Error, match="data: no arrival times"):
         TimingLikelihood(model, twofold.TimingData(width_times=[0.0], widths=[1e-3], width_sigmas=[1e-6]))
+
+
+def test_numbers_of_the_data_are_kept():
+    """A model whose F0 is off by five turns over the data, which a fit by their numbers finds."""
+    truth = twofold.TimingModel(2.5, f1=-3.7e-13)
+    numbers = np.arange(300) * 2e6
+    times, rest = truth.arrival(numbers)
+    data = twofold.TimingData(times, 1e-4, rest=rest, numbers=numbers)
+    off = truth.moved(f0=5 / times[-1])
+    assert TimingLikelihood(off, data).log_likelihood({"f0_offset": -5 / times[-1]}) == pytest.approx(300 * (-np.log(1e-4) - np.log(2 * np.pi) / 2), rel=1e-6)

@@ -227,6 +227,17 @@ def test_what_is_refused(sweep):
         sweep.rows(90, 101)
 
 
+@pytest.mark.parametrize("path", ["", ".", "table.parquet"])
+def test_a_path_that_is_no_table_is_refused_before_the_work(path, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    sweep = twofold.Sweep(toml='scene = "tp-1"\n[[vary]]\nparameter = "star.spin"\nvalues = [1.0]\n[time]\ntimes = [1.0]\n')
+    with ThreadPoolExecutor(1) as executor, pytest.raises(twofold.Error, match="path"):
+        sweep.write(path, executor)
+    with ThreadPoolExecutor(1) as executor, pytest.raises(twofold.Error, match="scenes_at_once = 0"):
+        sweep.write("table.csv", executor, scenes_at_once=0)
+    assert not list(tmp_path.iterdir())
+
+
 def test_any_built_in_scene_is_a_base():
     """A template can be varied; one with spin-down or a bulge is refused for that, not as unknown."""
     text = """

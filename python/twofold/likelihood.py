@@ -32,7 +32,8 @@ class TimingLikelihood(_Likelihood):  # type: ignore[misc, valid-type]
     `parameters` of a call are values of a model's parameters (`TimingModel.names`) that replace those of `model`. F0 is the exception: `f0_offset` (Hz) is what is added to the model's, since a double of F0 itself is too coarse for decades of data.
     Widths of pulses in the data are not used.
 
-    The pulses have the numbers of the turns nearest to them at `model`, or `numbers`; they keep them. So the model must be right to half a turn at each of them.
+    The pulses have the numbers of the data (`TimingData(numbers=...)`, `-pn` of a `.tim`) or `numbers`, and where these are not known those of the turns nearest to them at `model`; they keep them. So the model must be right to half a turn
+    at the first pulse with a number, and at each without.
 
     `marginalised` names parameters on which the phase depends linearly, to all that matters (`"phase"`, `"f0"`, `"f1"`, `"f2"`): they are integrated over with flat priors, exactly, and do not appear among the parameters. The sampler has less to do, and finds the same. The prior's width is left out, so that evidences compare only where the same are marginalised.
 
@@ -57,14 +58,15 @@ class TimingLikelihood(_Likelihood):  # type: ignore[misc, valid-type]
         self.model, self.marginalised = model, tuple(marginalised)
         self._t, self._rest = np.ascontiguousarray(times[:, 0]), np.ascontiguousarray(times[:, 1])
         whole, fraction, derivatives = model.phase_and_derivatives(self._t, self._rest)
-        if numbers is None:
-            self.numbers = whole + np.rint(fraction)
-        else:
-            # Numbers count from any one: that of the first arrival belongs to the nearest turn.
-            given = np.array(numbers, dtype=float)
-            if given.shape != self._t.shape or not np.array_equal(given, np.rint(given)):
-                raise Error(f"numbers: an array of shape {given.shape}: allowed are {len(self._t)} whole numbers")
-            self.numbers = given - given[0] + whole[0] + np.rint(fraction[0])
+        given = np.array(data.numbers if numbers is None else numbers, dtype=float)
+        known = ~np.isnan(given)
+        if given.shape != self._t.shape or not np.array_equal(given[known], np.rint(given[known])):
+            raise Error(f"numbers: an array of shape {given.shape}: allowed are {len(self._t)} whole numbers, NaN where one is not known")
+        self.numbers = whole + np.rint(fraction)
+        if known.any():
+            # Numbers count from any one: the first that is known belongs to the nearest turn.
+            first = int(np.argmax(known))
+            self.numbers[known] = given[known] + (self.numbers[first] - given[first])
         # Turns a second at each arrival: residuals are times.
         step = 0.5 / model.frequency[0]
         before, after = (model.phase(self._t + sign * step, self._rest) for sign in (-1, 1))
@@ -119,6 +121,8 @@ class TimingLikelihood(_Likelihood):  # type: ignore[misc, valid-type]
         except Error:
             # What is no parameter stays an error; what leaves its range is not probable.
             self._check(parameters)
+            return -np.inf
+        if not np.isfinite(residuals).all():
             return -np.inf
         left = residuals - self._basis @ (self._basis.T @ residuals)
         return float(self._norm - left @ left / 2)

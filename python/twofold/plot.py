@@ -413,9 +413,10 @@ def _words(table: Table, name: str) -> list[str]:
 
 def _sampled(scene: Scene, until: float | None, samples: int) -> Scene:
     """The scene with other times."""
-    if until is None:
-        return scene
-    start = scene.span[0]
+    if samples < 2:
+        raise Error(f"samples = {samples}: allowed is a whole number above one")
+    start, end = scene.span
+    until = end if until is None else until
     if until == start:
         raise Error(f"until = {until}: allowed is another time than the start of the scene")
     times = {"span": until - start, "samples": samples, "end": None, "years": None, "times": None}

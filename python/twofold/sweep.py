@@ -72,9 +72,13 @@ class Sweep(_twofold.Sweep):
         The file grows as `path.partial` with a journal beside it. After an interruption, a dead worker or a loss of power the same call, or `twofold sweep`, goes on
         where it ended. Scenes that failed are in `path.errors.csv`, with the reason.
         """
+        path = os.fspath(path)
+        if not path or os.path.isdir(path) or path.endswith(".parquet"):
+            raise _twofold.Error(f"path = {path!r}: allowed is the name of a file of CSV; `twofold sweep` writes Parquet")
+        self._sizes(scenes_at_once, parts_at_once)
         # Workers begin before the file is open: forked ones would have its lock as well, and keep it.
         executor.submit(_version)
-        file = SweepFile(self, os.fspath(path), replace=replace)
+        file = SweepFile(self, path, replace=replace)
         try:
             with closing(self._parts(executor, file.next, scenes_at_once, parts_at_once)) as parts:
                 for stop, rows, errors, failed in parts:
@@ -86,13 +90,18 @@ class Sweep(_twofold.Sweep):
             # The traceback of an error keeps this frame: without this the file would stay locked for who goes on.
             del file
 
-    def _parts(self, executor: Executor, first: int, scenes_at_once: int | None, parts_at_once: int) -> Generator[_Part, None, None]:
-        """The parts from the scene `first` on, in order."""
+    def _sizes(self, scenes_at_once: int | None, parts_at_once: int) -> int:
+        """The scenes of a part."""
         if scenes_at_once is None:
             scenes_at_once = max(8, min(256, len(self) // 256))
         for name, value in (("scenes_at_once", scenes_at_once), ("parts_at_once", parts_at_once)):
             if value < 1:
                 raise _twofold.Error(f"{name} = {value}: allowed is a whole number above zero")
+        return scenes_at_once
+
+    def _parts(self, executor: Executor, first: int, scenes_at_once: int | None, parts_at_once: int) -> Generator[_Part, None, None]:
+        """The parts from the scene `first` on, in order."""
+        scenes_at_once = self._sizes(scenes_at_once, parts_at_once)
         waiting: deque[tuple[int, Future[tuple[bytes, bytes, int]]]] = deque()
         version = _version()
         try:

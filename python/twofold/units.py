@@ -149,11 +149,11 @@ def angles(of: Motion, t: u.Quantity | Time) -> u.Quantity:
 
 
 def arrivals(of: Pulsar, epochs: Time | None = None, *, derivatives: int | None = None, causes: bool = False) -> QTable:
-    """The pulses nearest to dates, as `Pulsar.arrivals` finds them. What is fitted is in `meta`: `F0`, `F1` and `F2` as far as they were, and `PEPOCH`."""
+    """The pulses nearest to dates, as `Pulsar.arrivals` finds them. What is fitted is in `meta`: `F0` with what a double leaves of it in `F0_REST`, `F1` and `F2` as far as they were, and `PEPOCH`."""
     dates = None if epochs is None else np.atleast_1d(epochs.tdb.mjd)
     timing = of.arrivals(dates, derivatives=derivatives, causes=causes)
     made = table(timing.table)
-    made.meta["F0"] = sum(timing.frequency) * u.Hz
+    made.meta["F0"], made.meta["F0_REST"] = (part * u.Hz for part in timing.frequency)
     for k, derivative in enumerate(timing.derivatives, 1):
         made.meta[f"F{k}"] = derivative * u.Hz / u.s**k
     made.meta["PEPOCH"] = Time(timing.epoch, format="mjd", scale="tdb")

@@ -155,11 +155,12 @@ class Waveform:
             here = (t < self.reference) == (side == 1)
             if not here.any():
                 continue
-            k = np.floor((t[here] - self.reference) / step).astype(np.int64)
-            if k.max() >= 1_000_000:
+            turns = np.floor((t[here] - self.reference) / step)
+            if turns.max() >= 1_000_000:
                 raise Error(
                     f"dt = {abs(t[here] - self.reference).max():.3e} s in size: allowed are a million knots, up to {1e6 * self.knot_distance:.3e} s; take a reference nearby"
                 )
+            k = turns.astype(np.int64)
             phases, rates = self._knots(side, int(k.max()) + 2)
             start = self.reference + step * k
             gap = (self.reference + step * (k + 1)) - start

@@ -42,7 +42,7 @@ const LARGEST: f64 = 0.1;
 /// data do not limit it, and it is infinite.
 ///
 /// # Errors
-/// As for [`fit_timing`](super::fit_timing) by the model; [`Error::Domain`] for a probability outside 0 to 1, for a fitted model with a wobble, and for unknowns on which residuals without a wobble do not depend: `wobble`, `chi`, `precession_phase`, `precession_rate` and `torque_share`. Where a wobble does not move the pulses, as with `chi` a right angle, the limit is infinite.
+/// [`InferenceError::TooFew`] for no more arrivals than unknowns; as for [`fit_timing`](super::fit_timing) by the model; [`Error::Domain`] for a probability outside 0 to 1, for a fitted model with a wobble, and for unknowns on which residuals without a wobble do not depend: `wobble`, `chi`, `precession_phase`, `precession_rate` and `torque_share`. Where a wobble does not move the pulses, as with `chi` a right angle, the limit is infinite.
 pub fn wobble_limits(
     fitted: &TimingModel,
     data: &TimingData,
@@ -63,6 +63,9 @@ pub fn wobble_limits(
         let [old_rate, old_phase] = [PrecessionRate, PrecessionPhase].map(|of| fitted.value(of));
         fitted.moved(&[(Wobble, -wobble), (PrecessionRate, rate - old_rate), (PrecessionPhase, phase - old_phase)])
     };
+    if data.arrivals.len() <= unknowns.len() {
+        return Err(InferenceError::TooFew { data: data.arrivals.len(), unknowns: unknowns.len() });
+    }
     let rest = without(0.0, 0.0)?;
     let data = data.numbered(&rest)?;
     let (residuals, jacobian) = data.linearised(&rest, unknowns)?;
@@ -144,6 +147,7 @@ impl Posterior {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::inference::MeasuredArrival;
 
     /// Without a pull and with one width the wobble has half a normal distribution; far from zero a normal one.
     #[test]
@@ -167,5 +171,21 @@ mod tests {
         assert!(limits.iter().all(|limit| (limit / limits[0] - 1.0).abs() < 1e-3), "{limits:?}");
         let blind = Posterior { curvature: Matrix2::new(1.0, 0.0, 0.0, 0.0), pull: Vector2::zeros() };
         assert_eq!(blind.limit(1.0, 0.95).limit, f64::INFINITY);
+    }
+
+    #[test]
+    fn as_many_data_as_unknowns_limit_nothing() {
+        let model = TimingModel::new([2.5, 0.0], &[(TimingParameter::Chi, 1.4)]).expect("a model");
+        let arrival = |time: f64| MeasuredArrival { time: [time, 0.0], sigma: 1e-6, number: None };
+        let unknowns = [TimingParameter::Phase, TimingParameter::F0];
+        for times in [&[][..], &[0.0, 1e7]] {
+            let arrivals = times.iter().map(|time| arrival(*time)).collect();
+            let data = TimingData { arrivals, ..TimingData::default() };
+            let found = wobble_limits(&model, &data, &unknowns, &[1e-6], 0.95);
+            assert!(
+                matches!(found, Err(InferenceError::TooFew { data, unknowns: 2 }) if data == times.len()),
+                "{found:?}"
+            );
+        }
     }
 }

@@ -419,7 +419,7 @@ class TimingData:
         Numbers of the pulses, NaN where they are not known.
         """
     @staticmethod
-    def read(paths: SupportsGetItem[int, str], epoch: Any, *, observe: str | None = None) -> TimingData:
+    def read(paths: SupportsGetItem[int, str | PathLike[str]], epoch: Any, *, observe: str | None = None) -> TimingData:
         """
         The data of files: a `.tim` (FORMAT 1, barycentred), or tables as `Pulsar.arrivals` has them, whose standard deviations `observe` gives as `"arrivals:1e-6,widths:1e-5"` (s). Times
         are counted from the epoch of a model (MJD, TDB).
@@ -448,7 +448,7 @@ class TimingModel:
 
     Times are in seconds since the epoch, the sum of two doubles `t + rest`; arrays of any shape are taken.
     """
-    names: Final[list[str]]
+    names: Final[tuple]
     """
     The names of the parameters, in the order of derivatives.
     """
