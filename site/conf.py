@@ -17,6 +17,7 @@ extensions = [
     "sphinx.ext.autodoc",
     "sphinx_design",
     "sphinxcontrib.katex",
+    "param_table",
     "run_command",
 ]
 # Docstrings write code in single backticks, as Markdown does.
