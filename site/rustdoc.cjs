@@ -30,7 +30,7 @@ function place(equations) {
     }
 }
 const style =
-    ".equation { display: flex; align-items: center; gap: 1em; overflow-x: auto; margin: 0.6em 0 0.9em } " +
+    ".equation { display: flex; align-items: center; gap: 1em; overflow: auto hidden; padding: 0.3em 0; margin: 0.3em 0 0.6em } " +
     ".equation .katex-error, .equation annotation { display: none } .equation > span:last-child { margin-left: auto }";
 const folder = process.argv[4];
 fs.mkdirSync(`${folder}/doc`, { recursive: true });
