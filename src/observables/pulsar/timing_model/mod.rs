@@ -32,7 +32,7 @@ pub use parameter::TimingParameter;
 
 use core::f64::consts::{PI, TAU};
 
-use nalgebra::SVector;
+use nalgebra::{Const, SVector, U1};
 use num_dual::{Derivative, DualSVec64};
 
 use super::width::{PulseWidth, pulse_width};
@@ -195,8 +195,8 @@ impl TimingModel {
     /// `d` times the slowing.
     fn seeded(&self, t: [f64; 2]) -> Result<([Dual; COUNT], Dual, [f64; 2]), Error> {
         let tau = self.time.stretched_at(t)?;
-        let derivative = |k| Derivative::derivative_generic(nalgebra::Const, nalgebra::U1, k);
-        let seeded = core::array::from_fn(|k| Dual::new(self.values[k], derivative(k)));
+        let seed = |k| -> Derivative<f64, Const<COUNT>, U1> { Derivative::derivative_generic(Const, U1, k) };
+        let seeded = core::array::from_fn(|k| Dual::new(self.values[k], seed(k)));
         let (braking, precession, at) = (braking(&seeded), precession(&seeded), Dual::from_re(tau[0]));
         let late = secular_lateness(&braking, at) + late_by_torque(&braking, &precession, at);
         Ok((seeded, Dual::new(tau[0], late.eps * -self.time.slowing(tau[0])), tau))
@@ -204,7 +204,7 @@ impl TimingModel {
 }
 
 fn derivatives(value: &Dual) -> [f64; COUNT] {
-    let eps: SVector<f64, COUNT> = value.eps.unwrap_generic(nalgebra::Const, nalgebra::U1);
+    let eps: SVector<f64, COUNT> = value.eps.unwrap_generic(Const, U1);
     eps.into()
 }
 
