@@ -8,6 +8,7 @@ pub mod elliptic;
 pub(crate) mod four_lanes;
 #[cfg_attr(not(target_arch = "x86_64"), path = "unfused.rs")]
 pub(crate) mod fused;
+pub(crate) mod gauss;
 pub(crate) mod hermite;
 pub(crate) mod polynomial;
 #[cfg(target_arch = "x86_64")]

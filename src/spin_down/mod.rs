@@ -10,9 +10,11 @@
 //! `C ~ a^2`. [`StretchedTime`] is the map between both times; [`PulsarClock::braked`](crate::observables::pulsar::PulsarClock::braked) sees pulses through it.
 //! `docs/spin-down.md` derives it.
 
+mod precession;
 mod stretched_time;
 mod torque;
 
-pub use stretched_time::{Braking, Precession, StretchedTime};
+pub use precession::Precession;
+pub use stretched_time::{Braking, StretchedTime};
 pub(crate) use stretched_time::{late_by_torque, secular_lateness, slowing};
 pub use torque::TorqueHarmonics;

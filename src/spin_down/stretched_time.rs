@@ -1,8 +1,8 @@
 //! The time in which a star that slows down moves as one that does not.
 
-use core::f64::consts::TAU;
+use core::f64::consts::{FRAC_PI_2, TAU};
 
-use super::TorqueHarmonics;
+use super::{Precession, TorqueHarmonics};
 use crate::error::Error;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::scalar::Real;
@@ -31,17 +31,6 @@ pub struct Braking<S = f64> {
     pub torque_share: S,
 }
 
-/// The free precession of a star, with which its torque varies.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Precession<S = f64> {
-    /// The torque over one precession.
-    pub torque: TorqueHarmonics<S>,
-    /// The angle `psi` at the time zero (rad).
-    pub phase: S,
-    /// Its rate (rad per unit of stretched time): `epsilon Omega^z` without Lorentz violation.
-    pub rate: S,
-}
-
 /// The map between the time `t` and the stretched time `tau` of a star that slows down, `d tau = a dt` with `a = |L| / |L'|`.
 ///
 /// With `kappa` the mean rate of braking and `u = (1 + (n - 2) kappa tau)^(1 / (n - 2))`, the secular `1 / a`:
@@ -67,8 +56,7 @@ pub struct StretchedTime {
 impl StretchedTime {
     /// The time of a star that does not slow down.
     pub fn uniform() -> Self {
-        let torque = TorqueHarmonics { constant: 1.0, once: 0.0, twice: 0.0 };
-        let precession = Precession { torque, phase: 0.0, rate: 0.0 };
+        let precession = Precession::new([0.0, FRAC_PI_2, 0.0], 0.0, 0.0);
         let braking = Braking { rate: 0.0, index: 3.0, torque_share: 0.0 };
         Self { braking, precession, modulation: 0.0, secular: Vec::new() }
     }
@@ -87,6 +75,10 @@ impl StretchedTime {
         let mean = 1.0 - torque_share + torque_share * precession.torque.constant;
         Error::ensure(mean > 0.0, "mean braking torque", mean, "above zero: the magnetic axis may not stay along L")?;
         let modulation = modulation(torque_share, &precession.torque);
+        precession.check()?;
+        if precession.damping != 0.0 && rate != 0.0 {
+            Error::ensure(index == 3.0, "braking index with a damped wobble", index, "3")?;
+        }
         let Precession { torque, rate: w, .. } = *precession;
         if modulation * (torque.once.abs() + torque.twice.abs()) > 0.0 {
             let varying = (rate * modulation * (torque.once.abs() + torque.twice.abs() / 2.0) / w).abs();
@@ -136,6 +128,7 @@ impl StretchedTime {
     /// # Errors
     /// [`Error::Domain`] for times so long that the star loses or gains a tenth of its rotation, for braking indices above 3 or below 1 a tenth over `n - 2`.
     pub fn stretched_at(&self, time: [f64; 2]) -> Result<[f64; 2], Error> {
+        self.precession.check_time(time[0])?;
         if self.is_uniform() {
             return Ok(time);
         }
@@ -179,9 +172,10 @@ impl StretchedTime {
 
     /// The rate of rotation's own rate, `d ln a / dt` over that of the mean torque at the time zero: `a^(n - 1) (1 + g (a_1 cos psi + a_2 cos 2 psi))`.
     pub fn braking_over_mean(&self, tau: f64) -> f64 {
-        let torque = self.precession.torque;
-        let ((_, cos), (_, cos_2)) = self.phases(tau);
-        let varying = self.modulation * (torque.once * cos + torque.twice * cos_2);
+        let torque = TorqueHarmonics::new(self.precession.wobble_at(tau), self.precession.chi);
+        let psi = self.precession.phase_at(tau);
+        let mean = torque.constant - self.precession.torque.constant;
+        let varying = self.modulation * (mean + torque.once * psi.cos() + torque.twice * (2.0 * psi).cos());
         self.slowing(tau).powf(self.braking.index - 1.0) * (1.0 + varying)
     }
 
@@ -194,12 +188,15 @@ impl StretchedTime {
         3.0 * error * (self.braking.rate * self.modulation / self.precession.rate.powi(2)).abs()
     }
 
-    /// What the map leaves out at a time: what is of third order in `kappa`.
+    /// What the map leaves out at a time: what is of third order in `kappa`, and of third order in the damping of the wobble over the rate of the precession.
     pub fn truncation(&self, t: f64) -> f64 {
         let Braking { rate, index, .. } = self.braking;
         let Precession { torque, rate: w, .. } = self.precession;
-        if self.modulation == 0.0 || w == 0.0 || index == 3.0 {
+        if self.modulation == 0.0 || w == 0.0 {
             return 0.0;
+        }
+        if index == 3.0 {
+            return (rate * self.modulation).abs() * self.precession.truncation(t);
         }
         let varying = (rate * self.modulation / w).abs() * (torque.once.abs() + torque.twice.abs());
         let in_a_precession = (rate / w).abs().max(varying);
@@ -211,22 +208,24 @@ impl StretchedTime {
                 + varying * (rate * t * t).abs()
                 + varying * varying * t.abs())
     }
-
-    /// Sines and cosines of `psi` and of `2 psi`.
-    fn phases(&self, tau: f64) -> ((f64, f64), (f64, f64)) {
-        let psi = self.precession.phase + (self.precession.rate * tau) % TAU;
-        (psi.sin_cos(), (2.0 * psi).sin_cos())
-    }
 }
 
 /// `1 / u` at the stretched time with what the varying torque adds to it: `a` of [`StretchedTime`].
 pub(crate) fn slowing<S: Real>(braking: &Braking<S>, precession: &Precession<S>, tau: S) -> S {
-    let Precession { torque, rate: w, phase } = *precession;
+    let Precession { torque, rate: w, .. } = *precession;
     if braking.torque_share.re() == 0.0 && !S::HAS_DERIVATIVES || w.re() == 0.0 {
         return (-ln_slowness(braking, tau)).exp();
     }
-    let psi = phase + within(w * tau, TAU);
-    let varying = torque.once * psi.sin_cos().0 + torque.twice * (psi * 2.0).sin_cos().0 / 2.0;
+    let psi = precession.phase_at(tau);
+    let ((sin, cos), (sin_2, cos_2)) = (psi.sin_cos(), (psi * 2.0).sin_cos());
+    let varying = if precession.is_undamped() {
+        torque.once * sin + torque.twice * sin_2 / 2.0 + precession.slope(|real| real.slope_of_first(tau.re()))
+    } else {
+        let [a, b, c, d] = precession.damped_torque(tau).once;
+        torque.once * (a * sin + b * cos)
+            + torque.twice * (c * sin_2 + d * cos_2) / 2.0
+            + precession.mean_torque(tau)[0] * w
+    };
     (-ln_slowness(braking, tau + modulation(braking.torque_share, &torque) * varying / w)).exp()
 }
 
@@ -238,13 +237,13 @@ fn modulation<S: Real>(share: S, torque: &TorqueHarmonics<S>) -> S {
 /// `Q(tau) - Q(0)` of [`StretchedTime`]; from differences, so that the rounding is that of the result. At the index 3 without its derivative by the index.
 pub(crate) fn late_by_torque<S: Real>(braking: &Braking<S>, precession: &Precession<S>, tau: S) -> S {
     let Braking { rate, index, torque_share } = *braking;
-    let Precession { torque, rate: w, phase } = *precession;
+    let Precession { torque, rate: w, phase, .. } = *precession;
     let modulation = modulation(torque_share, &torque);
     if torque_share.re() == 0.0 && !S::HAS_DERIVATIVES || w.re() == 0.0 {
         return S::zero();
     }
     let three_less = S::from_f64(3.0) - index;
-    let half = within(w * tau, 2.0 * TAU) * 0.5;
+    let half = precession.swept(tau, 2.0 * TAU) * 0.5;
     // cos a - cos b = -2 sin((a + b) / 2) sin((a - b) / 2), sin a - sin b = 2 cos((a + b) / 2) sin((a - b) / 2).
     let differences = |multiple: f64| {
         let ((sin, cos), (across, _)) = (((phase + half) * multiple).sin_cos(), (half * multiple).sin_cos());
@@ -253,9 +252,19 @@ pub(crate) fn late_by_torque<S: Real>(braking: &Braking<S>, precession: &Precess
     let [[cos, sin], [cos_2, sin_2]] = [differences(1.0), differences(2.0)];
     let sum = |once: S, twice: S, divisor: f64| torque.once * once + torque.twice * twice / divisor;
     if index.re() == 3.0 {
-        return -rate * modulation / (w * w) * sum(cos, cos_2, 4.0);
+        if precession.is_undamped() {
+            let by_damping = precession.slope(|real| real.slope_of_second(tau.re()));
+            return rate * modulation * (by_damping - sum(cos, cos_2, 4.0) / (w * w));
+        }
+        // E cos psi - E_0 cos psi_0 = E (cos psi - cos psi_0) + (E - E_0) cos psi_0.
+        let [to, from] = [tau, S::zero()].map(|tau| precession.damped_torque(tau).twice);
+        let [a, b, c, d] = core::array::from_fn(|i| to[i] - from[i]);
+        let ((sin_start, cos_start), (sin_2_start, cos_2_start)) = (phase.sin_cos(), (phase * 2.0).sin_cos());
+        let once = to[0] * cos + a * cos_start + to[1] * sin + b * sin_start;
+        let twice = to[2] * cos_2 + c * cos_2_start + to[3] * sin_2 + d * sin_2_start;
+        return rate * modulation * (precession.mean_torque(tau)[1] - sum(once, twice, 4.0) / (w * w));
     }
-    let psi = phase + within(w * tau, TAU);
+    let psi = precession.phase_at(tau);
     let ((sin_psi, cos_psi), (sin_2_psi, cos_2_psi)) = (psi.sin_cos(), (psi * 2.0).sin_cos());
     let ln_u = ln_slowness(braking, tau);
     let fallen = |power: S| exp_less_one(power * ln_u);
@@ -303,7 +312,7 @@ fn terms(x: f64, most: usize) -> usize {
 }
 
 /// An angle less whole multiples of `turn` (rad).
-fn within<S: Real>(angle: S, turn: f64) -> S {
+pub(super) fn within<S: Real>(angle: S, turn: f64) -> S {
     let value = angle.re();
     angle - S::from_f64(value - value % turn)
 }
@@ -313,7 +322,7 @@ mod tests {
     use super::*;
 
     fn wobbling(index: f64, rate: f64, share: f64) -> StretchedTime {
-        let precession = Precession { torque: TorqueHarmonics::new(0.2, 1.3), phase: 0.7, rate: 0.013 };
+        let precession = Precession::new([0.2, 1.3, 0.7], 0.013, 0.0);
         StretchedTime::new(&Braking { rate, index, torque_share: share }, &precession).unwrap()
     }
 
@@ -377,7 +386,8 @@ mod tests {
         let torque = TorqueHarmonics::new(0.2, 1.3);
         let (phase, w, kappa) = (0.7_f64, 1e-6, 1e-12);
         let braking = Braking { rate: kappa, index: 3.0, torque_share: 1.0 };
-        let stretched = StretchedTime::new(&braking, &Precession { torque, phase, rate: w }).unwrap();
+        let precession = |rate: f64| Precession::new([0.2, 1.3, phase], rate, 0.0);
+        let stretched = StretchedTime::new(&braking, &precession(w)).unwrap();
         let g = 1.0 / torque.constant;
         let rate = kappa * g * (torque.once * phase.sin() + torque.twice * (2.0 * phase).sin() / 2.0) / w;
         let second = kappa * g * (torque.once * phase.cos() + torque.twice * (2.0 * phase).cos());
@@ -385,13 +395,12 @@ mod tests {
             let expected = tau * (rate + 0.5 * second * tau);
             assert!((stretched.late(tau) / expected - 1.0).abs() < 1e-8, "{tau}");
         }
-        let slow = Precession { torque, phase, rate: 1e-13 };
-        assert!(StretchedTime::new(&braking, &slow).is_err());
+        assert!(StretchedTime::new(&braking, &precession(1e-13)).is_err());
     }
 
     #[test]
     fn what_makes_no_sense_is_refused() {
-        let precession = Precession { torque: TorqueHarmonics::new(0.0, 0.0), phase: 0.0, rate: 1.0 };
+        let precession = Precession::new([0.0; 3], 1.0, 0.0);
         let braking = Braking { rate: 1e-6, index: 3.0, torque_share: 1.0 };
         let refused = |braking: Braking| StretchedTime::new(&braking, &precession).is_err();
         assert!(refused(braking) && !refused(Braking { torque_share: 0.9, ..braking }));

@@ -44,11 +44,15 @@ fn rates_of(problem: &Problem<f64>, spheroid: &RigidSpheroid<f64>, state: &BodyS
 /// dL/dt = ... - lambda L,  da/dt = -lambda a,  lambda = rate a^(n - 1) (1 + g (sin^2 theta_m - a_0))
 /// ```
 ///
-/// from `a = |L| / unit` on, with the magnetic axis of the `beam`.
+/// from `a = |L| / unit` on, with the magnetic axis of the `beam`. Friction at the rate `gamma` takes `n` towards `l = L / |L|`, and the body with it,
+///
+/// ```text
+/// dn/dt = ... + gamma a (n.l) (l - n (n.l))
+/// ```
 pub(crate) fn braked_states(
     problem: &Problem<f64>,
     (beam, unit, rate, index): (&Beam<f64>, f64, f64, f64),
-    [modulation, mean]: [f64; 2],
+    [modulation, mean, damping]: [f64; 3],
     times: &[f64],
     tolerance: f64,
 ) -> Result<Vec<BodyState<f64>>, String> {
@@ -63,6 +67,10 @@ pub(crate) fn braked_states(
         let cos = beam.direction(&state).dot(&state.momentum) / state.momentum.norm();
         let lambda = rate * a.powf(index - 1.0) * (1.0 + modulation * (1.0 - cos * cos - mean));
         rates.momentum -= state.momentum * lambda;
+        let (n, l) = (state.axis, state.momentum.normalize());
+        let turning = n.cross(&l) * (damping * a * n.dot(&l));
+        rates.axis += turning.cross(&n);
+        rates.equatorial_axis += turning.cross(&state.equatorial_axis);
         with_last(&rates, -lambda * a)
     };
     let start = problem.initial();

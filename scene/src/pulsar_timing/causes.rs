@@ -32,6 +32,7 @@ impl PulsarScene {
         let time = self.clock.stretched_time();
         let free = Problem::new(*self.problem.spheroid(), Matrix3::zeros(), *self.problem.initial())?;
         let free = PulsarClock::on(PhasedMotion::new(&free, 0.0)?, &self.beam, &self.observer)?;
+        let free = free.damped(time.precession().damping)?;
         let (period, braking) = (self.clock.period(), time.braking());
         let mut points = [const { Vec::new() }; 3];
         let mut spin_down_rate = Vec::with_capacity(timing.pulses.len());

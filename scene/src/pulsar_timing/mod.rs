@@ -76,7 +76,12 @@ impl PulsarScene {
         let clock = match &scene.spin_down {
             Some(spin_down) => {
                 let braking = spin_down.braking(1.0 / clock.period())?;
-                clock.braked(&braking).map_err(|error| format!("[spin_down]: {error}"))?
+                let in_section = |error| format!("[spin_down]: {error}");
+                let braked = clock.braked(&braking).map_err(in_section)?;
+                match spin_down.damping_time {
+                    Some(time) => braked.damped(1.0 / time).map_err(in_section)?,
+                    None => braked,
+                }
             }
             None => clock,
         };

@@ -1,5 +1,6 @@
 //! The section `[spin_down]`.
 
+use twofold::epoch::DAY;
 use twofold::spin_down::Braking;
 
 use super::Units;
@@ -14,6 +15,8 @@ pub struct SpinDown {
     pub index: IndexOrSecond,
     /// Share of the torque that goes with the magnetic axis.
     pub torque_share: f64,
+    /// Time (s) in which friction takes the tangent of the wobble down by a factor e.
+    pub damping_time: Option<f64>,
 }
 
 /// The braking index `n = F0 F2 / F1^2`, or `F2`.
@@ -52,7 +55,7 @@ pub(super) fn read(section: &Section<'_>, units: &Units) -> Result<SpinDown, Fau
     if !units.are_physical() {
         return Err(section.fault("[spin_down] is for a physical star (`star.mass`): allowed is a scene without it"));
     }
-    section.only("f1 f2 index torque")?;
+    section.only("f1 f2 index torque damping_time")?;
     section.not_both(&[("f2", "index")])?;
     let f1 = section.required("f1", "the first derivative of the frequency of the pulses at the epoch [Hz/s]")?;
     let f1 = f1.number_where("other than zero, from -1e-3 to 1e-3 [Hz/s]", |f1| f1 != 0.0 && f1.abs() <= 1e-3)?;
@@ -73,5 +76,14 @@ pub(super) fn read(section: &Section<'_>, units: &Units) -> Result<SpinDown, Fau
             }
         }
     };
-    Ok(SpinDown { f1, index, torque_share })
+    let damping_time = match section.optional("damping_time") {
+        None => None,
+        Some(_) if index != IndexOrSecond::Index(3.0) => {
+            return Err(
+                section.fault("`damping_time` is for a braking index of 3: allowed is `index = 3` without `f2`")
+            );
+        }
+        Some(entry) => Some(entry.number_in("from 1e-3 to 1e12 [d]", 1e-3..=1e12)? * DAY),
+    };
+    Ok(SpinDown { f1, index, torque_share, damping_time })
 }

@@ -1,14 +1,15 @@
 //! A pulsar as a clock: its pulse near any time, with turns counted without a break over any number of them. Eqs. (44), (47).
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 
 use super::edge_search::{EdgeSearch, Event};
 use super::margin::{ByStates, Margin};
 use super::position_angle::{position_angle, position_angle_rate};
 use super::rate_bounds::{RateBounds, rate_bounds};
-use super::timing_model::{TimingModel, TimingParameter::*};
+use super::timing_model::{TimingModel, TimingParameter::*, azimuth_ahead};
 use super::train::{PulseTrain, check_beam};
-use super::turn_count::TurnCount;
+use super::turn_count::{Look, TurnCount};
+use super::turns::phase;
 use super::{Beam, Pulse};
 use crate::dynamics::bulge::kinematic_momentum;
 use crate::dynamics::equations_of_motion::angular_velocity;
@@ -20,7 +21,7 @@ use crate::observables::Observer;
 use crate::observables::spectrum::QuasiPeriodicMotion;
 use crate::propagation::{Motion, PhasedMotion, Turning, largest_torque};
 use crate::solutions::averaged::AveragingOrder;
-use crate::spin_down::{Braking, Precession, StretchedTime, TorqueHarmonics};
+use crate::spin_down::{Braking, Precession, StretchedTime};
 
 /// Largest `x = C |s| I^xx / |L|^2` with a torque that goes with the magnetic axis: its two harmonics are those of free precession with the angles at the start, which are right to `x`.
 const STRONGEST: f64 = 1e-3;
@@ -79,15 +80,15 @@ pub struct ClockPulse {
     pub state: BodyState<f64>,
 }
 
-/// The motion near a time.
+/// The motion near a time, in stretched time.
 struct Near<'a> {
-    motion: &'a PhasedMotion,
+    clock: &'a PulsarClock,
     t: [f64; 2],
 }
 
 impl Near<'_> {
     fn at(&self, since: f64) -> BodyState<f64> {
-        self.motion.state((DoubleDouble::from(self.t) + since.into()).into())
+        self.clock.state((DoubleDouble::from(self.t) + since.into()).into())
     }
 }
 
@@ -95,11 +96,11 @@ impl Motion<f64> for Near<'_> {
     type State = BodyState<f64>;
 
     fn spheroid(&self) -> &RigidSpheroid<f64> {
-        self.motion.problem.spheroid()
+        self.clock.motion.problem.spheroid()
     }
 
     fn coefficients(&self) -> &Matrix3<f64> {
-        self.motion.problem.coefficients()
+        self.clock.motion.problem.coefficients()
     }
 
     fn span(&self) -> (f64, f64) {
@@ -111,11 +112,11 @@ impl Motion<f64> for Near<'_> {
     }
 
     fn error_estimate(&self, t: f64) -> f64 {
-        self.motion.error_estimate(self.t[0] + t)
+        self.clock.motion.error_estimate(self.t[0] + t)
     }
 
     fn turning(&self) -> Turning<'_> {
-        Turning::Equations { bulge: self.motion.problem.bulge() }
+        Turning::Equations { bulge: self.clock.motion.problem.bulge() }
     }
 }
 
@@ -160,26 +161,35 @@ impl PulsarClock {
     /// As for [`StretchedTime::new`]; [`Error::Domain`] for a torque that goes with the magnetic axis where `C |s| I^xx / |L|^2` is above 1e-3.
     pub fn braked(self, braking: &Braking) -> Result<Self, Error> {
         if braking.torque_share > 0.0 {
-            let strength = "C |s| I^xx / |L|^2 with a torque that goes with the magnetic axis";
-            Error::ensure(self.strength() <= STRONGEST, strength, self.strength(), "at most 1e-3")?;
+            self.require_weak("C |s| I^xx / |L|^2 with a torque that goes with the magnetic axis")?;
         }
-        let time = StretchedTime::new(braking, &self.precession()?.0)?;
+        let time = StretchedTime::new(braking, &self.precession(self.time.precession().damping)?)?;
         Ok(Self { time, ..self })
     }
 
-    /// The free precession, with the wobble `theta` and the angle `chi` of the magnetic axis to `n` (rad), of the state at the time zero.
-    fn precession(&self) -> Result<(Precession, [f64; 2]), Error> {
+    /// The pulsar with friction inside that damps the wobble at a `rate` (1 per unit of time): see [`Precession`]. The axis `n` is taken towards `L`, and the body turned on about it, from where they are without friction.
+    ///
+    /// # Errors
+    /// As for [`StretchedTime::new`]; [`Error::Domain`] where `C |s| I^xx / |L|^2` is above 1e-3.
+    pub fn damped(self, rate: f64) -> Result<Self, Error> {
+        self.require_weak("C |s| I^xx / |L|^2 with damping of the wobble")?;
+        let time = StretchedTime::new(self.time.braking(), &self.precession(rate)?)?;
+        Ok(Self { time, ..self })
+    }
+
+    fn require_weak(&self, with: &'static str) -> Result<(), Error> {
+        Error::ensure(self.strength() <= STRONGEST, with, self.strength(), "at most 1e-3")
+    }
+
+    /// The free precession of the state at the time zero.
+    fn precession(&self, damping: f64) -> Result<Precession, Error> {
         let state = self.motion.problem.initial();
         let (n, l) = (state.axis, state.momentum.normalize());
         let m = self.beam.direction(state);
         let [wobble, chi] = [l, m].map(|v| between(&n, &v));
-        let precession = Precession {
-            torque: TorqueHarmonics::new(wobble, chi),
-            phase: about(&n, &(m - n * n.dot(&m)), &l),
-            // The magnetic axis goes round n as e_x does, and psi is from it to L.
-            rate: -self.precession_rates()?[0],
-        };
-        Ok((precession, [wobble, chi]))
+        let phase = about(&n, &(m - n * n.dot(&m)), &l);
+        // The magnetic axis goes round n as e_x does, and psi is from it to L.
+        Ok(Precession::new([wobble, chi, phase], -self.precession_rates()?[0], damping))
     }
 
     /// The star as a [`TimingModel`]. That has free precession and a line of sight whose angle to `L` changes evenly: it is right to `x = C |s| I^xx / |L|^2` in angles, over times in which `L` turns by a small angle.
@@ -187,7 +197,8 @@ impl PulsarClock {
     /// # Errors
     /// As for [`TimingModel::new`] and [`precession_rates`](Self::precession_rates).
     pub fn timing_model(&self) -> Result<TimingModel, Error> {
-        let (precession, [wobble, chi]) = self.precession()?;
+        let Precession { wobble, chi, phase, rate: precession_rate, damping, .. } =
+            self.precession(self.time.precession().damping)?;
         let Braking { rate, index, torque_share } = *self.time.braking();
         let frequency = self.turns.per_time(&self.motion);
         let f1 = -rate * frequency.high;
@@ -197,12 +208,13 @@ impl PulsarClock {
             (F2, index * f1 * f1 / frequency.high),
             (Wobble, wobble),
             (Chi, chi),
-            (PrecessionPhase, precession.phase),
-            (PrecessionRate, precession.rate),
+            (PrecessionPhase, phase),
+            (PrecessionRate, precession_rate),
             (TorqueShare, torque_share),
             (Inclination, inclination),
             (InclinationRate, inclination_rate),
             (Rho, self.beam.half_opening),
+            (Damping, damping),
         ];
         let model = TimingModel::new(frequency.into(), &parameters)?;
         let look = self.turns.look(&self.motion, [0.0; 2])?;
@@ -251,15 +263,21 @@ impl PulsarClock {
     }
 
     /// Error of a midpoint at the time `t` by what the motion leaves out: that of directions over the rate of turns. Of a star that slows down also what the
-    /// stretched time leaves out, what angles that are off by `C |s| I^xx / |L|^2` do to the lateness by the varying torque, and what a `C` that does not fall would add to the precession of `L`.
+    /// stretched time leaves out, what angles that are off by `C |s| I^xx / |L|^2` do to the lateness by the varying torque, and what a `C` that does not fall would add to the precession of `L`; of a damped wobble what it changes of the rates by `C`.
     pub fn truncation(&self, t: f64) -> f64 {
         let of_motion = self.motion.truncation(t) / self.turns.rate(&self.motion);
-        if self.time.is_uniform() {
+        if self.time.is_uniform() && self.time.precession().damping == 0.0 {
             return of_motion;
         }
         let state = self.motion.problem.initial();
         let precession = self.strength() * state.momentum.norm() / self.motion.problem.spheroid().inertia_xx;
-        let rigid = precession * (self.time.braking().rate * t * t / self.turns.rate(&self.motion)).abs();
+        let slowed = self.time.braking().rate * t * t;
+        // Rates by a rigid C go with the square of the wobble, times 3 / 2 that of L and less than 3 / 2 that about n; the tilt is that of a wobble right to the strength.
+        let Precession { wobble, damping, .. } = *self.time.precession();
+        let now = self.time.precession().wobble_at(t);
+        let damped = if damping == 0.0 { 0.0 } else { 3.0 * (now.sin().powi(2) - wobble.sin().powi(2)) * t };
+        let tilt = self.strength() * (now - wobble).abs();
+        let rigid = (precession * (slowed.abs() + damped.abs()) + tilt) / self.turns.rate(&self.motion).abs();
         of_motion.abs() + self.time.truncation(t) + self.time.error_by_angles(self.strength()) + rigid
     }
 
@@ -278,8 +296,40 @@ impl PulsarClock {
         let near = DoubleDouble::from(t);
         move |since| {
             let tau = self.time.stretched_at((near + since.into()).into())?;
-            Ok(self.slowed(self.motion.state(tau), tau[0]))
+            Ok(self.slowed(self.state(tau), tau[0]))
         }
+    }
+
+    /// The state at a stretched time, with the wobble that friction has left and without braking.
+    fn state(&self, tau: [f64; 2]) -> BodyState<f64> {
+        let state = self.motion.state(tau);
+        let precession = self.time.precession();
+        let across = state.axis.cross(&state.momentum);
+        let (Some(across), true) = (Unit::try_new(across, 0.0), precession.damping != 0.0) else { return state };
+        let towards = Rotation3::from_axis_angle(&across, precession.wobble - precession.wobble_at(tau[0]));
+        let axis = towards * state.axis;
+        let on = Rotation3::from_axis_angle(&Unit::new_unchecked(axis), -precession.ahead(tau[0]));
+        BodyState { axis, equatorial_axis: on * (towards * state.equatorial_axis), ..state }
+    }
+
+    /// The turn at a stretched time.
+    fn look(&self, tau: [f64; 2]) -> Result<Look, Error> {
+        let look = self.turns.look(&self.motion, tau)?;
+        let precession = self.time.precession();
+        if precession.damping == 0.0 {
+            return Ok(look);
+        }
+        let sight = &self.observer.direction;
+        let damped = phase(&self.beam, sight, &self.state(tau))?;
+        // Their difference by free precession tells the whole turns.
+        let ahead = precession.ahead(tau[0]);
+        let psi = precession.phase_at(tau[0]);
+        let azimuth = |wobble: f64, psi: f64| azimuth_ahead(wobble, precession.chi, psi);
+        let change = azimuth(precession.wobble_at(tau[0]), psi) - azimuth(precession.wobble, psi - ahead) - ahead;
+        let counted = look.phase + change;
+        let turned = counted + wrapped(damped - counted);
+        let phase = wrapped(turned);
+        Ok(Look { number: look.number + ((turned - phase) / core::f64::consts::TAU).round() as i64, phase })
     }
 
     /// A state of the motion with its `L` at a stretched time.
@@ -300,10 +350,10 @@ impl PulsarClock {
         Error::ensure((t[0] + t[1]).is_finite(), "time t", t[0] + t[1], "a finite number")?;
         // The parts of a sum that is much less than they are would tell no turns apart.
         let t = self.time.stretched_at(DoubleDouble::sum(t[0], t[1]).into())?;
-        let look = self.turns.look(&self.motion, t)?;
+        let look = self.look(t)?;
         let period = self.period();
         let middle = -look.phase / self.turns.rate(&self.motion);
-        let near = Near { motion: &self.motion, t };
+        let near = Near { clock: self, t };
         let margin = ByStates {
             motion: &near,
             turning: near.turning(),

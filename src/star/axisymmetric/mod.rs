@@ -39,11 +39,17 @@
 
 mod multipoles;
 
+use core::num::NonZeroUsize;
+
 use crate::error::Error;
+use crate::numerics::gauss::unit_rule;
 use crate::numerics::scalar::Real;
 use crate::star::AxisymmetricTensor;
-use crate::star::axisymmetric::multipoles::{Multipoles, unit_rule};
+use crate::star::axisymmetric::multipoles::Multipoles;
 use crate::star::uniform_spheroid::UniformSpheroid;
+
+/// Nodes per integral beyond the highest degree.
+const MORE_NODES: usize = 16;
 
 /// An axisymmetric star that is its own mirror image in the equatorial plane, in spherical coordinates.
 pub trait AxisymmetricBody<S> {
@@ -109,7 +115,7 @@ pub fn axisymmetric_integrals<S: Real>(
 ) -> Result<AxisymmetricIntegrals<S>, Error> {
     let allowed = "a positive multiple of 4: half of it is used for the extrapolation";
     Error::ensure(degree > 0 && degree.is_multiple_of(4), "highest Legendre degree", degree as f64, allowed)?;
-    let rule = unit_rule(degree);
+    let rule = unit_rule(NonZeroUsize::MIN.saturating_add(degree + MORE_NODES - 1));
     let (equator, pole) = (body.surface(S::zero()).0, body.surface(S::one()).0);
     let oblate = equator.re() >= pole.re();
     for &(mu, _) in &rule {

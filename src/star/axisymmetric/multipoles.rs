@@ -1,16 +1,10 @@
 //! Sums and integrals of the multipole expansion.
 
 use core::f64::consts::PI;
-use core::num::NonZeroUsize;
-
-use gauss_quad::GaussLegendre;
 
 use crate::numerics::scalar::Real;
 use crate::star::AxisymmetricTensor;
 use crate::star::axisymmetric::{AxisymmetricBody, AxisymmetricIntegrals};
-
-/// Nodes per integral beyond the highest degree.
-const MORE_NODES: usize = 16;
 
 /// Angular moments at one radius for one degree: `M_l`, `J_l`, `K_l`.
 type Moments<S> = [S; 3];
@@ -161,33 +155,6 @@ impl<S: Real> Sum<S> {
             },
             c: difference * 0.5,
             c_error: tail.re().abs() * 0.5,
-        }
-    }
-}
-
-/// Gauss-Legendre nodes and weights on [0, 1], enough for polynomials and densities up to `degree`.
-///
-/// The nodes come from the crate `gauss-quad` (Bogaert's expansions, good to rounding for any number of nodes): it is
-/// maintained, and without its default features it depends on `nalgebra` alone, which is here already.
-pub(super) fn unit_rule(degree: usize) -> Vec<(f64, f64)> {
-    let nodes = NonZeroUsize::MIN.saturating_add(degree + MORE_NODES - 1);
-    GaussLegendre::new(nodes).iter().map(|&(x, w)| (0.5 * (x + 1.0), 0.5 * w)).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_rule_has_sixteen_nodes_beyond_the_degree() {
-        for degree in [4, 12] {
-            let rule = unit_rule(degree);
-            assert_eq!(rule.len(), degree + 16);
-            // On [0, 1], exact for all powers below twice the number of nodes.
-            for power in [0, 1, 7, 2 * (degree as i32 + 16) - 1] {
-                let integral: f64 = rule.iter().map(|(t, w)| w * t.powi(power)).sum();
-                assert!((integral * f64::from(power + 1) - 1.0).abs() < 1e-13, "{degree} {power}");
-            }
         }
     }
 }

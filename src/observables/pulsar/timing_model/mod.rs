@@ -1,5 +1,5 @@
 //! The pulses of a wobbling pulsar that slows down, as a timing program needs them: the phase at a time, and the width of the pulse there, with
-//! derivatives by [twelve parameters](TimingParameter).
+//! derivatives by [its parameters](TimingParameter).
 //!
 //! ```text
 //! phase(t) = phase + F0 tau + B(psi) / 2 pi + (F2 - 3 F1^2 / F0) t^3 / 6,    psi = psi_0 + w tau,    t = tau + kappa tau^2 / 2 + Q(tau) - Q(0),    kappa = -F1 / F0
@@ -40,9 +40,7 @@ use crate::error::Error;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::scalar::Real;
 pub use crate::solutions::averaged::Turns;
-use crate::spin_down::{
-    Braking, Precession, StretchedTime, TorqueHarmonics, late_by_torque, secular_lateness, slowing,
-};
+use crate::spin_down::{Braking, Precession, StretchedTime, late_by_torque, secular_lateness, slowing};
 use TimingParameter::*;
 
 /// How many parameters there are.
@@ -151,7 +149,7 @@ impl TimingModel {
     }
 
     fn phase_at(&self, tau: [f64; 2], t: f64) -> Turns {
-        let rest = self.value(Phase) + beyond_dipole(&self.values, t) + geometry(&self.values, tau[0]) / TAU;
+        let rest = self.value(Phase) + beyond_dipole(&self.values, t) + geometry(self.time.precession(), tau[0]) / TAU;
         Turns::at(rest, self.frequency, tau.into())
     }
 
@@ -164,7 +162,7 @@ impl TimingModel {
         let phase = seeded[Phase as usize]
             + seeded[F0 as usize] * moved
             + beyond_dipole(&seeded, t[0])
-            + geometry(&seeded, moved) / TAU;
+            + geometry(&precession(&seeded), moved) / TAU;
         Ok((self.phase_at(tau, t[0]), derivatives(&phase)))
     }
 
@@ -221,16 +219,19 @@ fn beyond_dipole<S: Real>(values: &[S; COUNT], t: f64) -> S {
 }
 
 fn precession<S: Real>(values: &[S; COUNT]) -> Precession<S> {
-    let [wobble, chi, phase, rate] =
-        [Wobble, Chi, PrecessionPhase, PrecessionRate].map(|parameter| values[parameter as usize]);
-    Precession { torque: TorqueHarmonics::new(wobble, chi), phase, rate }
+    let [wobble, chi, phase, rate, damping] =
+        [Wobble, Chi, PrecessionPhase, PrecessionRate, Damping].map(|parameter| values[parameter as usize]);
+    Precession::new([wobble, chi, phase], rate, damping)
 }
 
-/// `B(psi)` (rad): by how much the azimuth of the magnetic axis about `L` is ahead of its mean.
-fn geometry<S: Real>(values: &[S; COUNT], tau: S) -> S {
-    let [wobble, chi, phase, rate] =
-        [Wobble, Chi, PrecessionPhase, PrecessionRate].map(|parameter| values[parameter as usize]);
-    let ((sin, cos), (sin_chi, cos_chi)) = ((phase + rate * tau).sin_cos(), chi.sin_cos());
+/// By how much the magnetic axis about `L` is ahead of its mean (rad).
+fn geometry<S: Real>(precession: &Precession<S>, tau: S) -> S {
+    azimuth_ahead(precession.wobble_at(tau), precession.chi, precession.phase_at(tau)) - precession.ahead(tau)
+}
+
+/// `B(psi)` (rad): by how much the azimuth of the magnetic axis about `L` is ahead of that of `n` and of `pi - psi`.
+pub(super) fn azimuth_ahead<S: Real>(wobble: S, chi: S, psi: S) -> S {
+    let ((sin, cos), (sin_chi, cos_chi)) = (psi.sin_cos(), chi.sin_cos());
     let (sin_wobble, half) = (wobble.sin_cos().0, (wobble * 0.5).sin_cos().0);
     let less = half * half * 2.0;
     let along = sin_chi * (S::one() - less * cos * cos) - sin_wobble * cos_chi * cos;
@@ -241,8 +242,9 @@ fn geometry<S: Real>(values: &[S; COUNT], tau: S) -> S {
 /// Azimuth (rad) about `L` from edge to edge of a pulse, Eq. (56) `[pulsewid]`.
 fn azimuth_of_pulse<S: Real>(values: &[S; COUNT], tau: S, t: f64) -> Option<S> {
     let of = |parameter: TimingParameter| values[parameter as usize];
-    let psi = of(PrecessionPhase) + of(PrecessionRate) * tau;
-    let ((sin, cos), (sin_psi, cos_psi), (sin_chi, cos_chi)) = (of(Wobble).sin_cos(), psi.sin_cos(), of(Chi).sin_cos());
+    let precession = precession(values);
+    let (wobble, psi) = (precession.wobble_at(tau), precession.phase_at(tau));
+    let ((sin, cos), (sin_psi, cos_psi), (sin_chi, cos_chi)) = (wobble.sin_cos(), psi.sin_cos(), of(Chi).sin_cos());
     // The magnetic axis along L and across it: towards the azimuth of n, and a quarter turn from there.
     let along = cos * cos_chi + sin * sin_chi * cos_psi;
     let (towards, beside) = (sin * cos_chi - cos * sin_chi * cos_psi, sin_chi * sin_psi);

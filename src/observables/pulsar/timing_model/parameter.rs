@@ -27,13 +27,15 @@ pub enum TimingParameter {
     InclinationRate,
     /// Semi-open angle of the beam (rad).
     Rho,
+    /// Rate `gamma` at which friction damps the wobble, `tan theta` as `exp(-gamma t)` (1/s).
+    Damping,
 }
 
 use TimingParameter::*;
 
 impl TimingParameter {
     /// Every one.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Phase,
         F0,
         F1,
@@ -46,6 +48,7 @@ impl TimingParameter {
         Inclination,
         InclinationRate,
         Rho,
+        Damping,
     ];
 
     fn names(self) -> [&'static str; 2] {
@@ -62,6 +65,7 @@ impl TimingParameter {
             Inclination => ["inclination", "rad"],
             InclinationRate => ["inclination_rate", "rad/s"],
             Rho => ["rho", "rad"],
+            Damping => ["damping", "1/s"],
         }
     }
 

@@ -1,0 +1,252 @@
+//! Free precession, with a wobble that friction inside the star damps.
+
+use core::f64::consts::{PI, TAU};
+use core::num::NonZeroUsize;
+use std::sync::LazyLock;
+
+use super::TorqueHarmonics;
+use super::stretched_time::within;
+use crate::error::Error;
+use crate::numerics::gauss::unit_rule;
+use crate::numerics::scalar::Real;
+
+/// Largest damping in a radian of the precession: what is left out goes with its third power.
+const MOST_DAMPING: f64 = 0.1;
+
+/// Largest damping since the time zero. The averages over that time are analytic up to `i pi / 2` from it: Gauss' formula of [`NODES`] nodes is right to 3.4^(-32) = 1e-17 of them.
+const MOST_DAMPED: f64 = 2.0;
+
+/// Nodes of Gauss' formula.
+const NODES: NonZeroUsize = NonZeroUsize::new(16).unwrap();
+
+static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| unit_rule(NODES));
+
+/// The free precession of a star, with which its torque varies.
+///
+/// Friction inside the star leaves `L` as it is and takes the wobble `theta` away, `d theta / d tau = -gamma sin theta cos theta`:
+///
+/// ```text
+/// tan theta = tan theta_0 exp(-gamma tau),    d psi / d tau = w cos theta / cos theta_0
+/// ```
+///
+/// with the time `tau` in which the star does not slow down. Of a prolate star friction raises the wobble, and `gamma` is below zero.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Precession<S = f64> {
+    /// Wobble angle `theta_0` of the symmetry axis `n` to `L` at the time zero (rad).
+    pub wobble: S,
+    /// Angle `chi` of the magnetic axis to `n` (rad).
+    pub chi: S,
+    /// The angle `psi` about `n`, from the part of the magnetic axis across `n` to that of `L`, at the time zero (rad).
+    pub phase: S,
+    /// Its rate `w` at the time zero (rad per unit of stretched time): `epsilon Omega^z` without Lorentz violation.
+    pub rate: S,
+    /// Rate `gamma` at which friction damps the wobble (1 per unit of stretched time).
+    pub damping: S,
+    /// The torque over one precession with the wobble at the time zero.
+    pub(super) torque: TorqueHarmonics<S>,
+    /// `sin^2 theta_0` and `cos^2 theta_0`.
+    squares: [S; 2],
+}
+
+/// Averages of a damped wobble since the time zero.
+struct Averages<S> {
+    /// Of `cos theta / cos theta_0 - 1`.
+    rate: S,
+    /// Of `sin^2 theta - sin^2 theta_0`.
+    square: S,
+    /// Of the same, weighted by the time that is left: half of it for a constant.
+    square_twice: S,
+}
+
+/// What a slow damping makes of the oscillating torque.
+pub(super) struct DampedTorque<S> {
+    /// Of its first integral over `a_1 sin psi / w`, `a_1 cos psi / w`, `a_2 sin 2 psi / (2 w)` and `a_2 cos 2 psi / (2 w)`.
+    pub(super) once: [S; 4],
+    /// Of its second over `-a_1 cos psi / w^2`, `-a_1 sin psi / w^2`, `-a_2 cos 2 psi / (4 w^2)` and `-a_2 sin 2 psi / (4 w^2)`.
+    pub(super) twice: [S; 4],
+}
+
+impl<S: Real> Precession<S> {
+    /// The precession with its angles (rad) at the time zero, the rate of `psi`, and that of the damping.
+    pub fn new([wobble, chi, phase]: [S; 3], rate: S, damping: S) -> Self {
+        let (sin, cos) = wobble.sin_cos();
+        Self {
+            wobble,
+            chi,
+            phase,
+            rate,
+            damping,
+            torque: TorqueHarmonics::new(wobble, chi),
+            squares: [sin * sin, cos * cos],
+        }
+    }
+
+    /// Whether the wobble stays. Then a dual number has its derivative by the damping added to it.
+    pub(super) fn is_undamped(&self) -> bool {
+        self.damping.re() == 0.0
+    }
+
+    /// What a damping of zero has of derivatives, times the slope by it; zero for a real number.
+    pub(super) fn slope(&self, slope: impl FnOnce(&Precession) -> f64) -> S {
+        if !S::HAS_DERIVATIVES {
+            return S::zero();
+        }
+        let [wobble, chi, phase, rate] = [self.wobble, self.chi, self.phase, self.rate].map(S::re);
+        self.damping * slope(&Precession::new([wobble, chi, phase], rate, 0.0))
+    }
+
+    /// The wobble angle at a stretched time (rad).
+    pub fn wobble_at(&self, tau: S) -> S {
+        let (sin, cos) = self.wobble.sin_cos();
+        if self.is_undamped() {
+            return self.wobble - self.damping * (tau * sin * cos).re();
+        }
+        let x = self.damping * tau;
+        (sin * (-x).exp()).atan2(cos)
+    }
+
+    /// The angle `psi` at a stretched time, less whole turns of `w tau` (rad).
+    pub fn phase_at(&self, tau: S) -> S {
+        self.phase + self.swept(tau, TAU)
+    }
+
+    /// By how much `psi` has grown, less whole multiples of `turn`, of `w tau` (rad).
+    pub(super) fn swept(&self, tau: S, turn: f64) -> S {
+        within(self.rate * tau, turn) + self.ahead(tau)
+    }
+
+    /// By how much damping puts `psi` ahead (rad): a smaller wobble precesses faster.
+    pub fn ahead(&self, tau: S) -> S {
+        if self.is_undamped() {
+            let [rate, tau, sine] = [self.rate.re(), tau.re(), self.squares[0].re()];
+            return self.damping * (0.5 * rate * tau * tau * sine);
+        }
+        self.rate * tau * self.averages(tau).rate
+    }
+
+    /// Integral of the mean torque's change, `a_0(theta) - a_0(theta_0)`, and the integral of that.
+    pub(super) fn mean_torque(&self, tau: S) -> [S; 2] {
+        let slope = self.slope_of_mean_torque();
+        let Averages { square, square_twice, .. } = self.averages(tau);
+        [slope * square * tau, slope * square_twice * tau * tau]
+    }
+
+    /// Of `a_0` by `sin^2 theta`.
+    fn slope_of_mean_torque(&self) -> S {
+        let (sin, cos) = self.chi.sin_cos();
+        cos * cos - sin * sin * 0.5
+    }
+
+    /// Without cancellation but in `exp(-2 x) - 1`, which is lost where all of this is below rounding.
+    fn averages(&self, tau: S) -> Averages<S> {
+        let [sin, cos] = self.squares;
+        let x = self.damping * tau;
+        let tangent = sin / cos;
+        let secant = (S::one() + tangent).sqrt();
+        let mut sum = Averages { rate: S::zero(), square: S::zero(), square_twice: S::zero() };
+        for &(part, weight) in RULE.iter() {
+            let fallen = (-x * (2.0 * part)).exp();
+            let change = tangent * (fallen - S::one());
+            let over = S::one() + tangent * fallen;
+            let here = over.sqrt();
+            let square = change * cos / over;
+            sum.rate += -change / ((secant + here) * here) * weight;
+            sum.square += square * weight;
+            sum.square_twice += square * (weight * (1.0 - part));
+        }
+        sum
+    }
+
+    /// By partial integration, to second order in the damping over the rate.
+    pub(super) fn damped_torque(&self, tau: S) -> DampedTorque<S> {
+        let number = S::from_f64;
+        let (x, [sin, cos]) = (self.damping * tau, self.squares);
+        let slow = self.damping / self.rate;
+        let fallen = (-x).exp();
+        let twice = fallen * fallen;
+        // cos^2 theta and cos theta / cos theta_0.
+        let u = cos / (cos + sin * twice);
+        let faster = (u / cos).sqrt();
+        let y = slow / faster;
+        DampedTorque {
+            once: [
+                fallen * faster * (number(1.0) + y * y * u * (number(1.0) - u * 2.0)),
+                -fallen * slow * u,
+                twice * faster * (number(1.0) - y * y * (number(1.0) + u * u) * 0.5),
+                -twice * slow * (number(1.0) + u) * 0.5,
+            ],
+            twice: [
+                fallen * (number(1.0) - y * y * (number(2.0) - u * 2.0 + u * u * 3.0)),
+                fallen * y * (number(1.0) + u),
+                twice * (number(1.0) - y * y * (number(11.0) - u * 2.0 + u * u * 3.0) * 0.25),
+                twice * y * (number(3.0) + u) * 0.5,
+            ],
+        }
+    }
+}
+
+impl Precession {
+    /// Slope of the varying part of the first integral of the torque, times `w`, by the damping where that is zero, at fixed `psi`.
+    pub(super) fn slope_of_first(&self, tau: f64) -> f64 {
+        let (w, psi, [sin, cos]) = (self.rate, self.phase_at(tau), self.squares);
+        let TorqueHarmonics { once, twice, .. } = self.torque;
+        -once * cos * (tau * psi.sin() + psi.cos() / w)
+            - twice * (1.0 + cos) * 0.5 * (tau * (2.0 * psi).sin() + (2.0 * psi).cos() / (2.0 * w))
+            - self.slope_of_mean_torque() * tau * tau * sin * cos * w
+    }
+
+    /// Slope of the second integral of the torque by the damping where that is zero, at fixed `psi`.
+    pub(super) fn slope_of_second(&self, tau: f64) -> f64 {
+        let (w, psi, [sin, cos]) = (self.rate, self.phase_at(tau), self.squares);
+        let TorqueHarmonics { once, twice, .. } = self.torque;
+        let change = |multiple: f64| (multiple * psi).sin() - (multiple * self.phase).sin();
+        once / (w * w) * (tau * psi.cos() - (1.0 + cos) / w * change(1.0))
+            + twice / (4.0 * w * w) * (2.0 * tau * (2.0 * psi).cos() - (3.0 + cos) / (2.0 * w) * change(2.0))
+            - self.slope_of_mean_torque() * tau.powi(3) * sin * cos / 3.0
+    }
+
+    /// # Errors
+    /// [`Error::Domain`] for a damping that is not finite, that is above a tenth of the rate of the precession, or of a wobble of a right angle.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        let Self { wobble, rate, damping, .. } = *self;
+        Error::ensure(damping.is_finite(), "rate of damping of the wobble", damping, "a finite number")?;
+        if damping == 0.0 {
+            return Ok(());
+        }
+        let ratio = (damping / rate).abs();
+        let allowed = "at most 0.1: a wobble that is damped in a few turns is no precession";
+        Error::ensure(ratio <= MOST_DAMPING, "rate of damping over that of the precession", ratio, allowed)?;
+        Error::ensure(
+            wobble.cos().abs() > 1e-3,
+            "wobble (rad) with damping",
+            wobble,
+            "no right angle: friction has no effect there",
+        )
+    }
+
+    /// # Errors
+    /// [`Error::Domain`] for times of more than two damping times, and where the wobble becomes the angle of the magnetic axis to `n`: that goes round `L` on one side, round `n` on the other.
+    pub(super) fn check_time(&self, tau: f64) -> Result<(), Error> {
+        if self.damping == 0.0 {
+            return Ok(());
+        }
+        let damped = self.damping * tau;
+        let allowed = "at most 2 in size: the wobble is followed while its tangent changes by a factor e^2";
+        Error::ensure(damped.abs() <= MOST_DAMPED, "time times the rate of damping of the wobble", damped, allowed)?;
+        let wobble = self.wobble_at(tau);
+        let goes_round = |wobble: f64| [self.chi, PI - self.chi].map(|angle| wobble < angle);
+        let allowed = "on one side of chi and of pi - chi for all times: there the magnetic axis comes along L";
+        Error::ensure(goes_round(wobble) == goes_round(self.wobble), "damped wobble (rad)", wobble, allowed)
+    }
+
+    /// What the damped torque leaves out of the lateness over `kappa g`: what is of third order in the damping.
+    pub(super) fn truncation(&self, t: f64) -> f64 {
+        let Self { rate: w, damping, torque, .. } = *self;
+        if damping == 0.0 {
+            return 0.0;
+        }
+        // The coefficients of third order in the expansion at u = 1 are 4; the wobble may fall from one e times as large.
+        let third = 10.0 * (damping / w).abs().powi(3) * (torque.once.abs() + torque.twice.abs());
+        third * (1.0 / w.powi(2) + (t / w).abs())
+    }
+}
