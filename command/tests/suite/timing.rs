@@ -219,6 +219,41 @@ fn spin_down_is_for_timing() {
     has_all(&stderr(&ends(late, 1)), &["F1 t / F0".to_owned()]);
 }
 
+/// With `damping_time` the tangent of the wobble falls by a factor e in so many days, and what Lorentz violation does to the arrival times stays as small as without friction.
+#[test]
+fn friction_takes_the_wobble_away() {
+    let star = |lines: &str| {
+        let built_in = twofold_scene::scene_file::built_in("b1828-11").expect("a scene").toml;
+        built_in.replace("torque = \"vacuum\"", &format!("torque = \"vacuum\"\n{lines}\n#"))
+    };
+    let scene = Scene::from_toml("damped", &star("damping_time = 2000.0")).expect("a scene");
+    let pulsar = PulsarScene::new(&scene).expect("a pulsar");
+    let epochs: Vec<_> = (0..40).map(|k| pulsar.epoch.after([f64::from(k) * 7.9e6, 0.0]).expect("near")).collect();
+    let timing = pulsar.timed(&epochs, 2).expect("times");
+    for timed in &timing.pulses {
+        let (state, days) = (&timed.pulse.state, timed.pulse.midpoint[0] / 86_400.0);
+        let expected = 3f64.to_radians().tan() * (-days / 2000.0).exp();
+        let found = state.axis.angle(&state.momentum).tan();
+        assert!((found / expected - 1.0).abs() < 1e-4, "{days}: {found} for {expected}");
+    }
+    let causes = pulsar.causes(&timing).expect("causes");
+    let largest = |of: &[f64]| of.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let [torque, violation] = [&causes.torque, &causes.violation].map(|of| largest(of));
+    assert!(violation < 1e-9 && torque > 1e-3, "{torque:e} {violation:e}");
+
+    for (lines, said) in [
+        ("damping_time = 0.0", "from 1e-3 to 1e12 [d]"),
+        ("damping_time = 2000.0\nindex = 2.5", "`damping_time` is for a braking index of 3"),
+        ("damping_time = 700.0", "rate of damping over that of the precession"),
+        ("damping_time = 1000.0", "at most 2 in size"),
+    ] {
+        let folder = Folder::new();
+        folder.write("star.toml", star(lines));
+        let failed = folder.run(&["timing", "star.toml", "--out", "."]);
+        assert!(stderr(&failed).contains(said), "{lines}: {}", stderr(&failed));
+    }
+}
+
 /// With a strong bulge, which turns everything, the columns of rates are the slopes of those beside them, and the energy has that of the bulge.
 #[test]
 fn rates_have_the_turning_of_the_bulge() {

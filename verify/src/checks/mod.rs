@@ -13,6 +13,7 @@ mod fisher;
 mod forced_precession;
 mod frequencies;
 mod inference;
+mod more_pulsars;
 mod observer;
 mod orientation;
 mod perturbation_equations;
@@ -103,6 +104,7 @@ pub fn all() -> Vec<Check> {
         spin_axis::checks,
         bound::checks,
         eta::checks,
+        more_pulsars::checks,
         pulsar_table::checks,
         fisher::checks,
         inference::checks,
