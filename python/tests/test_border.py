@@ -56,7 +56,7 @@ FUNCTIONS = [
     (MOTION.angles, (3,)),
     (MOTION.error, ()),
     (lambda t: MODEL.phase(t)[1], ()),
-    (lambda t: MODEL.phase_and_derivatives(t)[2], (12,)),
+    (lambda t: MODEL.phase_and_derivatives(t)[2], (13,)),
     (lambda t: MODEL.arrival(t)[0], ()),
     (MODEL.width, ()),
     (kernels.fluid_inertia_over_c, ()),
