@@ -117,8 +117,7 @@ impl Table {
             Field::new(&column.name, kind, false).with_metadata(unit)
         };
         let schema = Arc::new(Schema::new(self.columns.iter().map(field).collect::<Vec<_>>()));
-        let batch =
-            RecordBatch::try_new(schema.clone(), self.columns.iter().map(array).collect()).map_err(raised)?;
+        let batch = RecordBatch::try_new(schema.clone(), self.columns.iter().map(array).collect()).map_err(raised)?;
         let stream = FFI_ArrowArrayStream::new(Box::new(RecordBatchIterator::new([Ok(batch)], schema)));
         // Stubs know capsules from Python 3.13 on.
         Ok(PyCapsule::new_with_value(py, stream, c"arrow_array_stream")?.into_any())

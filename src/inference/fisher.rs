@@ -107,7 +107,12 @@ impl<M: Model> Fisher<M> {
     pub fn beside(&self, deviations: &DVector<f64>, factor: f64) -> Result<M, Error> {
         let correlations = self.correlations();
         for entry in &correlations {
-            Error::ensure(entry.is_finite(), "correlation of unknowns", *entry, "a finite number: unknowns that the data determine")?;
+            Error::ensure(
+                entry.is_finite(),
+                "correlation of unknowns",
+                *entry,
+                "a finite number: unknowns that the data determine",
+            )?;
         }
         let axes = correlations.symmetric_eigen();
         let along = deviations.zip_map(&axes.eigenvalues, |deviation, value| deviation * value.max(0.0).sqrt());

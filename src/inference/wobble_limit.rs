@@ -182,8 +182,19 @@ mod tests {
         };
         let limits = [0.0, 0.3, 1.234].map(|turn| needle(turn).limit(1.0, 0.95).limit);
         assert!(limits.iter().all(|limit| (limit / limits[0] - 1.0).abs() < 1e-3), "{limits:?}");
+        // Far above what residuals are in proportion to, where the posterior is nowhere a number.
+        assert_eq!(round([1e23, 0.0]).limit(1.0, 0.95).limit, f64::INFINITY);
         let blind = Posterior { curvature: Matrix2::new(1.0, 0.0, 0.0, 0.0), pull: Vector2::zeros() };
         assert_eq!(blind.limit(1.0, 0.95).limit, f64::INFINITY);
+    }
+
+    #[test]
+    fn a_star_of_which_all_is_known_has_a_limit_too() {
+        let model = TimingModel::new([2.5, 0.0], &[(TimingParameter::Chi, 1.4)]).expect("a model");
+        let arrival = |k: i32| MeasuredArrival { time: [f64::from(k) * 4e5, 0.0], sigma: 1e-6, number: None };
+        let data = TimingData { arrivals: (0..20).map(arrival).collect(), ..TimingData::default() };
+        let limits = wobble_limits(&model, &data, &[], &[1e-6], 0.95).expect("a limit");
+        assert!((1e-7..1e-3).contains(&limits[0].limit), "{limits:?}");
     }
 
     #[test]

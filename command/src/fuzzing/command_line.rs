@@ -25,10 +25,7 @@ const FILES: [(&str, &str); 6] = [
         "d.csv",
         "beam,turn,midpoint [t_c],duration [t_c],closest_approach [t_c],period [t_c]\n1,1,4.2,0.3,4.2,\n1,2,8.4,0.3,8.4,4.2\n",
     ),
-    (
-        "t.tim",
-        "FORMAT 1\na 0 55321.25 1 @\na 0 55421.5 1 @\na 0 56421.75 1 @\na 0 57521 1 @\na 0 58621 1 @\n",
-    ),
+    ("t.tim", "FORMAT 1\na 0 55321.25 1 @\na 0 55421.5 1 @\na 0 56421.75 1 @\na 0 57521 1 @\na 0 58621 1 @\n"),
 ];
 
 /// Arguments, one on a line: parsed, and carried out in a folder of their own where that is little work and no path leads out of it.

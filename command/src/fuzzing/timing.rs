@@ -37,7 +37,12 @@ fn pulsars() -> &'static [(Epoch, TimingModel); 2] {
 
 /// The parameters whose bits are set.
 fn chosen(bits: usize) -> Vec<TimingParameter> {
-    TimingParameter::ALL.into_iter().enumerate().filter(|(k, _)| bits >> k & 1 == 1).map(|(_, unknown)| unknown).collect()
+    TimingParameter::ALL
+        .into_iter()
+        .enumerate()
+        .filter(|(k, _)| bits >> k & 1 == 1)
+        .map(|(_, unknown)| unknown)
+        .collect()
 }
 
 /// A `.tim` or a table of arrival times and widths, after three bytes that choose the pulsar, what is observed and the unknowns: refused with its name, or finite data, the same again when they
@@ -48,7 +53,8 @@ pub fn timing_file(bytes: &[u8]) {
     let Ok(file) = DataFile::of_bytes(name, text.to_vec()) else { return };
     let (epoch, model) = &pulsars()[usize::from(kind >> 1 & 1)];
     let noise = [(Observable::Arrivals, 1e-6), (Observable::Widths, 1e-5), (Observable::StrainPlus, 1.0)];
-    let noise: Vec<_> = noise.into_iter().enumerate().filter(|(k, _)| kind >> (k + 2) & 1 == 1).map(|(_, one)| one).collect();
+    let noise: Vec<_> =
+        noise.into_iter().enumerate().filter(|(k, _)| kind >> (k + 2) & 1 == 1).map(|(_, one)| one).collect();
     let mut data = TimingData::default();
     if let Err(why) = file.add_timing(epoch, &noise, &mut data) {
         return assert!(why.starts_with(name), "{why}");
@@ -137,7 +143,9 @@ pub fn timing_model(bytes: &[u8]) {
             0..64 => data.widths.push(MeasuredWidth { time: time[0], duration: bytes.usual(), sigma }),
             64..128 => data.arrivals.push(MeasuredArrival { time, sigma, number: Some(bytes.number() as i64) }),
             128..248 => data.arrivals.push(MeasuredArrival { time, sigma, number: None }),
-            _ => data.priors.extend(unknowns.first().map(|unknown| Prior { parameter: *unknown, mean: time[0], sigma })),
+            _ => {
+                data.priors.extend(unknowns.first().map(|unknown| Prior { parameter: *unknown, mean: time[0], sigma }))
+            }
         }
     }
     let _ = black_box(wobble_limits(&model, &data, &unknowns, &[rate], 0.95));
