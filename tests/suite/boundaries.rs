@@ -473,5 +473,7 @@ fn errors_that_are_too_small_are_refused() {
         let found = fit_timing(&star, &data, &unknowns);
         let is_of_size = matches!(found, Err(InferenceError::Model(Error::Domain { quantity, .. })) if quantity.contains("standard deviations"));
         assert_eq!(is_of_size, is_refused, "{sigma}: {found:?}");
+        let without = fit_timing(&star, &data, &[]);
+        assert!(matches!(without, Err(InferenceError::Model(Error::Unsupported { what: "a fit", .. }))), "{without:?}");
     }
 }

@@ -156,7 +156,8 @@ impl TimingModel {
 
     fn phase_at(&self, tau: [f64; 2], t: f64) -> Result<Turns, Error> {
         let rest = self.value(Phase) + beyond_dipole(&self.values, t) + geometry(&self.values, tau[0]) / TAU;
-        check_turns(self.frequency.high * tau[0] + rest)?;
+        check_turns(self.frequency.high * tau[0])?;
+        check_turns(rest)?;
         Ok(Turns::at(rest, self.frequency, tau.into()))
     }
 
