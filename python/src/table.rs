@@ -10,11 +10,9 @@ use numpy::PyArray1;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyCapsule, PyDict, PyIterator, PyList};
+use twofold_scene::read_table::{Column, Values, columns_of};
 
 use crate::error::raised;
-
-/// Columns of words, also where all fields are empty: another column has words only if a field is no number.
-const WORDS: [&str; 3] = ["cut", "status", "combination"];
 
 /// A table of numbers, a column for each name. A missing number is NaN.
 ///
@@ -27,64 +25,18 @@ pub struct Table {
     rows: usize,
 }
 
-struct Column {
-    name: String,
-    unit: String,
-    values: Values,
-}
-
-enum Values {
-    Numbers(Vec<f64>),
-    Words(Vec<String>),
-}
-
 impl Table {
-    /// A table that is written as CSV: a header of names with units in brackets, then numbers, or words where a field is none.
+    /// A table that is written as CSV.
     pub fn of_csv(csv: Vec<u8>) -> Result<Self, String> {
-        let reader = || csv::Reader::from_reader(csv.as_slice());
-        let header = reader().headers().map_err(|error| error.to_string())?.clone();
-        let mut columns: Vec<_> = header
-            .iter()
-            .map(|title| {
-                let parts = title.strip_suffix(']').and_then(|title| title.split_once(" ["));
-                let (name, unit) = parts.unwrap_or((title, ""));
-                let values =
-                    if WORDS.contains(&name) { Values::Words(Vec::new()) } else { Values::Numbers(Vec::new()) };
-                Column { name: name.to_owned(), unit: unit.to_owned(), values }
-            })
-            .collect();
-        let mut rows = 0;
-        let (mut first, mut record) = (reader(), csv::StringRecord::new());
-        while first.read_record(&mut record).map_err(|error| error.to_string())? {
-            for (column, _) in columns.iter_mut().zip(&record).filter(|(_, field)| number(field).is_none()) {
-                column.values = Values::Words(Vec::new());
-            }
-            rows += 1;
-        }
-        let mut again = reader();
-        while again.read_record(&mut record).map_err(|error| error.to_string())? {
-            for (column, field) in columns.iter_mut().zip(&record) {
-                match &mut column.values {
-                    Values::Numbers(numbers) => numbers.extend(number(field)),
-                    Values::Words(words) => words.push(field.to_owned()),
-                }
-            }
-        }
+        let (columns, rows) = columns_of(&csv)?;
         Ok(Self { csv, columns, rows })
     }
 }
 
-/// The number of a field; an empty one is missing, not a number.
-fn number(field: &str) -> Option<f64> {
-    if field.is_empty() { Some(f64::NAN) } else { field.parse().ok().filter(|number: &f64| number.is_finite()) }
-}
-
-impl Column {
-    fn array(&self) -> ArrayRef {
-        match &self.values {
-            Values::Numbers(numbers) => Arc::new(Float64Array::from(numbers.clone())),
-            Values::Words(words) => Arc::new(StringArray::from_iter_values(words)),
-        }
+fn array(column: &Column) -> ArrayRef {
+    match &column.values {
+        Values::Numbers(numbers) => Arc::new(Float64Array::from(numbers.clone())),
+        Values::Words(words) => Arc::new(StringArray::from_iter_values(words)),
     }
 }
 
@@ -165,8 +117,7 @@ impl Table {
             Field::new(&column.name, kind, false).with_metadata(unit)
         };
         let schema = Arc::new(Schema::new(self.columns.iter().map(field).collect::<Vec<_>>()));
-        let batch =
-            RecordBatch::try_new(schema.clone(), self.columns.iter().map(Column::array).collect()).map_err(raised)?;
+        let batch = RecordBatch::try_new(schema.clone(), self.columns.iter().map(array).collect()).map_err(raised)?;
         let stream = FFI_ArrowArrayStream::new(Box::new(RecordBatchIterator::new([Ok(batch)], schema)));
         // Stubs know capsules from Python 3.13 on.
         Ok(PyCapsule::new_with_value(py, stream, c"arrow_array_stream")?.into_any())

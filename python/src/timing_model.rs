@@ -164,5 +164,8 @@ fn values(given: &Bound<'_, PyDict>) -> PyResult<Vec<(TimingParameter, f64)>> {
 
 /// The parameter called `name`.
 pub fn timing_parameter(name: &str) -> PyResult<TimingParameter> {
-    Ok(named(name, &TimingParameter::ALL).map_err(raised)?[0])
+    match named(name, &TimingParameter::ALL).map_err(raised)?[..] {
+        [parameter] => Ok(parameter),
+        _ => Err(raised(format!("`{name}`: allowed is the name of one parameter"))),
+    }
 }

@@ -310,6 +310,7 @@ class TestTimingModel:
             (lambda: twofold.TimingModel(1.0).phase([0.0, np.nan]), ["t (s)", "finite"]),
             (lambda: twofold.wobble_limits(twofold.TimingModel(2.5, chi=1.4), twofold.TimingData(), ["phase"], [4e7]), ["0 data"]),
             (lambda: twofold.Scene("b1828-11").pulsar().arrivals([]), ["epochs", "none"]),
+            (lambda: twofold.TimingModel(2.5, all=1.0), ["`all`", "one parameter"]),
             (lambda: twofold.Scene("tp-1", about={"a": 1}), ["about", "section"]),
             (lambda: twofold.fit_timing(twofold.TimingModel(1.0), twofold.TimingData([1.0], 0.0), ["phase"]), ["deviation", "0"]),
         ],

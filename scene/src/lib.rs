@@ -8,6 +8,7 @@ pub mod plan;
 pub mod pulsar_table;
 pub mod pulsar_timing;
 pub mod random;
+pub mod read_table;
 mod samples;
 pub mod scene_file;
 pub mod significant;

@@ -103,9 +103,18 @@ impl<M: Model> Fisher<M> {
     /// The parameters with the unknowns moved along the principal axes of their correlations, by so many standard deviations each, all times `factor`.
     ///
     /// # Errors
-    /// As for [`Model::moved`].
+    /// [`Error::Domain`] for an unknown that the data do not determine; as for [`Model::moved`].
     pub fn beside(&self, deviations: &DVector<f64>, factor: f64) -> Result<M, Error> {
-        let axes = self.correlations().symmetric_eigen();
+        let correlations = self.correlations();
+        for entry in &correlations {
+            Error::ensure(
+                entry.is_finite(),
+                "correlation of unknowns",
+                *entry,
+                "a finite number: unknowns that the data determine",
+            )?;
+        }
+        let axes = correlations.symmetric_eigen();
         let along = deviations.zip_map(&axes.eigenvalues, |deviation, value| deviation * value.max(0.0).sqrt());
         let change = (axes.eigenvectors * along).component_mul(&DVector::from_vec(self.sigmas())) * factor;
         self.parameters.moved(&self.unknowns, change.as_slice())

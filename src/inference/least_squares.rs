@@ -4,6 +4,7 @@ use nalgebra::DVector;
 use rmpfit::{MPConfig, MPError, MPFitter, MPPar, MPSide, MPSuccess};
 
 use super::{Fisher, InferenceError, Jacobian, Model, Unknown};
+use crate::error::Error;
 use crate::parameters::Parameters;
 
 /// What a model is compared with.
@@ -99,6 +100,9 @@ pub(super) fn least_squares<M: Model>(
 ) -> Result<Fit<M>, InferenceError> {
     if comparison.len() <= unknowns.len() {
         return Err(InferenceError::TooFew { data: comparison.len(), unknowns: unknowns.len() });
+    }
+    if unknowns.is_empty() {
+        return Err(Error::Unsupported { what: "a fit", why: "it has no unknowns" }.into());
     }
     let (_, at_start) = comparison.linearised(start, unknowns)?;
     let scales = Fisher::of_jacobian(&at_start, unknowns, start).determined()?.sigmas();

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::least_squares::{self, Comparison, Fit, least_squares};
 use super::{Fisher, InferenceError, Jacobian};
 use crate::error::Error;
-use crate::observables::pulsar::timing_model::{TimingModel, TimingParameter};
+use crate::observables::pulsar::timing_model::{TimingModel, TimingParameter, check_turns};
 
 /// The arrival of a pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,6 +54,9 @@ pub struct TimingData {
 /// Relative error of the derivatives of a timing model: some hundred roundings.
 const DERIVATIVES: f64 = 1e-13;
 
+/// Largest derivative and residual in standard deviations: sums of their squares are doubles.
+const LARGEST: f64 = 1e150;
+
 /// Rounding of the residual of an arrival time (turns): of the geometry, of the lateness and of the fraction of a turn.
 const ROUNDING: f64 = 1e-14;
 
@@ -62,7 +65,7 @@ impl TimingData {
     /// number to the turn nearest to it.
     ///
     /// # Errors
-    /// As for [`TimingModel::phase`].
+    /// [`Error::Domain`] for numbers above 1e18 in size; as for [`TimingModel::phase`].
     pub fn numbered(&self, model: &TimingModel) -> Result<Self, Error> {
         let mut shift = None;
         let mut data = self.clone();
@@ -70,7 +73,10 @@ impl TimingData {
             let nearest = model.phase(arrival.time)?.whole;
             arrival.number = Some(match arrival.number {
                 None => nearest,
-                Some(number) => number + *shift.get_or_insert(nearest - number),
+                Some(number) => {
+                    check_turns(number as f64)?;
+                    number + *shift.get_or_insert(nearest - number)
+                }
             });
         }
         Ok(data)
@@ -131,8 +137,13 @@ impl Comparison<TimingModel> for TimingData {
         for (row, prior) in self.priors.iter().enumerate() {
             fill(arrivals + widths + row, &|unknown| if unknown == prior.parameter { 1.0 / prior.sigma } else { 0.0 });
         }
+        let residuals = self.residuals(model)?;
+        for value in matrix.iter().chain(&residuals) {
+            let what = "derivative or residual of a datum, in its standard deviations";
+            Error::ensure(value.abs() <= LARGEST, what, *value, "a number up to 1e150 in size")?;
+        }
         let magnitudes = matrix.abs();
-        Ok((self.residuals(model)?, Jacobian { matrix, magnitudes, relative_error: DERIVATIVES }))
+        Ok((residuals, Jacobian { matrix, magnitudes, relative_error: DERIVATIVES }))
     }
 
     fn rounding(&self, found: &Fit<TimingModel>) -> Result<Option<InferenceError>, InferenceError> {

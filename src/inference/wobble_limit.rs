@@ -29,6 +29,9 @@ const PHASES: usize = 512;
 /// Standard deviations about the best wobble that are integrated over.
 const REACH: f64 = 9.0;
 
+/// `exp(-x)` is zero from here on.
+const NOTHING: f64 = 746.0;
+
 /// A wobble (rad) that is none: rounding of the initial state.
 const NO_WOBBLE: f64 = 1e-12;
 
@@ -91,6 +94,9 @@ pub fn wobble_limits(
 
 /// An orthonormal basis of the columns, each scaled to unit length first.
 fn orthonormal(mut matrix: DMatrix<f64>) -> DMatrix<f64> {
+    if matrix.is_empty() {
+        return matrix;
+    }
     for mut column in matrix.column_iter_mut() {
         let length = column.norm();
         if length > 0.0 {
@@ -111,7 +117,8 @@ struct Posterior {
 impl Posterior {
     fn limit(&self, precession_rate: f64, probability: f64) -> WobbleLimit {
         let none = WobbleLimit { precession_rate, best: f64::NAN, gain: 0.0, limit: f64::INFINITY };
-        let Some(inverse) = self.curvature.try_inverse() else { return none };
+        let inverse = self.curvature.try_inverse().filter(|inverse| inverse.iter().all(|entry| entry.is_finite()));
+        let Some(inverse) = inverse else { return none };
         let best = inverse * self.pull;
         let widths = inverse.symmetric_eigenvalues().map(|value| value.max(0.0).sqrt());
         let (widest, finest) = (widths.max(), widths.min());
@@ -121,6 +128,9 @@ impl Posterior {
             return found;
         }
         let low = (best.norm() - REACH * widest).max(0.0);
+        if low > LARGEST {
+            return found;
+        }
         let step = (best.norm() + REACH * widest - low) / POINTS as f64;
         // A needle of the width `finest` across is seen at an angle of that over the wobble. Points an angle apart that is an eighth of it leave nothing of a normal distribution.
         let phases = PHASES.max((8.0 * TAU * (best.norm() + REACH * widest) / finest).min(2e5) as usize);
@@ -129,9 +139,12 @@ impl Posterior {
             let (sin, cos) = (TAU * k as f64 / phases as f64).sin_cos();
             let direction = Vector2::new(cos, sin);
             let (bend, slope) = (direction.dot(&(self.curvature * direction)), direction.dot(&self.pull));
-            for (place, sum) in sums.iter_mut().enumerate() {
+            // Elsewhere the exponential is zero.
+            let (peak, reach) = (slope / bend, ((2.0 * NOTHING + slope * slope / bend - gain) / bend).sqrt());
+            let places = [peak - reach, peak + reach].map(|theta| ((theta - low) / step).clamp(0.0, POINTS as f64));
+            for place in places[0] as usize..=places[1].ceil() as usize {
                 let theta = low + step * place as f64;
-                *sum += (theta * slope - 0.5 * (theta * theta * bend + gain)).exp();
+                sums[place] += (theta * slope - 0.5 * (theta * theta * bend + gain)).exp();
             }
         }
         let mut total = vec![0.0; POINTS + 1];
@@ -140,7 +153,7 @@ impl Posterior {
         let after = total.partition_point(|sum| *sum < wanted).clamp(1, POINTS);
         let part = (wanted - total[after - 1]) / (total[after] - total[after - 1]);
         let limit = low + step * ((after - 1) as f64 + part);
-        if limit > LARGEST { found } else { WobbleLimit { limit, ..found } }
+        if limit <= LARGEST { WobbleLimit { limit, ..found } } else { found }
     }
 }
 
@@ -169,8 +182,19 @@ mod tests {
         };
         let limits = [0.0, 0.3, 1.234].map(|turn| needle(turn).limit(1.0, 0.95).limit);
         assert!(limits.iter().all(|limit| (limit / limits[0] - 1.0).abs() < 1e-3), "{limits:?}");
+        // Far above what residuals are in proportion to, where the posterior is nowhere a number.
+        assert_eq!(round([1e23, 0.0]).limit(1.0, 0.95).limit, f64::INFINITY);
         let blind = Posterior { curvature: Matrix2::new(1.0, 0.0, 0.0, 0.0), pull: Vector2::zeros() };
         assert_eq!(blind.limit(1.0, 0.95).limit, f64::INFINITY);
+    }
+
+    #[test]
+    fn a_star_of_which_all_is_known_has_a_limit_too() {
+        let model = TimingModel::new([2.5, 0.0], &[(TimingParameter::Chi, 1.4)]).expect("a model");
+        let arrival = |k: i32| MeasuredArrival { time: [f64::from(k) * 4e5, 0.0], sigma: 1e-6, number: None };
+        let data = TimingData { arrivals: (0..20).map(arrival).collect(), ..TimingData::default() };
+        let limits = wobble_limits(&model, &data, &[], &[1e-6], 0.95).expect("a limit");
+        assert!((1e-7..1e-3).contains(&limits[0].limit), "{limits:?}");
     }
 
     #[test]

@@ -7,12 +7,14 @@ use num_dual::Dual64;
 use twofold::Error;
 use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates, angles_from_rotation, body_from_inertial, euler_rates};
+use twofold::inference::{InferenceError, MeasuredArrival, TimingData, fit_timing};
 use twofold::lorentz_violation::{PrincipalCoefficients, preferred_frame_parameter, principal_frame};
 use twofold::numerics::elliptic::jacobi::{complete_integral, jacobi};
 use twofold::observables::Observer;
 use twofold::observables::bound::{
     SpinAxisDrift, eta_from_inclination, lambda_change, preferred_frame_bound, zeta_change_terms,
 };
+use twofold::observables::pulsar::timing_model::{TimingModel, TimingParameter};
 use twofold::observables::pulsar::{Beam, PulsarClock, arrivals, pulse_train};
 use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion, UniformMotion};
 use twofold::solutions::averaged::AveragingOrder;
@@ -444,4 +446,34 @@ fn a_clock_turns_about_its_momentum() {
     };
     judged(clock(1e-4), "");
     judged(clock(1e-5), "rotation (rad) of the body");
+}
+
+#[test]
+fn pulses_are_counted_up_to_1e18() {
+    let star = TimingModel::new([2.0, 0.0], &[]).expect("a model");
+    for (number, quantity) in
+        [(1_000_000_000_000_000_000, ""), (1_000_000_000_000_001_000, "phase"), (i64::MIN, "phase")]
+    {
+        judged(star.arrival(number), quantity);
+        judged(star.phase([number as f64 / 2.0, 0.0]), quantity);
+        let arrival = MeasuredArrival { time: [1.0, 0.0], sigma: 1e-6, number: Some(number) };
+        judged(TimingData { arrivals: vec![arrival], ..TimingData::default() }.numbered(&star), quantity);
+    }
+    judged(star.phase([f64::NAN, 0.0]), "phase");
+}
+
+/// Squares of residuals and of derivatives, in standard deviations, that are no doubles.
+#[test]
+fn errors_that_are_too_small_are_refused() {
+    let star = TimingModel::new([2.0, 0.0], &[]).expect("a model");
+    let unknowns = [TimingParameter::Phase, TimingParameter::F0];
+    for (sigma, is_refused) in [(1e-140, false), (1e-160, true)] {
+        let arrival = |k: i32| MeasuredArrival { time: [f64::from(k * k) / 7.0, 0.0], sigma, number: None };
+        let data = TimingData { arrivals: (0..9).map(arrival).collect(), ..TimingData::default() };
+        let found = fit_timing(&star, &data, &unknowns);
+        let is_of_size = matches!(found, Err(InferenceError::Model(Error::Domain { quantity, .. })) if quantity.contains("standard deviations"));
+        assert_eq!(is_of_size, is_refused, "{sigma}: {found:?}");
+        let without = fit_timing(&star, &data, &[]);
+        assert!(matches!(without, Err(InferenceError::Model(Error::Unsupported { what: "a fit", .. }))), "{without:?}");
+    }
 }

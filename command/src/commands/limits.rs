@@ -78,7 +78,7 @@ fn prior(text: &str) -> Result<Prior, String> {
         || "allowed is a parameter, its mean and its standard deviation, at least 1e-100, as chi:1.2:0.05".to_owned();
     let [name, mean, sigma] = text.split(':').collect::<Vec<_>>()[..] else { return Err(wrong()) };
     let number = |text: &str| text.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(wrong);
-    let parameter = named(name, &TimingParameter::ALL)?[0];
+    let [parameter] = named(name, &TimingParameter::ALL)?[..] else { return Err(wrong()) };
     let (mean, sigma) = (number(mean)?, number(sigma)?);
     if sigma >= 1e-100 { Ok(Prior { parameter, mean, sigma }) } else { Err(wrong()) }
 }

@@ -13,7 +13,7 @@ use crate::commands::{Cli, Command, FisherArgs, ForecastArgs, MeasurementArgs, r
 use twofold_scene::scene_file::{Columns, Scene};
 use twofold_scene::sweep::{Sweep, SweepText};
 
-const FILES: [(&str, &str); 5] = [
+const FILES: [(&str, &str); 6] = [
     ("s.toml", include_str!("../../../scene/scenes/tp-1.toml")),
     ("p.toml", include_str!("../../../scene/scenes/b1937+21.toml")),
     ("bounds.toml", twofold_scene::pulsar_table::PAPER),
@@ -25,6 +25,7 @@ const FILES: [(&str, &str); 5] = [
         "d.csv",
         "beam,turn,midpoint [t_c],duration [t_c],closest_approach [t_c],period [t_c]\n1,1,4.2,0.3,4.2,\n1,2,8.4,0.3,8.4,4.2\n",
     ),
+    ("t.tim", "FORMAT 1\na 0 55321.25 1 @\na 0 55421.5 1 @\na 0 56421.75 1 @\na 0 57521 1 @\na 0 58621 1 @\n"),
 ];
 
 /// Arguments, one on a line: parsed, and carried out in a folder of their own where that is little work and no path leads out of it.

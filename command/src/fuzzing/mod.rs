@@ -12,6 +12,7 @@ mod model;
 mod resume;
 mod scene;
 mod sweep;
+mod timing;
 
 pub use command_line::command_line;
 pub use data::{authors_data, data_file, pulsars};
@@ -19,12 +20,13 @@ pub use model::model;
 pub use resume::resume;
 pub use scene::scene;
 pub use sweep::sweep;
+pub use timing::{table, timing_file, timing_model};
 
 /// A function that takes bytes, and its name.
 pub type Target = (&'static str, fn(&[u8]));
 
 /// All of them.
-pub const TARGETS: [Target; 8] = [
+pub const TARGETS: [Target; 11] = [
     ("scene", scene),
     ("sweep", sweep),
     ("resume", resume),
@@ -33,4 +35,7 @@ pub const TARGETS: [Target; 8] = [
     ("pulsars", pulsars),
     ("command_line", command_line),
     ("model", model),
+    ("timing_file", timing_file),
+    ("timing_model", timing_model),
+    ("table", table),
 ];

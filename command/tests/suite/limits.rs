@@ -131,7 +131,7 @@ fn what_is_wrong_is_named() {
     ] {
         std::fs::write(folder.at(name), text).expect("a file");
     }
-    let refusals: [(&[&str], &[&str]); 21] = [
+    let refusals: [(&[&str], &[&str]); 22] = [
         (&["site.tim"], &["site.tim:2: site `ao`", "allowed are @"]),
         (&["frequency.tim"], &["frequency.tim:2: frequency `1400`", "allowed is 0"]),
         (&["error.tim"], &["error.tim:2: uncertainty `-1.0`", "from 1e-9 to 1e12"]),
@@ -145,6 +145,7 @@ fn what_is_wrong_is_named() {
         (&["b1937+21.tim", "--parameters", "fO"], &["--parameters: `fO` is no parameter", "f0"]),
         (&["b1937+21.tim", "--prior", "chi:1.2:0.1"], &["--prior chi", "--parameters has no chi"]),
         (&["b1937+21.tim", "--prior", "chi:1.2:0"], &["chi:1.2:0", "at least 1e-100"]),
+        (&["b1937+21.tim", "--prior", "all:1.2:0.1"], &["all:1.2:0.1", "allowed is a parameter"]),
         (&["flag.tim"], &["flag.tim:2: `-padd` changes the time"]),
         (&["empty.tim"], &["empty.tim: no data"]),
         (&["b1937+21.tim", "b1937+21.tim"], &["its first datum is in a file before it", "measured once"]),

@@ -29,7 +29,7 @@ pub enum Done {
 }
 
 /// Computes the scenes up to `end` that the table does not hold and appends them, in order, until all are there or `stop` is
-/// set; chunks in work are then finished. `progress` is told the first scene that is not written.
+/// set; chunks that a thread is at are then finished, those that wait for one are not. `progress` is told the first scene that is not written.
 pub fn compute(
     sweep: &Sweep<'_>,
     spool: &mut Spool,
@@ -53,14 +53,17 @@ pub fn compute(
                 in_work += 1;
                 let results = results.clone();
                 // The receiver lives as long as the scope, unless writing has failed: then nobody waits.
-                scope.spawn(move |_| drop(results.send((chunk.clone(), chunk_text(sweep, chunk)))));
+                scope.spawn(move |_| {
+                    let text = (!stop.load(Ordering::Relaxed)).then(|| chunk_text(sweep, chunk.clone()));
+                    drop(results.send((chunk, text)));
+                });
             }
             if in_work == 0 {
                 break;
             }
             let Ok((chunk, text)) = finished.recv() else { break };
             in_work -= 1;
-            waiting.insert(chunk.start, (chunk.end, text));
+            waiting.extend(text.map(|text| (chunk.start, (chunk.end, text))));
             while let Some((next, text)) = waiting.remove(&written) {
                 let ChunkText { rows, errors, failed } =
                     text.map_err(|error| SpoolError::File(spool.files().rows.clone(), error.into()))?;

@@ -48,6 +48,9 @@ const COUNT: usize = TimingParameter::ALL.len();
 
 type Dual = DualSVec64<COUNT>;
 
+/// Most turns: sums and differences of a few such numbers have 64 bits.
+const MOST_TURNS: f64 = 1e18;
+
 /// Most steps of Newton's method from a number to its time.
 const STEPS: usize = 12;
 
@@ -121,9 +124,9 @@ impl TimingModel {
     /// The turns of the magnetic axis about `L` from the line of sight, at a time (s) since the epoch, the unevaluated sum of two doubles.
     ///
     /// # Errors
-    /// As for [`StretchedTime::stretched_at`].
+    /// [`Error::Domain`] for more than 1e18 turns; as for [`StretchedTime::stretched_at`].
     pub fn phase(&self, t: [f64; 2]) -> Result<Turns, Error> {
-        Ok(self.phase_at(self.time.stretched_at(t)?, t[0]))
+        self.phase_at(self.time.stretched_at(t)?, t[0])
     }
 
     /// When (s since the epoch) a pulse arrives: at what time the phase is its number. The unevaluated sum of two doubles, right to the rounding of the geometry, 1e-16 of a turn.
@@ -131,12 +134,13 @@ impl TimingModel {
     /// # Errors
     /// As for [`phase`](Self::phase).
     pub fn arrival(&self, number: i64) -> Result<[f64; 2], Error> {
+        check_turns(number as f64)?;
         let wanted = DoubleDouble::sum(number as f64, (number - number as f64 as i64) as f64);
         let mut time = (wanted - self.value(Phase).into()).over(self.frequency);
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
             let tau = self.time.stretched_at(time.into())?;
-            let Turns { whole, fraction } = self.phase_at(tau, time.high);
+            let Turns { whole, fraction } = self.phase_at(tau, time.high)?;
             let off = (whole - number) as f64 + fraction;
             time -= (off / (self.frequency.high * self.time.slowing(tau[0]))).into();
             // Newton's method squares what is left, but for the slow geometry, down to rounding.
@@ -148,9 +152,11 @@ impl TimingModel {
         Ok(time.into())
     }
 
-    fn phase_at(&self, tau: [f64; 2], t: f64) -> Turns {
+    fn phase_at(&self, tau: [f64; 2], t: f64) -> Result<Turns, Error> {
         let rest = self.value(Phase) + beyond_dipole(&self.values, t) + geometry(self.time.precession(), tau[0]) / TAU;
-        Turns::at(rest, self.frequency, tau.into())
+        check_turns(self.frequency.high * tau[0])?;
+        check_turns(rest)?;
+        Ok(Turns::at(rest, self.frequency, tau.into()))
     }
 
     /// The phase and its derivatives, in the order of [`TimingParameter::ALL`].
@@ -163,7 +169,7 @@ impl TimingModel {
             + seeded[F0 as usize] * moved
             + beyond_dipole(&seeded, t[0])
             + geometry(&precession(&seeded), moved) / TAU;
-        Ok((self.phase_at(tau, t[0]), derivatives(&phase)))
+        Ok((self.phase_at(tau, t[0])?, derivatives(&phase)))
     }
 
     /// The width of a pulse (s) near a time since the epoch: of the ring of the line of sight in the beam, Eq. (56) `[pulsewid]`, over the rate of turns. That rate
@@ -199,6 +205,11 @@ impl TimingModel {
         let late = secular_lateness(&braking, at) + late_by_torque(&braking, &precession, at);
         Ok((seeded, Dual::new(tau[0], late.eps * -self.time.slowing(tau[0])), tau))
     }
+}
+
+/// Refuses numbers of pulses that are too large, and what is no number.
+pub(crate) fn check_turns(turns: f64) -> Result<(), Error> {
+    Error::ensure(turns.abs() <= MOST_TURNS, "phase (turns)", turns, "at most 1e18 either way")
 }
 
 fn derivatives(value: &Dual) -> [f64; COUNT] {

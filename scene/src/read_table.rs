@@ -1,0 +1,65 @@
+//! Tables as the command writes them, read into columns.
+
+/// Columns of words, also where all fields are empty: another column has words only if a field is no number.
+const WORDS: [&str; 3] = ["cut", "status", "combination"];
+
+/// A column of a table.
+#[derive(Debug)]
+pub struct Column {
+    /// Its name, without the unit.
+    pub name: String,
+    /// Its unit; empty where the table has none.
+    pub unit: String,
+    /// What stands in it.
+    pub values: Values,
+}
+
+/// The fields of a column.
+#[derive(Debug)]
+pub enum Values {
+    /// Finite numbers; NaN where a field is empty.
+    Numbers(Vec<f64>),
+    /// Words.
+    Words(Vec<String>),
+}
+
+/// The columns of a table that is written as CSV, and how many rows it has: a header of names with units in brackets, then numbers, or words where a field is none.
+///
+/// # Errors
+/// Rows of unequal lengths, and bytes that are no text; the line is named.
+pub fn columns_of(csv: &[u8]) -> Result<(Vec<Column>, usize), String> {
+    let reader = || csv::Reader::from_reader(csv);
+    let header = reader().headers().map_err(|error| error.to_string())?.clone();
+    let mut columns: Vec<_> = header
+        .iter()
+        .map(|title| {
+            let parts = title.strip_suffix(']').and_then(|title| title.split_once(" ["));
+            let (name, unit) = parts.unwrap_or((title, ""));
+            let values = if WORDS.contains(&name) { Values::Words(Vec::new()) } else { Values::Numbers(Vec::new()) };
+            Column { name: name.to_owned(), unit: unit.to_owned(), values }
+        })
+        .collect();
+    let mut rows = 0;
+    let (mut first, mut record) = (reader(), csv::StringRecord::new());
+    while first.read_record(&mut record).map_err(|error| error.to_string())? {
+        for (column, _) in columns.iter_mut().zip(&record).filter(|(_, field)| number(field).is_none()) {
+            column.values = Values::Words(Vec::new());
+        }
+        rows += 1;
+    }
+    let mut again = reader();
+    while again.read_record(&mut record).map_err(|error| error.to_string())? {
+        for (column, field) in columns.iter_mut().zip(&record) {
+            match &mut column.values {
+                Values::Numbers(numbers) => numbers.extend(number(field)),
+                Values::Words(words) => words.push(field.to_owned()),
+            }
+        }
+    }
+    Ok((columns, rows))
+}
+
+/// The number of a field; an empty one is missing, not a number.
+fn number(field: &str) -> Option<f64> {
+    if field.is_empty() { Some(f64::NAN) } else { field.parse().ok().filter(|number: &f64| number.is_finite()) }
+}
