@@ -142,9 +142,10 @@ impl Posterior {
             // Elsewhere the exponential is zero.
             let (peak, reach) = (slope / bend, ((2.0 * NOTHING + slope * slope / bend - gain) / bend).sqrt());
             let places = [peak - reach, peak + reach].map(|theta| ((theta - low) / step).clamp(0.0, POINTS as f64));
-            for place in places[0] as usize..=places[1].ceil() as usize {
+            let (first, last) = (places[0] as usize, places[1].ceil() as usize);
+            for (place, sum) in (first..).zip(&mut sums[first..=last]) {
                 let theta = low + step * place as f64;
-                sums[place] += (theta * slope - 0.5 * (theta * theta * bend + gain)).exp();
+                *sum += (theta * slope - 0.5 * (theta * theta * bend + gain)).exp();
             }
         }
         let mut total = vec![0.0; POINTS + 1];
