@@ -16,22 +16,21 @@ use std::time::Instant;
 
 use serde_json::{Value, json};
 
+use crate::package::Package;
 use suite::{Outcome, Suite, Test};
 
 /// Tests of one process together take about this long without a mutant (s).
 const BATCH: f64 = 0.4;
 
-/// Runs the campaign. `rest`: seconds of tests for each mutant, then a file prefix that limits the mutants.
+/// Runs the campaign, with `budget` seconds of tests for each mutant in files that begin with `prefix`.
 ///
 /// Reads `mutants.json`, keeps `coverage.json` and appends to `results.jsonl`, all in the tree; goes on where it stopped. What is listed as
 /// equivalent is not run, nor what the record has as caught in a source that has not changed, but if ANEW is set.
-pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
-    let budget: f64 = rest.first().map_or(Ok(10.0), |s| s.parse()).map_err(|_| "seconds per mutant: not a number")?;
-    let prefix = rest.get(1).copied().unwrap_or("src/");
+pub fn run(tree: &Path, package: &Package, budget: f64, prefix: &str) -> Result<(), String> {
     let mutants = lines(&tree.join("mutants.json"))?;
     // Only some binaries: what they do not catch is as open as before.
     let only = std::env::var("ONLY").ok();
-    let suite = Suite::build(tree, only.as_deref())?;
+    let suite = Suite::build(tree, package, only.as_deref())?;
     let tests = record::coverage(tree, &suite)?;
     let mut reaching: HashMap<u64, Vec<usize>> = HashMap::new();
     for (index, test) in tests.iter().enumerate() {
@@ -113,7 +112,7 @@ pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
             });
         }
     });
-    score::write(tree, &mutants)
+    score::write(tree, prefix, &mutants)
 }
 
 /// Places of a mutant that tests are remembered for: its function and its file.

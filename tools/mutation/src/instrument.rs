@@ -8,6 +8,7 @@ use std::process::Command;
 use serde_json::{Value, json};
 
 use crate::edit::{Edit, Origin, Site, apply};
+use crate::package::Package;
 use crate::sites::{self, Constants, Fault};
 
 /// One source file with what was found in it.
@@ -24,23 +25,25 @@ struct Source {
 /// The module that chooses the variant, put into the rewritten crate.
 const SWITCH: &str = include_str!("switch.txt");
 
-/// Rewrites `src/` of the tree. `patterns` are path prefixes below `src/`; nothing else gets variants.
+/// Rewrites the sources of one package of the tree. Files whose path does not begin with `prefix` get no variants.
 ///
 /// Writes `mutants.json` into the tree and returns the number of variants that compile.
-pub fn instrument(tree: &Path, patterns: &[String]) -> Result<usize, String> {
+pub fn instrument(tree: &Path, package: &Package, prefix: &str) -> Result<usize, String> {
     let mut files = Vec::new();
-    walk(&tree.join("src"), &mut files)?;
+    walk(&tree.join(package.sources), &mut files)?;
     files.sort();
+    let tests = modules_of_tests(&files)?;
+    files.retain(|file| !tests.contains(file));
     let mut constants: HashMap<String, Vec<String>> = HashMap::new();
     let mut sources = Vec::new();
     for path in files {
         let text = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
         let below = path.strip_prefix(tree).expect("in the tree").to_string_lossy().to_string();
-        if !patterns.is_empty() && !patterns.iter().any(|p| below.starts_with(p.as_str())) {
+        if !below.starts_with(prefix) {
             continue;
         }
         for name in sites::constants(&text).map_err(|e| format!("{below}: {e}"))? {
-            constants.entry(name).or_default().push(module_of(&below));
+            constants.entry(name).or_default().push(package.module_of(&below));
         }
         sources.push(Source { path, text, faults: faults_of(&below)?, ..Source::default() });
     }
@@ -51,7 +54,7 @@ pub fn instrument(tree: &Path, patterns: &[String]) -> Result<usize, String> {
     };
     let constants: Constants = constants.into_iter().map(with_path).collect();
     let mut dropped: HashSet<u32> = HashSet::new();
-    prepare(tree)?;
+    prepare(tree, package)?;
     for round in 1..=40 {
         let mut next = 1;
         for source in &mut sources {
@@ -60,9 +63,9 @@ pub fn instrument(tree: &Path, patterns: &[String]) -> Result<usize, String> {
             next += found.sites.iter().map(|s| s.variants.len() as u32).sum::<u32>();
             write(source, found.sites, &found.edits)?;
         }
-        fs::write(tree.join("src/mutation.rs"), SWITCH.replace("COUNT", &(next + 1).to_string()))
+        fs::write(tree.join(package.sources).join("mutation.rs"), SWITCH.replace("COUNT", &(next + 1).to_string()))
             .map_err(|e| e.to_string())?;
-        let (refused, unplaced) = refusals(tree, &mut sources, &mut dropped)?;
+        let (refused, unplaced) = refusals(tree, package, &mut sources, &mut dropped)?;
         eprintln!("round {round}: {} variants, {} dropped, {refused} places refused now", next - 1, dropped.len());
         if refused == 0 {
             if !unplaced.is_empty() {
@@ -105,25 +108,34 @@ fn walk(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), String> {
     Ok(())
 }
 
-/// The module path of a file, such as `crate::star::deformation` for `src/star/deformation.rs`.
-fn module_of(file: &str) -> String {
-    let parts: Vec<&str> = file.trim_start_matches("src/").trim_end_matches(".rs").split('/').collect();
-    let kept = parts.iter().filter(|p| !["mod", "lib"].contains(p));
-    std::iter::once("crate").chain(kept.copied()).collect::<Vec<_>>().join("::")
+/// Files of modules that are compiled for tests alone: `#[cfg(test)] mod name;`.
+fn modules_of_tests(files: &[PathBuf]) -> Result<HashSet<PathBuf>, String> {
+    let mut found = HashSet::new();
+    for file in files {
+        let text = fs::read_to_string(file).map_err(|e| format!("{}: {e}", file.display()))?;
+        let folder = if file.ends_with("mod.rs") || file.ends_with("lib.rs") {
+            file.parent().expect("in a folder").to_path_buf()
+        } else {
+            file.with_extension("")
+        };
+        found.extend(sites::modules_of_tests(&text)?.iter().map(|name| folder.join(format!("{name}.rs"))));
+    }
+    Ok(found)
 }
 
 /// Lints off, and the switch made a module of the crate.
-fn prepare(tree: &Path) -> Result<(), String> {
+fn prepare(tree: &Path, package: &Package) -> Result<(), String> {
+    // The workspace's manifest is the model's as well.
     let manifest = tree.join("Cargo.toml");
     let text = fs::read_to_string(&manifest).map_err(|e| e.to_string())?;
     let text = text
         .replace("missing_docs = \"deny\"", "missing_docs = \"allow\"")
         .replace("all = { level = \"warn\", priority = -1 }", "all = { level = \"allow\", priority = -1 }");
     fs::write(&manifest, text).map_err(|e| e.to_string())?;
-    let root = tree.join("src/lib.rs");
+    let root = tree.join(package.sources).join("lib.rs");
     let text = fs::read_to_string(&root).map_err(|e| e.to_string())?;
     if !text.contains("mod mutation;") {
-        let at = text.find("\npub mod ").ok_or("src/lib.rs has no module")?;
+        let at = text.find("\npub mod ").ok_or("lib.rs has no public module")?;
         let (head, tail) = text.split_at(at);
         fs::write(&root, format!("{head}\n#[allow(missing_docs)] pub mod mutation;{tail}"))
             .map_err(|e| e.to_string())?;
@@ -133,17 +145,27 @@ fn prepare(tree: &Path) -> Result<(), String> {
 
 fn write(source: &mut Source, sites: Vec<Site>, edits: &[Edit]) -> Result<(), String> {
     let (text, origins) = apply(&source.text, edits, sites.len());
-    if !source.path.ends_with("src/lib.rs") {
+    if !is_root(&source.path) {
         fs::write(&source.path, &text).map_err(|e| e.to_string())?;
     }
     (source.sites, source.origins) = (sites, origins);
     Ok(())
 }
 
+/// The root of a package holds the switch, and is not rewritten.
+fn is_root(path: &Path) -> bool {
+    path.ends_with("src/lib.rs")
+}
+
 /// Compiles, and drops what the errors point at. Returns how many, and the errors that lie in no site.
-fn refusals(tree: &Path, sources: &mut [Source], dropped: &mut HashSet<u32>) -> Result<(usize, Vec<String>), String> {
+fn refusals(
+    tree: &Path,
+    package: &Package,
+    sources: &mut [Source],
+    dropped: &mut HashSet<u32>,
+) -> Result<(usize, Vec<String>), String> {
     let output = Command::new("cargo")
-        .args(["check", "-q", "-p", "twofold", "--lib", "--message-format", "json"])
+        .args(["check", "-q", "-p", package.name, "--lib", "--message-format", "json"])
         .env("RUSTFLAGS", "--cap-lints=allow")
         .current_dir(tree)
         .output()
@@ -210,7 +232,7 @@ fn list(tree: &Path, sources: &[Source], dropped: &HashSet<u32>) -> Result<usize
     let mut all = Vec::new();
     for source in sources {
         let file = source.path.strip_prefix(tree).expect("in the tree").to_string_lossy().to_string();
-        if file == "src/lib.rs" {
+        if is_root(&source.path) {
             continue;
         }
         for (index, site) in source.sites.iter().enumerate() {

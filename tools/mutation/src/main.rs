@@ -1,22 +1,31 @@
-//! `mutation instrument TREE [PREFIX...]` rewrites a copy of the tree so that every mutant of the model is in one build;
-//! `mutation run TREE` finds which tests reach each and runs those against it. See `scripts/mutation`.
+//! `mutation instrument TREE PREFIX` rewrites a copy of the tree so that every mutant of a package's files that begin so is in one build;
+//! `mutation run TREE SECONDS PREFIX` finds which tests reach each and runs those against it. See `scripts/mutation`.
 #![forbid(unsafe_code)]
 
 mod campaign;
 mod edit;
 mod instrument;
+mod package;
 mod sites;
 
 use std::path::Path;
 use std::process::ExitCode;
 
+use package::Package;
+
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let outcome = match arguments.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
-        ["instrument", tree, ..] => instrument::instrument(Path::new(tree), &arguments[2..])
+        ["instrument", tree, prefix] => Package::of(prefix)
+            .and_then(|package| instrument::instrument(Path::new(tree), package, prefix))
             .map(|count| println!("{count} mutants in one build: {tree}/mutants.json")),
-        ["run", tree, rest @ ..] => campaign::run(Path::new(tree), rest),
-        _ => Err("usage: mutation instrument TREE [PREFIX...] | run TREE [seconds per mutant] [file prefix]".into()),
+        ["run", tree, seconds, prefix] => match seconds.parse() {
+            Ok(budget) => {
+                Package::of(prefix).and_then(|package| campaign::run(Path::new(tree), package, budget, prefix))
+            }
+            Err(_) => Err(format!("seconds per mutant: {seconds} is not a number")),
+        },
+        _ => Err("usage: mutation instrument TREE PREFIX | run TREE SECONDS PREFIX".into()),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -66,6 +66,19 @@ pub struct Fault {
     pub what: String,
 }
 
+/// Names of the modules in files of their own that a file declares for tests alone.
+pub fn modules_of_tests(text: &str) -> Result<Vec<String>, String> {
+    let file = syn::parse_file(text).map_err(|e| e.to_string())?;
+    Ok(file
+        .items
+        .iter()
+        .filter_map(|item| match item {
+            Item::Mod(module) if module.content.is_none() && of_tests(&module.attrs) => Some(module.ident.to_string()),
+            _ => None,
+        })
+        .collect())
+}
+
 /// Names of the constants that a file defines outside of traits and functions.
 pub fn constants(text: &str) -> Result<Vec<String>, syn::Error> {
     let file = syn::parse_file(text)?;
@@ -527,10 +540,10 @@ impl<'ast> Visit<'ast> for Visitor<'_> {
     }
 
     fn visit_macro(&mut self, mac: &'ast syn::Macro) {
-        if mac.path.is_ident("vec") {
-            if let Ok(list) = mac.parse_body_with(Punctuated::<Expr, Token![,]>::parse_terminated) {
-                self.inside(|v| list.iter().for_each(|e| v.value(e)));
-            }
+        if mac.path.is_ident("vec")
+            && let Ok(list) = mac.parse_body_with(Punctuated::<Expr, Token![,]>::parse_terminated)
+        {
+            self.inside(|v| list.iter().for_each(|e| v.value(e)));
         }
     }
 

@@ -20,7 +20,7 @@ pub fn begin(tree: &Path, mutants: &[Value]) -> Result<(), String> {
         record.lines().filter_map(|line| line.split(',').next().zip(line.split(',').nth(1))).collect();
     let list = fs::read_to_string(NOT_CAUGHT).map_err(|e| format!("{NOT_CAUGHT}: {e}"))?;
     let left: HashSet<&str> = list.lines().filter_map(|line| Some(line.split_once('\t')?.1)).collect();
-    let contents = contents(mutants)?;
+    let contents = contents(tree, mutants)?;
     let mut text = String::new();
     for mutant in mutants {
         let file = mutant["file"].as_str().unwrap_or("");

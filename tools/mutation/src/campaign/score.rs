@@ -19,11 +19,10 @@ pub const RECORD: &str = "tools/mutation/record.csv";
 pub const NOT_CAUGHT: &str = "tools/mutation/not_caught.tsv";
 
 /// Hashes of the sources of the mutants, without their own tests, which hold none, in the twelve digits of the record.
-pub fn contents(mutants: &[Value]) -> Result<HashMap<String, String>, String> {
+pub fn contents(tree: &Path, mutants: &[Value]) -> Result<HashMap<String, String>, String> {
     let files: BTreeSet<&str> = mutants.iter().filter_map(|mutant| mutant["file"].as_str()).collect();
     let hash = |file: &str| {
-        let text = fs::read_to_string(Path::new("target/mutation/tree/original").join(file))
-            .map_err(|e| format!("{file}: {e}"))?;
+        let text = fs::read_to_string(tree.join("original").join(file)).map_err(|e| format!("{file}: {e}"))?;
         Ok((file.to_string(), hash_without_tests(&text)))
     };
     files.into_iter().map(hash).collect()
@@ -52,7 +51,7 @@ const KINDS: [&str; 6] = ["caught", "equivalent", "lives", "open", "unreached", 
 type Counts = [usize; 6];
 
 /// Prints the score, writes `missed.txt`, and puts the files that were run whole into `tools/mutation/record.csv` of the folder above.
-pub fn write(tree: &Path, mutants: &[Value]) -> Result<(), String> {
+pub fn write(tree: &Path, prefix: &str, mutants: &[Value]) -> Result<(), String> {
     let (equivalent, edited) = (listed::equivalent(mutants), listed::edited(mutants));
     let mut last: HashMap<u64, Value> = HashMap::new();
     for result in super::lines(&tree.join("results.jsonl"))? {
@@ -88,11 +87,14 @@ pub fn write(tree: &Path, mutants: &[Value]) -> Result<(), String> {
     row("all", total.map(|n| n.to_string()));
     fs::write(tree.join("missed.txt"), &missed).map_err(|e| e.to_string())?;
     if total[5] == 0 {
-        // With the record, which is read against it.
-        fs::write(NOT_CAUGHT, missed).map_err(|e| format!("{NOT_CAUGHT}: {e}"))?;
+        // With the record, which is read against it. Those of other files stay.
+        let is_of_another = |line: &&str| line.split('\t').nth(1).is_some_and(|file| !file.starts_with(prefix));
+        let old = fs::read_to_string(NOT_CAUGHT).map_err(|e| format!("{NOT_CAUGHT}: {e}"))?;
+        let others: String = old.lines().filter(is_of_another).map(|line| format!("{line}\n")).collect();
+        fs::write(NOT_CAUGHT, others + &missed).map_err(|e| format!("{NOT_CAUGHT}: {e}"))?;
     }
     println!("those not caught: {}", tree.join("missed.txt").display());
-    keep(mutants, &by_file)
+    keep(tree, mutants, &by_file)
 }
 
 fn text(value: &Value, key: &str) -> String {
@@ -100,7 +102,7 @@ fn text(value: &Value, key: &str) -> String {
 }
 
 /// Replaces the rows of the files that were run whole; a row tells by a hash whether it is of today's source.
-fn keep(mutants: &[Value], by_file: &BTreeMap<String, Counts>) -> Result<(), String> {
+fn keep(tree: &Path, mutants: &[Value], by_file: &BTreeMap<String, Counts>) -> Result<(), String> {
     let mut rows: BTreeMap<String, String> = fs::read_to_string(RECORD)
         .unwrap_or_default()
         .lines()
@@ -111,7 +113,7 @@ fn keep(mutants: &[Value], by_file: &BTreeMap<String, Counts>) -> Result<(), Str
         .collect();
     let output = Command::new("date").arg("-I").output().map_err(|e| format!("date: {e}"))?;
     let date = String::from_utf8_lossy(&output.stdout).trim().to_string();
-    let contents = contents(mutants)?;
+    let contents = contents(tree, mutants)?;
     for (file, counts) in by_file.iter().filter(|(_, counts)| counts[5] == 0) {
         let content = contents.get(file).ok_or_else(|| format!("no source {file}"))?;
         let (all, counts): (usize, _) = (counts.iter().sum(), counts[..5].iter().map(|n| format!(",{n}")));

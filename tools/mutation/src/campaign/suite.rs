@@ -7,6 +7,8 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
+use crate::package::Package;
+
 /// A test with what it reaches.
 pub struct Test {
     pub binary: usize,
@@ -39,24 +41,22 @@ pub enum Outcome {
 const MEMORY: u64 = 4_000_000;
 
 impl Suite {
-    /// Compiles the tests of the packages named in PACKAGES (`twofold` if unset); of the binaries, those with the names `only` (`twofold`: the tests within the sources).
-    pub fn build(tree: &Path, only: Option<&str>) -> Result<Self, String> {
-        let packages = std::env::var("PACKAGES").unwrap_or_else(|_| "twofold".into());
+    /// Compiles the tests that reach the package; of the binaries, those with the names `only` (`lib`: the tests within the sources).
+    pub fn build(tree: &Path, package: &Package, only: Option<&str>) -> Result<Self, String> {
         let mut command = Command::new("cargo");
         command.args(["test", "--no-run", "--profile", "mutants", "--message-format", "json"]);
         match only {
             None => {
                 command.args(["--lib", "--tests"]);
             }
-            // The library's own are of the binary that is named as it is.
             Some(names) => names.split_whitespace().for_each(|name| {
-                let which: &[&str] = if name == "twofold" { &["--lib"] } else { &["--test", name] };
+                let which: &[&str] = if name == "lib" { &["--lib"] } else { &["--test", name] };
                 command.args(which);
             }),
         }
-        for package in packages.split_whitespace() {
-            command.args(["-p", package]);
-        }
+        package.tested_by.iter().for_each(|name| {
+            command.args(["-p", name]);
+        });
         let output = command
             .env("RUSTFLAGS", "--cap-lints=allow")
             .current_dir(tree)

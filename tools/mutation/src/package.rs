@@ -1,0 +1,34 @@
+//! The packages whose sources are made wrong, each with the packages whose tests are run against it.
+
+/// A package of the workspace.
+pub struct Package {
+    pub name: &'static str,
+    /// Folder of its sources, below the tree.
+    pub sources: &'static str,
+    /// Packages whose tests reach it.
+    pub tested_by: &'static [&'static str],
+}
+
+const PACKAGES: [Package; 3] = [
+    Package { name: "twofold", sources: "src/", tested_by: &["twofold"] },
+    Package { name: "twofold-scene", sources: "scene/src/", tested_by: &["twofold-scene", "twofold-command"] },
+    Package { name: "twofold-command", sources: "command/src/", tested_by: &["twofold-command"] },
+];
+
+impl Package {
+    /// The package with a file, or with files that begin so.
+    pub fn of(file: &str) -> Result<&'static Self, String> {
+        let found = PACKAGES.iter().find(|package| file.starts_with(package.sources));
+        found.ok_or_else(|| {
+            let all: Vec<&str> = PACKAGES.iter().map(|package| package.sources).collect();
+            format!("{file}: not in one of {}", all.join(", "))
+        })
+    }
+
+    /// The module path of a file, such as `crate::star::deformation` for `src/star/deformation.rs`.
+    pub fn module_of(&self, file: &str) -> String {
+        let parts: Vec<&str> = file.trim_start_matches(self.sources).trim_end_matches(".rs").split('/').collect();
+        let kept = parts.iter().filter(|part| !["mod", "lib"].contains(part));
+        std::iter::once("crate").chain(kept.copied()).collect::<Vec<_>>().join("::")
+    }
+}
