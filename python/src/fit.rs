@@ -53,9 +53,8 @@ impl TimingData {
         let rest = of("rest", rest)?.unwrap_or(vec![0.0; count]);
         let numbers = of("numbers", numbers)?;
         for number in numbers.iter().flatten().filter(|number| !number.is_nan()) {
-            let is_whole = number.fract() == 0.0 && number.abs() <= 9e15;
-            let allowed = "a whole number up to 9e15 in size, or NaN where it is not known";
-            twofold::Error::ensure(is_whole, "number", *number, allowed).map_err(raised)?;
+            let allowed = "a whole number, or NaN where it is not known";
+            twofold::Error::ensure(number.fract() == 0.0, "number", *number, allowed).map_err(raised)?;
         }
         let arrival = |k: usize| MeasuredArrival {
             time: [times[k], rest[k]],

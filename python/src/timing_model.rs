@@ -19,9 +19,6 @@ pub struct TimingModel {
     pub(crate) model: timing_model::TimingModel,
 }
 
-/// Largest phase in turns: every whole number up to it is a double.
-const MOST_TURNS: f64 = 9e15;
-
 /// The small parts of times, where the times are finite.
 fn small_parts(t: &Numbers, rest: Option<Numbers>) -> PyResult<Vec<f64>> {
     let rest = rest.map_or_else(|| Ok(vec![0.0; t.values.len()]), |rest| t.beside("rest", rest))?;
@@ -29,12 +26,6 @@ fn small_parts(t: &Numbers, rest: Option<Numbers>) -> PyResult<Vec<f64>> {
         twofold::Error::ensure(value.is_finite(), name, value, "a finite number").map_err(raised)?;
     }
     Ok(rest)
-}
-
-/// Refuses phases that a double does not hold.
-fn check_turns(turns: impl Iterator<Item = i64>) -> PyResult<()> {
-    let most = turns.map(|whole| (whole as f64).abs()).fold(0.0, f64::max);
-    twofold::Error::ensure(most <= MOST_TURNS, "phase (turns)", most, "at most 9e15 in size").map_err(raised)
 }
 
 #[pymethods]
@@ -88,12 +79,11 @@ impl TimingModel {
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let rest = small_parts(&t, rest)?;
         let found = t.map(py, |k, t| self.model.phase([t, rest[k]]))?;
-        check_turns(found.iter().map(|turns| turns.whole))?;
         let whole = t.shaped(py, found.iter().map(|turns| turns.whole as f64).collect(), &[])?;
         Ok((whole, t.shaped(py, found.iter().map(|turns| turns.fraction).collect(), &[])?))
     }
 
-    /// The phase as from `phase`, and its derivatives (turns per unit of each parameter): an array of shape (..., 12).
+    /// The phase as from `phase`, and its derivatives (turns per unit of each parameter): an array of shape (..., 13).
     #[pyo3(signature = (t, rest=None))]
     fn phase_and_derivatives<'py>(
         &self,
@@ -103,7 +93,6 @@ impl TimingModel {
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let rest = small_parts(&t, rest)?;
         let found = t.map(py, |k, t| self.model.phase_and_derivatives([t, rest[k]]))?;
-        check_turns(found.iter().map(|(turns, _)| turns.whole))?;
         let whole = t.shaped(py, found.iter().map(|(turns, _)| turns.whole as f64).collect(), &[])?;
         let fraction = t.shaped(py, found.iter().map(|(turns, _)| turns.fraction).collect(), &[])?;
         let derivatives = found.iter().flat_map(|(_, derivatives)| *derivatives).collect();
@@ -113,8 +102,7 @@ impl TimingModel {
     /// When pulses of given numbers arrive: two arrays whose sum is the time.
     fn arrival<'py>(&self, py: Python<'py>, number: Numbers) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         for value in &number.values {
-            let is_whole = value.fract() == 0.0 && value.abs() <= 9e15;
-            twofold::Error::ensure(is_whole, "number", *value, "a whole number up to 9e15 in size").map_err(raised)?;
+            twofold::Error::ensure(value.fract() == 0.0, "number", *value, "a whole number").map_err(raised)?;
         }
         let found = number.map(py, |_, number| self.model.arrival(number as i64))?;
         let [t, rest] = [0, 1].map(|part| number.shaped(py, found.iter().map(|time| time[part]).collect(), &[]));

@@ -65,7 +65,7 @@ impl TimingData {
     /// number to the turn nearest to it.
     ///
     /// # Errors
-    /// [`Error::Domain`] for numbers above 1e18 in size; as for [`TimingModel::phase`].
+    /// [`Error::Domain`] for numbers above 9e15 in size; as for [`TimingModel::phase`].
     pub fn numbered(&self, model: &TimingModel) -> Result<Self, Error> {
         let mut shift = None;
         let mut data = self.clone();

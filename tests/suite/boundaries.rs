@@ -449,11 +449,9 @@ fn a_clock_turns_about_its_momentum() {
 }
 
 #[test]
-fn pulses_are_counted_up_to_1e18() {
+fn pulses_are_counted_up_to_9e15() {
     let star = TimingModel::new([2.0, 0.0], &[]).expect("a model");
-    for (number, quantity) in
-        [(1_000_000_000_000_000_000, ""), (1_000_000_000_000_001_000, "phase"), (i64::MIN, "phase")]
-    {
+    for (number, quantity) in [(9_000_000_000_000_000, ""), (9_000_000_000_000_100, "phase"), (i64::MIN, "phase")] {
         judged(star.arrival(number), quantity);
         judged(star.phase([number as f64 / 2.0, 0.0]), quantity);
         let arrival = MeasuredArrival { time: [1.0, 0.0], sigma: 1e-6, number: Some(number) };

@@ -483,7 +483,7 @@ class TimingModel:
         """
     def phase_and_derivatives(self, /, t: ArrayLike, rest: ArrayLike | None = None) -> tuple[Any, Any, Any]:
         """
-        The phase as from `phase`, and its derivatives (turns per unit of each parameter): an array of shape (..., 12).
+        The phase as from `phase`, and its derivatives (turns per unit of each parameter): an array of shape (..., 13).
         """
     def width(self, /, t: ArrayLike) -> Any:
         """

@@ -48,8 +48,8 @@ const COUNT: usize = TimingParameter::ALL.len();
 
 type Dual = DualSVec64<COUNT>;
 
-/// Most turns: sums and differences of a few such numbers have 64 bits.
-const MOST_TURNS: f64 = 1e18;
+/// Most turns: every whole number up to it is a double.
+const MOST_TURNS: f64 = 9e15;
 
 /// Most steps of Newton's method from a number to its time.
 const STEPS: usize = 12;
@@ -124,7 +124,7 @@ impl TimingModel {
     /// The turns of the magnetic axis about `L` from the line of sight, at a time (s) since the epoch, the unevaluated sum of two doubles.
     ///
     /// # Errors
-    /// [`Error::Domain`] for more than 1e18 turns; as for [`StretchedTime::stretched_at`].
+    /// [`Error::Domain`] for more than 9e15 turns; as for [`StretchedTime::stretched_at`].
     pub fn phase(&self, t: [f64; 2]) -> Result<Turns, Error> {
         self.phase_at(self.time.stretched_at(t)?, t[0])
     }
@@ -209,7 +209,7 @@ impl TimingModel {
 
 /// Refuses numbers of pulses that are too large, and what is no number.
 pub(crate) fn check_turns(turns: f64) -> Result<(), Error> {
-    Error::ensure(turns.abs() <= MOST_TURNS, "phase (turns)", turns, "at most 1e18 either way")
+    Error::ensure(turns.abs() <= MOST_TURNS, "phase (turns)", turns, "at most 9e15 either way")
 }
 
 fn derivatives(value: &Dual) -> [f64; COUNT] {
