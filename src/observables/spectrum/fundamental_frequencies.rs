@@ -12,6 +12,10 @@ use crate::numerics::double_double::DoubleDouble;
 /// Points of the first grid in each angle, and most of them: where an Euler angle still jumps between two of these, `n` passes a pole.
 const POINTS: [usize; 2] = [32, 256];
 
+/// From so many points on, four neighbours whose azimuths go round have the pole of `alpha` between them or within `(2 pi / 64)^2 / 8 = 1.2e-3` of the curvature of `n` on the torus.
+/// The finest grid tells only poles farther from `n` than half of its step, `0.5 * 2 pi / 256 = 1.2e-2`, and need not be made.
+const FINE: usize = 64;
+
 /// Largest change of an angle between two points of the grid (rad), below a quarter turn.
 const LARGEST_STEP: f64 = 1.5;
 
@@ -60,7 +64,7 @@ impl FundamentalFrequencies {
         let mut grid = Grid::new(&state, POINTS[0], pole);
         let euler = loop {
             let euler = grid.euler_windings();
-            if euler.is_some() || grid.count >= POINTS[1] {
+            if euler.is_some() || grid.count >= POINTS[1] || grid.count >= FINE && grid.surrounds_pole() {
                 break euler;
             }
             grid = Grid::new(&state, 2 * grid.count, pole);
@@ -190,6 +194,21 @@ impl Grid {
             return None;
         }
         Some([first?, second?, winding(self.third.iter().map(|state| angle(state, 0)))?])
+    }
+
+    /// Whether the azimuth of `n` goes round between four neighbours.
+    fn surrounds_pole(&self) -> bool {
+        let count = self.count;
+        let azimuth = |k: usize, j: usize| {
+            let n = &self.states[k % count * count + j % count].axis;
+            n.y.atan2(n.x)
+        };
+        let goes_round = |k: usize, j: usize| {
+            let corners = [azimuth(k, j), azimuth(k, j + 1), azimuth(k + 1, j + 1), azimuth(k + 1, j)];
+            let steps = (0..4).map(|i| wrapped(corners[(i + 1) % 4] - corners[i]));
+            steps.sum::<f64>().abs() > 1.0
+        };
+        (0..count).any(|k| (0..count).any(|j| goes_round(k, j)))
     }
 
     fn euler_windings(&self) -> Option<[[i32; 3]; 2]> {

@@ -233,7 +233,10 @@ impl TorusSolution {
 
     /// The state at three angles of the torus, in turns.
     pub fn state_on_torus(&self, turns: [f64; 3]) -> BodyState<f64> {
-        self.state_at(plain(), turns)
+        match self.fused {
+            Some(fused) => run_fused(fused, || self.state_at(fused, turns)),
+            None => self.state_at(plain(), turns),
+        }
     }
 
     /// Rates of the three angles in turns per unit of time.
@@ -250,7 +253,9 @@ impl TorusSolution {
     fn axis_state_by<F: FourLanes>(&self, four: F, t: [f64; 2]) -> AxisState<f64> {
         let [first, second, _] = &self.phases;
         let turns = [first.at::<F>(t), second.at::<F>(t)];
-        self.with_multiples(four, turns, |first, second| self.axes_at(four, first, second))
+        let mut room = Room::default();
+        let (first, second) = self.multiples(four, turns, &mut room);
+        self.axes_at(four, first, &second)
     }
 
     #[inline(always)]
@@ -259,18 +264,16 @@ impl TorusSolution {
         self.state_at(four, [first.at::<F>(t), second.at::<F>(t), third.at::<F>(t)])
     }
 
-    /// Uses all multiples of two angles.
+    /// The first multiples of two angles, and all that are needed of the second one, in this room.
     #[inline(always)]
-    fn with_multiples<F: FourLanes, R>(
+    fn multiples<'a, F: FourLanes>(
         &self,
         four: F,
         turns: [f64; 2],
-        sum: impl FnOnce(FourMultiples<F>, &Multiples<'_>) -> R,
-    ) -> R {
+        Room { few, many }: &'a mut Room,
+    ) -> (FourMultiples<F>, Multiples<'a>) {
         let [first, second] = sines_of_turns(four, turns);
         let (first, second) = (FourMultiples::first(four, first), FourMultiples::first(four, second));
-        let mut few = [[0.0; 4]; FEW];
-        let mut many = Vec::new();
         let needed = 2 * self.blocks;
         let blocks = if needed <= FEW {
             &mut few[..needed]
@@ -278,7 +281,7 @@ impl TorusSolution {
             many.resize(needed, [0.0; 4]);
             many.as_mut_slice()
         };
-        sum(first, &Multiples::fill(four, blocks, second))
+        (first, Multiples::fill(four, blocks, second))
     }
 
     #[inline(always)]
@@ -289,10 +292,11 @@ impl TorusSolution {
 
     #[inline(always)]
     fn state_at<F: FourLanes>(&self, four: F, [first, second, third]: [f64; 3]) -> BodyState<f64> {
-        let (AxisState { axis, momentum }, values) = self.with_multiples(four, [first, second], |first, second| {
-            (self.axes_at(four, first, second), self.vector.at(four, first, second, Reflection::Odd))
-        });
-        let [real_x, imaginary_y, real_y, imaginary_x, real_z, imaginary_z] = values;
+        let mut room = Room::default();
+        let (first, second) = self.multiples(four, [first, second], &mut room);
+        let AxisState { axis, momentum } = self.axes_at(four, first, &second);
+        let [real_x, imaginary_y, real_y, imaginary_x, real_z, imaginary_z] =
+            self.vector.at(four, first, &second, Reflection::Odd);
         let [(sin, cos), _] = sines_of_turns(four, [third; 2]);
         let turned = |real: f64, imaginary: f64| real * cos - imaginary * sin;
         let turned = [turned(real_x, imaginary_x), turned(real_y, imaginary_y), turned(real_z, imaginary_z)];
@@ -308,6 +312,13 @@ impl TorusSolution {
         let [x, y, z, _] = four.store(four.multiply_add(four.load(a), four.all(x), by_y));
         Vector3::new(x, y, z)
     }
+}
+
+/// Room for the multiples of an angle; few of them take no memory.
+#[derive(Default)]
+struct Room {
+    few: [[f64; 4]; FEW],
+    many: Vec<[f64; 4]>,
 }
 
 /// Turns along both closed ways per unit of time.
