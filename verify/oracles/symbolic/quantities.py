@@ -4,10 +4,12 @@ from dataclasses import dataclass
 
 from sympy import Integer, Matrix, cos, diff, series, sin, solve, sqrt, symbols
 
+import bulge
 import mean_motion as mean
 import observables as seen
 import perturbation
 import self_energy as star
+import spin_down
 import torque
 import wave_source as wave
 from coordinates import (
@@ -125,6 +127,8 @@ def exact_quantities():
         Quantity("cos-opening-angle", [seen.COS_OPENING]),
         Quantity("width-changes", [seen.ZETA_BY_WIDTH, seen.LAMBDA_BY_WIDTH]),
         Quantity("polarizations", seen.polarizations(S)),
+        Quantity("bulge", bulge_components()),
+        Quantity("torque-harmonics", [spin_down.A_0, spin_down.A_1, spin_down.A_2]),
     ]
     for kind in perturbation.KINDS:
         out.append(Quantity(f"first-order-equations-{kind}", perturbation.first_order(kind)))
@@ -132,6 +136,25 @@ def exact_quantities():
         out.append(solution(f"printed-solution-{kind}", perturbation.as_printed(kind), kind))
         out.append(solution(f"corrected-solution-{kind}", perturbation.first_order(kind), kind, corrected=True))
     return out
+
+
+def bulge_components():
+    """Energy, angular velocity, rates of n and L, `I Omega`; `n` from the angles of a point, `L` its `w`."""
+    at = dict(zip(list(N) + list(L), list(E_Z) + list(symbols("w_1:4"))))
+    components = [bulge.ENERGY, *bulge.TURNING, *bulge.rates(bulge.ENERGY), *bulge.KINEMATIC_MOMENTUM]
+    return [component.subs(at, simultaneous=True) for component in components]
+
+
+def spin_down_quantities():
+    """Rotation of a braked star, and a wobble that friction damps."""
+    late, time = spin_down.lateness()
+    # The lateness is a difference of periodic functions of this size.
+    size = spin_down.braking * spin_down.MODULATION * (abs(spin_down.A_1) + abs(spin_down.A_2) / 4) / spin_down.rate**2
+    return [
+        Quantity("braked-rotation", [1 / spin_down.slowness(), time], exact=False),
+        Quantity("lateness-by-torque", [late], exact=False, scale=size),
+        Quantity("damped-wobble", spin_down.damped(), exact=False),
+    ]
 
 
 def spheroid_quantities():
@@ -245,4 +268,4 @@ def motion_quantities():
 
 def all_quantities():
     """In the order of the file."""
-    return exact_quantities() + spheroid_quantities() + mean_quantities() + motion_quantities()
+    return exact_quantities() + spheroid_quantities() + mean_quantities() + motion_quantities() + spin_down_quantities()

@@ -1,6 +1,7 @@
 //! Kernels with roots or inverse functions, under the names of `verify/oracles/symbolic/quantities.py` and with its order of components.
 
 use twofold::observables::wave_harmonics::WaveHarmonics;
+use twofold::spin_down::{Braking, Precession as FreePrecession, StretchedTime};
 
 use super::{ClosedKernel, RationalPoint};
 use crate::prelude::*;
@@ -11,7 +12,7 @@ type Values = fn(&Point) -> Components;
 
 /// All of them.
 pub(super) fn all() -> Vec<ClosedKernel> {
-    let kernels: [(&str, Values); 14] = [
+    let kernels: [(&str, Values); 17] = [
         ("potential-coefficients", |p| {
             let a = potential_coefficients(&SpheroidShape::from_axis_ratio(p.at("q"))?);
             Ok(vec![a.a0, a.a1, a.a3, a.difference])
@@ -96,8 +97,30 @@ pub(super) fn all() -> Vec<ClosedKernel> {
             let drift = SpinAxisDrift { polar_inertia_over_c, spin, interval, cos_lambda_change };
             Ok(vec![drift.combination_bound(eta_from_inclination(p.at("beta"))?)?])
         }),
+        ("braked-rotation", |p| {
+            let tau = stretched(p);
+            let [time, rest] = braked(p, 3.0)?.time_at([tau, 0.0]);
+            Ok(vec![braked(p, 2.0 + p.at("x_4"))?.slowing(tau), time + rest])
+        }),
+        ("lateness-by-torque", |p| Ok(vec![braked(p, 3.0)?.late(stretched(p))])),
+        ("damped-wobble", |p| {
+            let (damped, tau) = (precession(p, p.at("x_5") / 16.0), stretched(p));
+            Ok(vec![damped.wobble_at(tau), damped.ahead(tau)])
+        }),
     ];
     kernels.map(|(name, values)| ClosedKernel { name, values }).to_vec()
+}
+
+fn stretched(p: &Point) -> f64 {
+    16.0 * p.at("x_2")
+}
+
+fn precession(p: &Point, damping: f64) -> FreePrecession {
+    FreePrecession::new(["colatitude", "chi", "azimuth"].map(|name| p.at(name)), p.at("size"), damping)
+}
+
+fn braked(p: &Point, index: f64) -> Result<StretchedTime, Error> {
+    StretchedTime::new(&Braking { rate: p.at("x_1") / 1024.0, index, torque_share: p.at("x_3") }, &precession(p, 0.0))
 }
 
 /// Traceless principal values, `n` and the direction of `L`.

@@ -1,6 +1,8 @@
 //! Kernels with rational values, under the names of `verify/oracles/symbolic/quantities.py` and with its order of components.
 
+use twofold::dynamics::bulge::{bulge_potential, bulge_turning, kinematic_momentum};
 use twofold::observables::bound::lambda_change_terms;
+use twofold::spin_down::TorqueHarmonics;
 
 use super::point::Coded;
 use super::{RationalKernel, RationalPoint};
@@ -153,6 +155,25 @@ kernels! {
     "printed-solution-single" => |p| solution(p, Form::Printed, Precession::Single);
     "corrected-solution-twofold" => |p| solution(p, Form::Corrected, Precession::Twofold);
     "corrected-solution-single" => |p| solution(p, Form::Corrected, Precession::Single);
+    "bulge" => |p| {
+        let (bulge, tensor) = (p.at("x_1"), p.symmetric("S"));
+        let state = AxisState {
+            axis: symmetry_axis(p.at("alpha"), p.at("beta")),
+            momentum: p.vector(["w_1", "w_2", "w_3"]),
+        };
+        let turning = bulge_turning(bulge, &tensor, &state.momentum);
+        components![
+            [bulge_potential(bulge, &tensor, &state.momentum)],
+            turning,
+            turning.cross(&state.axis),
+            turning.cross(&state.momentum),
+            kinematic_momentum(&p.spheroid(), &tensor, bulge, &state)
+        ]
+    };
+    "torque-harmonics" => |p| {
+        let TorqueHarmonics { constant, once, twice } = TorqueHarmonics::new(p.at("colatitude"), p.at("chi"));
+        [constant, once, twice]
+    };
 }
 
 type Point<F> = RationalPoint<F>;
