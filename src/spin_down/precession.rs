@@ -5,7 +5,7 @@ use core::num::NonZeroUsize;
 use std::sync::LazyLock;
 
 use super::TorqueHarmonics;
-use super::stretched_time::within;
+use super::stretched_time::{exp_less_one, within};
 use crate::error::Error;
 use crate::numerics::gauss::unit_rule;
 use crate::numerics::scalar::Real;
@@ -137,7 +137,6 @@ impl<S: Real> Precession<S> {
         cos * cos - sin * sin * 0.5
     }
 
-    /// Without cancellation but in `exp(-2 x) - 1`, which is lost where all of this is below rounding.
     fn averages(&self, tau: S) -> Averages<S> {
         let [sin, cos] = self.squares;
         let x = self.damping * tau;
@@ -145,9 +144,9 @@ impl<S: Real> Precession<S> {
         let secant = (S::one() + tangent).sqrt();
         let mut sum = Averages { rate: S::zero(), square: S::zero(), square_twice: S::zero() };
         for &(part, weight) in RULE.iter() {
-            let fallen = (-x * (2.0 * part)).exp();
-            let change = tangent * (fallen - S::one());
-            let over = S::one() + tangent * fallen;
+            // Of tan^2 theta.
+            let change = tangent * exp_less_one(-x * (2.0 * part));
+            let over = S::one() + tangent + change;
             let here = over.sqrt();
             let square = change * cos / over;
             sum.rate += -change / ((secant + here) * here) * weight;

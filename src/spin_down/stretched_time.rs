@@ -300,8 +300,11 @@ fn ln_slowness<S: Real>(braking: &Braking<S>, tau: S) -> S {
     x * (1..=terms(small.re(), 18)).rev().fold(S::zero(), |sum, k| S::from_f64(1.0 / k as f64) - small * sum)
 }
 
-/// `exp(x) - 1` for `x` at most a half in size, to rounding.
-fn exp_less_one<S: Real>(x: S) -> S {
+/// `exp(x) - 1`, to rounding.
+pub(super) fn exp_less_one<S: Real>(x: S) -> S {
+    if x.re().abs() > 0.5 {
+        return x.exp() - S::one();
+    }
     (1..=terms(x.re(), 15)).rev().fold(S::zero(), |sum, k| (S::one() + sum) * x / k as f64)
 }
 

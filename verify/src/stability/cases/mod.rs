@@ -1,5 +1,6 @@
 //! The cases, by subject.
 
+mod braking;
 mod dynamics;
 mod elliptic;
 mod mean;
@@ -67,4 +68,6 @@ families! {
         "principal axes and the nearest symmetric tensor";
     torus [24]
         "states on tori and their exact frequencies";
+    braking []
+        "harmonics of the torque of a wobbling star, a wobble that friction damps";
 }
