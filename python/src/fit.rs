@@ -6,13 +6,14 @@ use std::path::PathBuf;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::PyDict;
 use twofold::inference::{self, Fisher, MeasuredArrival, MeasuredWidth, Model, Prior, Residuals, Unknown};
 use twofold::observables::pulsar::timing_model::TimingParameter;
 use twofold_scene::measurements::{DataFile, named, parse_noise};
 
 use crate::arrays::{Array, Numbers, array};
 use crate::error::raised;
+use crate::pickle::{Reduced, called_with};
 use crate::pulsar::epoch;
 use crate::timing_model::{TimingModel, timing_parameter};
 
@@ -122,7 +123,7 @@ impl TimingData {
         self.data == other.data
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let (py, data) = (slf.py(), &slf.get().data);
         let options = PyDict::new(py);
         options.set_item("times", array(py, data.arrivals.iter().map(|arrival| arrival.time[0])))?;
@@ -132,8 +133,7 @@ impl TimingData {
         options.set_item("width_times", array(py, data.widths.iter().map(|width| width.time)))?;
         options.set_item("widths", array(py, data.widths.iter().map(|width| width.duration)))?;
         options.set_item("width_sigmas", array(py, data.widths.iter().map(|width| width.sigma)))?;
-        let made = py.import("functools")?.getattr("partial")?.call((slf.get_type(),), Some(&options))?;
-        Ok((made, PyTuple::empty(py)))
+        called_with(slf.get_type().into_any(), &options)
     }
 
     fn __repr__(&self) -> String {

@@ -5,6 +5,7 @@ mod error;
 mod fit;
 mod kernels;
 mod motion;
+mod pickle;
 mod pulsar;
 mod scene;
 mod sweep;

@@ -3,7 +3,7 @@
 use std::sync::Mutex;
 
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PySlice, PyTuple};
+use pyo3::types::{PyDict, PySlice};
 use twofold::dynamics::BodyState;
 use twofold::plan::{Output, PlannedMotion, Request};
 use twofold::propagation::{ContinuousAngles, Motion as _};
@@ -11,6 +11,7 @@ use twofold_scene::scene_file;
 
 use crate::arrays::{Array, Numbers};
 use crate::error::raised;
+use crate::pickle::{Reduced, called_with};
 use crate::scene::Scene;
 
 /// Samples for which the cheapest method is chosen.
@@ -108,13 +109,11 @@ impl Motion {
         Ok(format!("<Motion of {} from {from:?} to {to:?} by {}>", self.of.bind(py).repr()?, self.method()))
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
         let options = PyDict::new(py);
         options.set_item("end", self.end)?;
         options.set_item("method", &self.method)?;
         options.set_item("tolerance", self.scene.tolerance)?;
-        let partial = py.import("functools")?.getattr("partial")?;
-        let made = partial.call((self.of.bind(py).getattr("motion")?,), Some(&options))?;
-        Ok((made, PyTuple::empty(py)))
+        called_with(self.of.bind(py).getattr("motion")?, &options)
     }
 }

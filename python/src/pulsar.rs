@@ -9,6 +9,7 @@ use twofold_scene::pulsar_timing::{self, PulsarScene, csv, par, tim};
 
 use crate::arrays::Numbers;
 use crate::error::raised;
+use crate::pickle::Reduced;
 use crate::scene::Scene;
 use crate::table::Table;
 use crate::timing_model::TimingModel;
@@ -120,7 +121,7 @@ impl Pulsar {
         Ok(format!("<Pulsar of {}, period {:?} s>", self.scene.bind(py).repr()?, self.period()))
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
         Ok((self.scene.bind(py).getattr("pulsar")?, PyTuple::empty(py)))
     }
 }

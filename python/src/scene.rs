@@ -18,6 +18,7 @@ use twofold_scene::trajectory::{LinesWanted, write_csv, write_lines, write_pulse
 use crate::error::raised;
 use crate::fit::Fit;
 use crate::motion::Motion;
+use crate::pickle::Reduced;
 use crate::pulsar::Pulsar;
 use crate::table::Table;
 use crate::writing::written;
@@ -321,7 +322,7 @@ impl Scene {
         format!("<Scene {}: {}>", self.name, self.scene.about)
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let Self { name, toml, .. } = slf.get();
         let made_again = slf.get_type().getattr("_of_text")?;
         Ok((made_again, PyTuple::new(slf.py(), [name, toml])?))

@@ -4,10 +4,11 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PyTuple};
+use pyo3::types::{PyBytes, PyDict};
 use twofold_scene::sweep::{Identity, Spool, SpoolFiles, Sweep as Checked, SweepText, csv_line, errors_beside};
 
 use crate::error::raised;
+use crate::pickle::{Reduced, called_with};
 use crate::table::Table;
 
 /// Name and text of a sweep file, and name and text of its scene if that is another file.
@@ -119,12 +120,11 @@ impl Sweep {
         format!("<Sweep of {} scenes, {} columns>", self.scenes, self.header.len())
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let (py, SweepText { file, text, scene }) = (slf.py(), slf.get().text.clone());
         let options = PyDict::new(py);
         options.set_item("_texts", (file, text, scene))?;
-        let made_again = py.import("functools")?.getattr("partial")?.call((slf.get_type(),), Some(&options))?;
-        Ok((made_again, PyTuple::empty(py)))
+        called_with(slf.get_type().into_any(), &options)
     }
 }
 

@@ -8,6 +8,7 @@ use crate::arrays::Numbers;
 use twofold_scene::measurements::named;
 
 use crate::error::raised;
+use crate::pickle::{Reduced, called_with};
 
 /// A pulsar by its timing parameters (docs/timing-model.md). `TimingModel(f0, f1=..., wobble=..., chi=...)`: F0 in Hz, and in SI units and rad what else is not zero; chi and inclination are
 /// a right angle if not given. F0 is the sum of two doubles, `f0 + f0_rest`.
@@ -129,14 +130,16 @@ impl TimingModel {
         Ok(format!("TimingModel({f0:?}, {rest:?}{others})"))
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let (py, of) = (slf.py(), slf.get());
         let options = PyDict::new(py);
         for parameter in TimingParameter::ALL.into_iter().filter(|parameter| *parameter != TimingParameter::F0) {
             options.set_item(parameter.key(), of.model.value(parameter))?;
         }
-        let made = py.import("functools")?.getattr("partial")?.call((slf.get_type(),), Some(&options))?;
-        Ok((made, PyTuple::new(py, of.frequency())?))
+        let [f0, rest] = of.frequency();
+        options.set_item("f0", f0)?;
+        options.set_item("f0_rest", rest)?;
+        called_with(slf.get_type().into_any(), &options)
     }
 }
 
