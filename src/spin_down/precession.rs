@@ -241,9 +241,6 @@ impl Precession {
     /// What the damped torque leaves out of the lateness over `kappa g`: what is of third order in the damping.
     pub(super) fn truncation(&self, t: f64) -> f64 {
         let Self { rate: w, damping, torque, .. } = *self;
-        if damping == 0.0 {
-            return 0.0;
-        }
         // The coefficients of third order in the expansion at u = 1 are 4; the wobble may fall from one e times as large.
         let third = 10.0 * (damping / w).abs().powi(3) * (torque.once.abs() + torque.twice.abs());
         third * (1.0 / w.powi(2) + (t / w).abs())

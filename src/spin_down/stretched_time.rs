@@ -192,7 +192,7 @@ impl StretchedTime {
     pub fn truncation(&self, t: f64) -> f64 {
         let Braking { rate, index, .. } = self.braking;
         let Precession { torque, rate: w, .. } = self.precession;
-        if self.modulation == 0.0 || w == 0.0 {
+        if w == 0.0 {
             return 0.0;
         }
         if index == 3.0 {
@@ -365,6 +365,36 @@ mod tests {
                 let law = -2.0 * 1e-7 * torque(tau) / stretched.slowing(tau);
                 assert!((change / law - 1.0).abs() < 1e-4, "{index} {tau}: {change:e} {law:e}");
             }
+        }
+    }
+
+    /// Numbers from another program, with rates of either sign.
+    #[test]
+    fn what_is_left_out() {
+        let star = |index: f64, wobble: f64, rate: f64, damping: f64| {
+            let precession = Precession::new([wobble, 1.3, 0.7], rate, damping);
+            StretchedTime::new(&Braking { rate: -1e-6, index, torque_share: 0.6 }, &precession).unwrap()
+        };
+        let close =
+            |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 1e-11, "{found:e} {expected:e}");
+        close(star(4.5, 0.4, -0.013, 0.0).truncation(-2e3), 4.981728648126e-9);
+        close(star(2.2, 0.4, -0.013, 0.0).truncation(-2e3), 8.502150226135e-10);
+        close(star(3.0, 0.4, -0.013, -2e-4).truncation(-2e3), 9.671954386074e-7);
+        close(star(4.5, 0.4, -0.013, 0.0).error_by_angles(0.25), 2.890057624900e-3);
+        // A star that does not precess.
+        let still = star(4.5, 0.0, 0.0, 0.0);
+        assert_eq!([still.truncation(1e4), still.error_by_angles(0.25)], [0.0; 2]);
+    }
+
+    /// `((1 + y kappa tau)^(1 + 1 / y) - 1) / (kappa (1 + y)) - tau`, `y = n - 2`.
+    #[test]
+    fn the_secular_part_is_an_integral() {
+        for (rate, index) in [(1e-6_f64, 2.5), (-1e-6, 2.5), (1e-6, 5.0), (-1e-6, 1.0)] {
+            let (y, tau) = (index - 2.0, 9e4);
+            let expected = ((1.0 + y * rate * tau).powf(1.0 + 1.0 / y) - 1.0) / (rate * (1.0 + y)) - tau;
+            let expected = if y == -1.0 { -(1.0 - rate * tau).ln() / rate - tau } else { expected };
+            let found = secular_lateness(&Braking { rate, index, torque_share: 0.0 }, tau);
+            assert!((found / expected - 1.0).abs() < 1e-13, "{rate} {index}: {found:e} {expected:e}");
         }
     }
 

@@ -28,8 +28,9 @@ const BATCH: f64 = 0.4;
 /// equivalent is not run, nor what the record has as caught in a source that has not changed, but if ANEW is set.
 pub fn run(tree: &Path, package: &Package, budget: f64, prefix: &str) -> Result<(), String> {
     let mutants = lines(&tree.join("mutants.json"))?;
-    // Only some binaries: what they do not catch is as open as before.
+    // Only some tests: what they do not catch is as open as before.
     let only = std::env::var("ONLY").ok();
+    let some = only.is_some() || std::env::var_os("TESTS").is_some();
     let suite = Suite::build(tree, package, only.as_deref())?;
     let tests = record::coverage(tree, &suite)?;
     let mut reaching: HashMap<u64, Vec<usize>> = HashMap::new();
@@ -46,7 +47,7 @@ pub fn run(tree: &Path, package: &Package, budget: f64, prefix: &str) -> Result<
     let done: HashMap<u64, f64> = lines(&results)
         .unwrap_or_default()
         .iter()
-        .map(|r| (r["number"].as_u64().unwrap_or(0), settled(r, only.is_some())))
+        .map(|r| (r["number"].as_u64().unwrap_or(0), settled(r, some)))
         .collect();
     let open: Vec<&Value> = mutants
         .iter()
@@ -88,7 +89,7 @@ pub fn run(tree: &Path, package: &Package, budget: f64, prefix: &str) -> Result<
                     } else if outcome != "caught" {
                         missed.fetch_add(1, Ordering::Relaxed);
                     }
-                    if only.is_some() && outcome != "caught" {
+                    if some && outcome != "caught" {
                         continue;
                     }
                     let line = json!({

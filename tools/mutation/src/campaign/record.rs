@@ -14,17 +14,19 @@ use super::suite::{self, Suite, Test};
 /// Time for one test, without a mutant (s).
 const LONGEST: f64 = 90.0;
 
-/// Tests that pass without a mutant; kept in `coverage.json`, to which those of new binaries are added.
+/// Tests that pass without a mutant; kept in `coverage.json`, to which new ones are added: those whose name has one of the words in TESTS, if it is set.
 pub fn coverage(tree: &Path, suite: &Suite) -> Result<Vec<Test>, String> {
     let file = tree.join("coverage.json");
     let written = fs::read_to_string(&file).unwrap_or_default();
     let known: Vec<Test> =
         written.lines().filter_map(|line| read(line, suite).transpose()).collect::<Result<_, _>>()?;
     let mut all = Vec::new();
+    let words = std::env::var("TESTS").unwrap_or_default();
+    let wanted = |name: &str| words.is_empty() || words.split_whitespace().any(|word| name.contains(word));
     for binary in 0..suite.binaries.len() {
-        if known.iter().all(|test| test.binary != binary) {
-            all.extend(suite.names(binary)?.into_iter().map(|name| (binary, name)));
-        }
+        let is_new = |name: &String| known.iter().all(|test| test.binary != binary || test.name != *name);
+        let names = suite.names(binary)?.into_iter().filter(|name| wanted(name)).filter(is_new);
+        all.extend(names.map(|name| (binary, name)));
     }
     let (next, tests) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
     std::thread::scope(|scope| {
