@@ -4,6 +4,8 @@ import multiprocessing
 import os
 import pickle
 import signal
+import struct
+import sys
 import threading
 import time
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
@@ -48,6 +50,21 @@ class Slowed(twofold.Sweep):
 
     def rows(self, start, stop):
         time.sleep(0.05)
+        return super().rows(start, stop)
+
+
+class Cut(twofold.Sweep):
+    """Its worker is killed while it hands over a part: with half of a message in the pipe, and the lock on it."""
+
+    def rows(self, start, stop):
+        if start >= 40:
+            frame = sys._getframe()
+            while "result_queue" not in frame.f_locals:
+                frame = frame.f_back
+            results = frame.f_locals["result_queue"]
+            with results._wlock:
+                os.write(results._writer.fileno(), struct.pack("!i", 1000) + b"half")
+                os.kill(os.getpid(), signal.SIGKILL)
         return super().rows(start, stop)
 
 
@@ -138,6 +155,19 @@ def test_a_killed_worker(one_core, method, tmp_path):
     # 20 scenes and more were told to be done, and are not computed again.
     assert 20 <= first < 100
     assert recorded.parts == [(start, start + 4) for start in range(first, 100, 4)]
+    assert path.read_bytes() == one_core
+
+
+@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL")
+@pytest.mark.parametrize("method", ["spawn", "fork"])
+def test_a_worker_killed_while_it_hands_over_a_part(sweep, one_core, method, tmp_path):
+    path = tmp_path / "table.csv"
+    with pytest.raises(BrokenProcessPool), processes(method) as executor:
+        Cut(toml=GRID).write(path, executor, scenes_at_once=4, parts_at_once=4)
+    assert not path.exists()
+    with processes(method) as executor:
+        sweep.write(path, executor)
     assert path.read_bytes() == one_core
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections import deque
 from collections.abc import Callable, Generator
+from concurrent.futures import ProcessPoolExecutor
 from contextlib import closing
 from typing import TYPE_CHECKING
 
@@ -18,7 +19,14 @@ if TYPE_CHECKING:
 _Part = tuple[int, bytes, bytes, int]
 
 
-def _rows(sweep: Sweep, version: str, start: int, stop: int) -> tuple[bytes, bytes, int]:
+#: Rows, rows of errors, how many scenes failed.
+_Rows = tuple[bytes, bytes, int]
+
+#: How often processes are looked after while a part is waited for (s).
+_LOOKED_AFTER = 1.0
+
+
+def _rows(sweep: Sweep, version: str, start: int, stop: int) -> _Rows:
     """A part, in a worker. Last digits may change between versions, so workers must have that of the caller."""
     if _version() != version:
         raise _twofold.Error(f"a worker has twofold {_version()}: allowed is {version}, as where the sweep was begun")
@@ -27,6 +35,35 @@ def _rows(sweep: Sweep, version: str, start: int, stop: int) -> tuple[bytes, byt
 
 def _version() -> str:
     return _twofold.__version__
+
+
+def _result(executor: Executor, future: Future[_Rows]) -> _Rows:
+    """Waits for a part.
+
+    A worker that is killed while it hands over rows leaves half of a message, for whose end a `ProcessPoolExecutor` waits for ever: it still has the pipe open for writing itself.
+    """
+    if not isinstance(executor, ProcessPoolExecutor):
+        return future.result()
+    while True:
+        try:
+            return future.result(timeout=_LOOKED_AFTER)
+        except TimeoutError:
+            if future.done():
+                # By the worker.
+                return future.result()
+            _end_if_broken(executor)
+
+
+def _end_if_broken(executor: ProcessPoolExecutor) -> None:
+    """If a worker has died, ends the others, as the executor does where it notices, and lets it see the end of their results, so that it raises `BrokenProcessPool`."""
+    workers = list((getattr(executor, "_processes", None) or {}).values())
+    if all(worker.exitcode in (None, 0) for worker in workers):
+        return
+    for worker in workers:
+        worker.kill()
+    writer = getattr(getattr(executor, "_result_queue", None), "_writer", None)
+    if writer is not None:
+        writer.close()
 
 
 class Sweep(_twofold.Sweep):
@@ -102,7 +139,7 @@ class Sweep(_twofold.Sweep):
     def _parts(self, executor: Executor, first: int, scenes_at_once: int | None, parts_at_once: int) -> Generator[_Part, None, None]:
         """The parts from the scene `first` on, in order."""
         scenes_at_once = self._sizes(scenes_at_once, parts_at_once)
-        waiting: deque[tuple[int, Future[tuple[bytes, bytes, int]]]] = deque()
+        waiting: deque[tuple[int, Future[_Rows]]] = deque()
         version = _version()
         try:
             for start in range(first, len(self), scenes_at_once):
@@ -110,10 +147,10 @@ class Sweep(_twofold.Sweep):
                 waiting.append((stop, executor.submit(_rows, self, version, start, stop)))
                 if len(waiting) == parts_at_once:
                     stop, future = waiting.popleft()
-                    yield stop, *future.result()
+                    yield stop, *_result(executor, future)
             while waiting:
                 stop, future = waiting.popleft()
-                yield stop, *future.result()
+                yield stop, *_result(executor, future)
         finally:
             for _, future in waiting:
                 future.cancel()
