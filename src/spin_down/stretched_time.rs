@@ -123,23 +123,23 @@ impl StretchedTime {
         self.time(stretched.into()).into()
     }
 
-    /// The stretched time.
+    /// The stretched time of the sum of two doubles, in any order.
     ///
     /// # Errors
     /// [`Error::Domain`] for times so long that the star loses or gains a tenth of its rotation, for braking indices above 3 or below 1 a tenth over `n - 2`.
     pub fn stretched_at(&self, time: [f64; 2]) -> Result<[f64; 2], Error> {
-        self.precession.check_time(time[0])?;
+        let wanted = DoubleDouble::from(time);
+        self.precession.check_time(wanted.high)?;
         if self.is_uniform() {
-            return Ok(time);
+            return Ok(wanted.into());
         }
-        let lost = self.braking.rate * time[0] * (self.braking.index - 2.0).abs().max(1.0);
+        let lost = self.braking.rate * wanted.high * (self.braking.index - 2.0).abs().max(1.0);
         Error::ensure(
             lost.abs() <= MOST,
             "F1 t / F0, times |n - 2| of the braking index n where that is above 1",
             -lost,
             "at most 0.1 in size: the rotation is followed while it falls by a tenth",
         )?;
-        let wanted = DoubleDouble::from(time);
         let mut tau = wanted;
         for _ in 0..STEPS {
             let step = (wanted - self.time(tau)) * self.slowing(tau.high);

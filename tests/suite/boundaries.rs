@@ -458,6 +458,25 @@ fn pulses_are_counted_up_to_9e15() {
         judged(TimingData { arrivals: vec![arrival], ..TimingData::default() }.numbered(&star), quantity);
     }
     judged(star.phase([f64::NAN, 0.0]), "phase");
+    judged(star.phase([0.0, f64::NAN]), "phase");
+}
+
+/// The sum of two doubles in any order, of a star that keeps its frequency, and of one that slows down with an F2 of its own.
+#[test]
+fn the_greater_part_of_a_time_may_be_the_second() {
+    let slowing = [(TimingParameter::F1, -1e-12), (TimingParameter::F2, 1e-20)];
+    for parameters in [&[], &slowing[..]] {
+        let star = TimingModel::new([2.0, 0.0], parameters).expect("a model");
+        let ways = [[1e8, 1e-9], [1e-9, 1e8]];
+        let [one, other] = ways.map(|time| star.phase_and_derivatives(time).expect("a phase"));
+        assert_eq!(one, other);
+        assert_eq!(ways.map(|time| star.phase(time).expect("a phase")), [one.0; 2]);
+        let quantity = if parameters.is_empty() { "phase" } else { "F1" };
+        judged(star.phase([1e-9, 1e300]), quantity);
+        judged(star.phase_and_derivatives([1e-9, 1e300]), quantity);
+        let arrival = MeasuredArrival { time: [1e-9, 1e300], sigma: 1e-6, number: Some(2) };
+        judged(TimingData { arrivals: vec![arrival], ..TimingData::default() }.numbered(&star), quantity);
+    }
 }
 
 /// Squares of residuals and of derivatives, in standard deviations, that are no doubles.

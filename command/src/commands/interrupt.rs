@@ -68,7 +68,9 @@ fn requested() {
     let left = if on_request.removals.is_empty() { "" } else { ": no file was left incomplete" };
     // The terminal's line has the bar and ^C on it.
     let line_end = if io::stderr().is_terminal() { "\n" } else { "" };
-    let _ = writeln!(io::stderr(), "{line_end}error: interrupted{left}");
+    // Locked to the end, so that the command says nothing after it.
+    let mut stderr = io::stderr().lock();
+    let _ = writeln!(stderr, "{line_end}error: interrupted{left}");
     process::exit(INTERRUPTED.into());
 }
 

@@ -112,13 +112,17 @@ fn fitted(model: &TimingModel, data: &TimingData, unknowns: &[TimingParameter]) 
 pub fn timing_model(bytes: &[u8]) {
     let mut bytes = Bytes::new(bytes);
     let frequency = [bytes.number(), bytes.usual() * 1e-17];
-    let given: Vec<_> = chosen(bytes.below(1 << 12)).into_iter().map(|parameter| (parameter, bytes.usual())).collect();
+    let given: Vec<_> = chosen(bytes.below(1 << TimingParameter::ALL.len()))
+        .into_iter()
+        .map(|parameter| (parameter, bytes.usual()))
+        .collect();
     // Numbers of a pulsar for what is not zero, so that one is mostly made.
     let scaled = |(parameter, value): (TimingParameter, f64)| {
         let unit = match parameter {
             TimingParameter::F1 | TimingParameter::InclinationRate => 1e-13,
             TimingParameter::F2 => 1e-22,
             TimingParameter::PrecessionRate => 1e-6,
+            TimingParameter::Damping => 1e-9,
             _ => 1.0,
         };
         (parameter, value * unit)
@@ -134,7 +138,7 @@ pub fn timing_model(bytes: &[u8]) {
         let _ = black_box(model.arrival(bytes.number() as i64));
         let _ = black_box(model.arrival((bytes.usual() * 1e12) as i64));
     }
-    let unknowns = chosen(bytes.below(1 << 12));
+    let unknowns = chosen(bytes.below(1 << TimingParameter::ALL.len()));
     let rate = bytes.usual() * 1e-6;
     let mut data = TimingData::default();
     while !bytes.is_empty() && data.arrivals.len() + data.widths.len() < MOST_FITTED {

@@ -126,7 +126,7 @@ impl TimingModel {
     /// # Errors
     /// [`Error::Domain`] for more than 9e15 turns; as for [`StretchedTime::stretched_at`].
     pub fn phase(&self, t: [f64; 2]) -> Result<Turns, Error> {
-        self.phase_at(self.time.stretched_at(t)?, t[0])
+        self.phase_at(self.time.stretched_at(t)?, t[0] + t[1])
     }
 
     /// When (s since the epoch) a pulse arrives: at what time the phase is its number. The unevaluated sum of two doubles, right to the rounding of the geometry, 1e-16 of a turn.
@@ -165,11 +165,12 @@ impl TimingModel {
     /// As for [`phase`](Self::phase).
     pub fn phase_and_derivatives(&self, t: [f64; 2]) -> Result<(Turns, [f64; COUNT]), Error> {
         let (seeded, moved, tau) = self.seeded(t)?;
+        let t = t[0] + t[1];
         let phase = seeded[Phase as usize]
             + seeded[F0 as usize] * moved
-            + beyond_dipole(&seeded, t[0])
+            + beyond_dipole(&seeded, t)
             + geometry(&precession(&seeded), moved) / TAU;
-        Ok((self.phase_at(tau, t[0])?, derivatives(&phase)))
+        Ok((self.phase_at(tau, t)?, derivatives(&phase)))
     }
 
     /// The width of a pulse (s) near a time since the epoch: of the ring of the line of sight in the beam, Eq. (56) `[pulsewid]`, over the rate of turns. That rate
