@@ -38,14 +38,16 @@ fn every_input_is_used_or_refused() {
     // A process for each: the command line prints, and changes the folder it is in.
     let start = |(target, _): &(&'static str, _)| {
         let mut command = Command::new(&program);
-        command.args(["--exact", "every_input_is_used_or_refused", "--nocapture"]).env(TARGET, target);
-        (*target, command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("a process"))
+        command.args(["--exact", "fuzz_corpus::every_input_is_used_or_refused", "--nocapture"]).env(TARGET, target);
+        (*target, command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("a process"))
     };
     for (target, child) in TARGETS.iter().map(start).collect::<Vec<_>>() {
         let output = child.wait_with_output().expect("its end");
         let message = String::from_utf8_lossy(&output.stderr);
         let end: Vec<_> = message.lines().rev().take(20).collect();
         assert!(output.status.success(), "{target}: {}", end.into_iter().rev().collect::<Vec<_>>().join("\n"));
+        // A name that fits no test is no failure of the process.
+        assert!(String::from_utf8_lossy(&output.stdout).contains("1 passed"), "{target}: the test was not run");
     }
 }
 

@@ -154,9 +154,13 @@ impl<'a> Walk<'a> {
         Walked::Nothing
     }
 
-    /// Whether both flows lead the same way, or nowhere.
+    /// Whether both flows lead the same way, or nowhere; also where their rates are no numbers.
     fn is_thin(&self, at: &Axes<f64>, thin: f64) -> bool {
-        let values = tangents(&self.integrals.both_rates(at), self.unit).singular_values();
+        let tangents = tangents(&self.integrals.both_rates(at), self.unit);
+        if !tangents.iter().all(|rate| rate.is_finite()) {
+            return true;
+        }
+        let values = tangents.singular_values();
         values.min() <= thin * values.max()
     }
 
