@@ -8,6 +8,7 @@ use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use twofold::inference::{self, Fisher, MeasuredArrival, MeasuredWidth, Model, Prior, Residuals, Unknown};
+use twofold::nalgebra::{DMatrix, DVector};
 use twofold::observables::pulsar::timing_model::TimingParameter;
 use twofold_scene::measurements::{DataFile, named, parse_noise};
 
@@ -329,5 +330,34 @@ pub fn wobble_limits<'py>(
         let values = limits.iter().map(|limit| [limit.best, limit.gain, limit.limit][of]);
         table.set_item(name, array(py, values))?;
     }
+    Ok(table)
+}
+
+/// What data tell of a small wobble `x = theta (cos psi_0, sin psi_0)` (rad) in which residuals are linear, in standard deviations and without what other unknowns take up: `residuals + along x[0] + across x[1]`. A dict: the `best` x, the `gain` of chi^2 by it, and the `limit` on theta that is not exceeded with the probability `confidence`, with a flat prior for theta and psi_0; infinite above 0.1 rad.
+#[pyfunction]
+#[pyo3(signature = (along, across, residuals, *, confidence=0.95))]
+pub fn wobble_posterior<'py>(
+    py: Python<'py>,
+    along: Numbers,
+    across: Numbers,
+    residuals: Numbers,
+    confidence: f64,
+) -> PyResult<Bound<'py, PyDict>> {
+    let residuals = residuals.list("residuals")?;
+    let columns = [along.list("along")?, across.list("across")?];
+    for (name, column) in ["along", "across"].into_iter().zip(&columns) {
+        if column.len() != residuals.len() || column.len() < 2 {
+            let (found, allowed) = (column.len(), residuals.len());
+            return Err(raised(format!(
+                "{name}: {found} numbers: allowed are two or more, as many as residuals, {allowed}"
+            )));
+        }
+    }
+    let columns = DMatrix::from_vec(residuals.len(), 2, columns.concat());
+    let posterior = inference::WobblePosterior::new(columns, &DVector::from_vec(residuals)).map_err(raised)?;
+    let table = PyDict::new(py);
+    table.set_item("best", array(py, posterior.best().to_vec()))?;
+    table.set_item("gain", posterior.gain())?;
+    table.set_item("limit", posterior.limit(confidence).map_err(raised)?)?;
     Ok(table)
 }

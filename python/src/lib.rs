@@ -24,7 +24,7 @@ mod module {
     #[pymodule_export]
     use crate::error::Error;
     #[pymodule_export]
-    use crate::fit::{Fit, TimingData, fit_timing, wobble_limits};
+    use crate::fit::{Fit, TimingData, fit_timing, wobble_limits, wobble_posterior};
     #[pymodule_export]
     use crate::kernels::kernels;
     #[pymodule_export]

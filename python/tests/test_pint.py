@@ -26,7 +26,7 @@ from pint.residuals import Residuals  # noqa: E402
 from pint.toa import get_TOAs  # noqa: E402
 
 import twofold.pint  # noqa: E402
-from twofold.pint import _Beyond, _limit, _Star, add_wobble, wobble_limits  # noqa: E402
+from twofold.pint import _Beyond, _Star, add_wobble, wobble_limits  # noqa: E402
 
 pint.logging.setup("ERROR")
 iers.conf.auto_download = False
@@ -418,21 +418,6 @@ def test_a_wobble_that_cannot_be_is_not_added(given, error):
         add_wobble(model, **{"period": 1 * u.yr, "chi": 1 * u.rad, "wobble": 0.1 * u.rad, "phase": 0 * u.rad, **given})
     assert "Wobble" not in model.components
     model.validate()
-
-
-def test_limits_of_known_distributions():
-    none = _limit(np.eye(2) * 1e12, np.zeros(2), 0.95)
-    assert none[3] == pytest.approx(1.959964e-6, rel=1e-6)
-    far = _limit(np.eye(2) * 1e12, np.array([1e9, 2e9]), 0.95)
-    # A flat prior in theta, not over the plane: a factor theta^(-1/2) more.
-    expected = np.sqrt(5) * 1e-3 + 1.644854e-6 - 0.5e-12 / (np.sqrt(5) * 1e-3)
-    assert far[3] == pytest.approx(expected, abs=1e-12)
-    assert far[2] == pytest.approx(5e6) and far[1] == pytest.approx(np.arctan2(2, 1))
-    assert _limit(np.diag([1.0, 0.0]), np.zeros(2), 0.95)[3] == np.inf
-    for angle in (0.0, 0.3, 1.234):
-        along = np.outer(*[[np.cos(angle), np.sin(angle)]] * 2)
-        needle = _limit(along * 1e10 + (np.eye(2) - along) * 1e16, np.zeros(2), 0.95)
-        assert needle[3] == pytest.approx(_limit(np.diag([1e10, 1e16]), np.zeros(2), 0.95)[3], rel=1e-3)
 
 
 def test_limits_with_white_noise_are_those_of_the_library(tmp_path):

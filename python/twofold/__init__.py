@@ -26,6 +26,7 @@ from twofold._twofold import (
     fit_timing,
     kernels,
     wobble_limits,
+    wobble_posterior,
 )
 from twofold.sweep import Sweep
 
@@ -44,4 +45,5 @@ __all__ = [
     "fit_timing",
     "kernels",
     "wobble_limits",
+    "wobble_posterior",
 ]

@@ -19,8 +19,6 @@ from pint.models.parameter import floatParameter
 from pint.models.timing_model import PhaseComponent, TimingModel
 from pint.residuals import Residuals
 from pint.toa import TOAs
-from scipy.optimize import brentq
-from scipy.special import ndtr
 
 import twofold
 
@@ -28,8 +26,6 @@ __all__ = ["Wobble", "add_wobble", "wobble_limits"]
 
 DAY = 86400.0
 
-#: Largest wobble (rad) for which residuals are taken as in proportion to it, as in `twofold.wobble_limits`.
-LARGEST = 0.1
 
 #: Part of its rotation that a star may lose between the epoch and an arrival.
 MOST_LOST = 0.1
@@ -376,14 +372,13 @@ class _Projected:
         star.check(self.t)
         return star
 
-    def small(self, period: float, chi: float, torque: float) -> tuple[np.ndarray, np.ndarray]:
-        """Curvature and pull of chi^2 by a small wobble `x = theta (cos psi_0, sin psi_0)`: chi^2 is `x.(curvature x) - 2 pull.x` more than without one."""
+    def small(self, period: float, chi: float, torque: float) -> np.ndarray:
+        """Two rows: the derivatives of the residuals by a small wobble `x = theta (cos psi_0, sin psi_0)`."""
         columns = []
         for phase in (0.0, np.pi / 2.0):
             star = self.star(period, chi, torque, phase=phase)
-            columns.append(self.project(-_Beyond(star, self.t).derivatives["wobble"] / self.f0))
-        d = np.array(columns)
-        return d @ d.T, d @ self.residuals
+            columns.append(self.project(_Beyond(star, self.t).derivatives["wobble"] / self.f0))
+        return np.array(columns)
 
     def chi_squared(self, stars: list[_Star]) -> np.ndarray:
         """With the wobbles of some stars, in full."""
@@ -442,8 +437,7 @@ def _start(
 ) -> tuple[float, float]:
     """The wobble and its phase (rad) that agree best with data."""
     most = min(chi, np.pi - chi, np.pi / 2.0)
-    curvature, pull = data.small(days, chi, torque)
-    x = np.linalg.lstsq(curvature, pull, rcond=None)[0]
+    x = np.linalg.lstsq(data.small(days, chi, torque).T, -data.residuals, rcond=None)[0]
     linear = (float(np.hypot(*x)), float(np.arctan2(x[1], x[0]) % (2.0 * np.pi)))
     wobbles = np.geomspace(0.01, 0.9, 14) * most if wobble is None else [wobble]
     phases = np.arange(32) * np.pi / 16.0 if phase is None else [phase]
@@ -478,8 +472,10 @@ def wobble_limits(
     data = _Projected(model, toas)
     rows = []
     for period in days:
-        curvature, pull = data.small(float(period), chi.to_value(u.rad), torque)
-        rows.append(_limit(curvature, pull, probability))
+        along, across = data.small(float(period), chi.to_value(u.rad), torque)
+        found = twofold.wobble_posterior(along, across, data.residuals, confidence=probability)
+        x, y = found["best"]
+        rows.append((np.hypot(x, y), np.arctan2(y, x) % (2.0 * np.pi), found["gain"], found["limit"]))
     best, phase, gain, limit = np.array(rows).T
     return {
         "period": days * u.day,
@@ -488,34 +484,3 @@ def wobble_limits(
         "gain": gain * u.one,
         "limit": limit * u.rad,
     }
-
-
-def _limit(curvature: np.ndarray, pull: np.ndarray, probability: float) -> tuple[float, float, float, float]:
-    """The best wobble, its phase, the gain and the quantile of `theta` under `exp((2 pull.x - x.(curvature x)) / 2)` with a flat prior for `theta` and the phase."""
-    sizes = np.linalg.eigvalsh(curvature)
-    if not sizes[0] > 0.0:
-        return np.nan, np.nan, 0.0, np.inf
-    finest, widest = 1.0 / np.sqrt(sizes[1]), 1.0 / np.sqrt(sizes[0])
-    best = np.linalg.solve(curvature, pull)
-    theta, gain = float(np.hypot(*best)), float(pull @ best)
-    found = theta, float(np.arctan2(best[1], best[0]) % (2.0 * np.pi)), gain
-    if widest > LARGEST:
-        return *found, np.inf
-    # A needle of the width `finest` across is seen at an angle of that over the wobble.
-    number = int(max(512, min(16.0 * np.pi * (theta + 9.0 * widest) / finest, 2e5)))
-    angles = np.arange(number) * (2.0 * np.pi / number)
-    directions = np.array([np.cos(angles), np.sin(angles)])
-    bend, slope = np.einsum("in,ij,jn->n", directions, curvature, directions), pull @ directions
-    # Along each direction the posterior is a normal distribution, cut off at zero.
-    width, middle = 1.0 / np.sqrt(bend), slope / bend
-    weight = width * np.exp((slope * middle - gain) / 2.0)
-    below = ndtr(-middle / width)
-
-    def part(theta: float) -> float:
-        return float(weight @ (ndtr((theta - middle) / width) - below))
-
-    wanted = probability * float(weight @ ndtr(middle / width))
-    low, high = max(theta - 9.0 * widest, 0.0), theta + 40.0 * widest
-    low = low if part(low) < wanted else 0.0
-    limit = brentq(lambda theta: part(theta) - wanted, low, high, xtol=1e-9 * finest, rtol=1e-12)
-    return *found, limit if limit <= LARGEST else np.inf

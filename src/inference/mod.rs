@@ -53,6 +53,7 @@ mod signal;
 mod symmetry;
 mod timing;
 mod wobble_limit;
+mod wobble_posterior;
 
 pub use degenerate::Direction;
 pub use error::InferenceError;
@@ -68,3 +69,4 @@ pub use signal::{Event, Signal};
 pub use symmetry::Symmetry;
 pub use timing::{MeasuredArrival, MeasuredWidth, Prior, TimingData, fit_timing, timing_fisher, timing_nonlinearity};
 pub use wobble_limit::{WobbleLimit, wobble_limits};
+pub use wobble_posterior::WobblePosterior;
