@@ -346,11 +346,9 @@ pub fn wobble_posterior<'py>(
     let residuals = residuals.list("residuals")?;
     let columns = [along.list("along")?, across.list("across")?];
     for (name, column) in ["along", "across"].into_iter().zip(&columns) {
-        if column.len() != residuals.len() || column.len() < 2 {
+        if column.len() != residuals.len() {
             let (found, allowed) = (column.len(), residuals.len());
-            return Err(raised(format!(
-                "{name}: {found} numbers: allowed are two or more, as many as residuals, {allowed}"
-            )));
+            return Err(raised(format!("{name}: {found} numbers: allowed are as many as residuals, {allowed}")));
         }
     }
     let columns = DMatrix::from_vec(residuals.len(), 2, columns.concat());

@@ -309,6 +309,8 @@ class TestTimingModel:
             (lambda: twofold.TimingModel(1.0).phase(1e19), ["phase", "9e15"]),
             (lambda: twofold.TimingModel(1.0).phase([0.0, np.nan]), ["t (s)", "finite"]),
             (lambda: twofold.wobble_limits(twofold.TimingModel(2.5, chi=1.4), twofold.TimingData(), ["phase"], [4e7]), ["0 data"]),
+            (lambda: twofold.wobble_posterior([1.0], [1.0, 2.0], [1.0, 2.0]), ["along", "1 numbers", "2"]),
+            (lambda: twofold.wobble_posterior([1.0], [np.nan], [1.0]), ["derivative", "NaN"]),
             (lambda: twofold.Scene("b1828-11").pulsar().arrivals([]), ["epochs", "none"]),
             (lambda: twofold.TimingModel(2.5, all=1.0), ["`all`", "one parameter"]),
             (lambda: twofold.Scene("tp-1", about={"a": 1}), ["about", "section"]),
@@ -373,6 +375,14 @@ class TestFits:
         assert limits["period"][0] == period
         with pytest.raises(twofold.Error, match="period"):
             twofold.wobble_limits(model, data, ["phase"], [-1.0])
+
+    def test_the_posterior_of_a_wobble(self):
+        found = twofold.wobble_posterior([1e6, 0.0], [0.0, 1e6], [-1e3, -2e3])
+        assert found["best"] == pytest.approx([1e-3, 2e-3]) and found["gain"] == pytest.approx(5e6)
+        # The prior is flat in theta, not over the plane: a factor theta^(-1/2) more.
+        expected = np.sqrt(5) * 1e-3 + 1.644853627e-6 - 0.5e-12 / (np.sqrt(5) * 1e-3)
+        assert found["limit"] == pytest.approx(expected, abs=1e-12)
+        assert twofold.wobble_posterior([1.0], [1.0], [0.0])["limit"] == np.inf
 
     def test_a_scene_is_found_again_from_its_own_tables(self):
         scene = twofold.Scene("tp-1", time={"span": 60.0, "samples": 61})

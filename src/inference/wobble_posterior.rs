@@ -49,11 +49,15 @@ impl WobblePosterior {
         for number in columns.iter().chain(residuals) {
             Error::ensure(number.is_finite(), "residual or derivative", *number, "finite")?;
         }
+        // Rows of zeros change nothing, and a matrix of the size of one has squares that are numbers.
+        let (rows, scale) = (residuals.len().max(2), if columns.is_empty() { 0.0 } else { columns.amax() });
+        let columns = columns.resize_vertically(rows, 0.0) / if scale > 0.0 { scale } else { 1.0 };
+        let residuals = residuals.clone().resize_vertically(rows, 0.0);
         // Not by products of the columns, which would lose half of the digits of the wider axis.
         let svd = columns.svd(true, true);
         let (left, right) = (svd.u.expect("asked for"), svd.v_t.expect("asked for"));
-        let widths = [1, 0].map(|axis: usize| svd.singular_values[axis].recip());
-        let offset = [1, 0].map(|axis: usize| -left.column(axis).dot(residuals));
+        let widths = [1, 0].map(|axis: usize| (svd.singular_values[axis] * scale).recip());
+        let offset = [1, 0].map(|axis: usize| -left.column(axis).dot(&residuals));
         let best = |k: usize| (0..2).map(|axis| right[(1 - axis, k)] * widths[axis] * offset[axis]).sum();
         let best = if widths[0].is_finite() { Vector2::new(best(0), best(1)) } else { Vector2::repeat(f64::NAN) };
         Ok(Self { widths, offset: offset.into(), best, rule: unit_rule(NODES) })
@@ -250,6 +254,23 @@ mod tests {
                 let [found, expected] =
                     [limit([1e-6, 1e-6 * ratio], offset, probability) / 1e-6, by_sums(ratio, offset, probability)];
                 assert!((found - expected).abs() < 1e-9, "{ratio} {offset:?} {probability}: {found} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn data_of_any_number_and_size_have_a_limit_or_none() {
+        for rows in 0..3 {
+            for size in [0.0, 1e-300, 1e-160, 1.0, 1e160, 1e300] {
+                for residual in [0.0, 1e-300, 1.0, 1e300] {
+                    let columns =
+                        DMatrix::from_fn(rows, 2, |row, column| if row == column { size } else { 0.3 * size });
+                    let posterior = WobblePosterior::new(columns, &DVector::repeat(rows, residual)).unwrap();
+                    let limit = posterior.limit(0.95).unwrap();
+                    // Two rows that are not alike, with widths from 1.5 / size down, see both axes.
+                    let seen = rows == 2 && size > 100.0 && residual < 1e-2 * size;
+                    assert_eq!(limit.is_finite(), seen, "{rows} {size:e} {residual:e}: {limit:e}");
+                }
             }
         }
     }
