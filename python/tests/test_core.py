@@ -206,7 +206,9 @@ class TestTable:
 
     def test_interrupt(self):
         program = (
-            "import twofold\n"
+            "import signal, twofold\n"
+            # Python leaves the signal ignored where it is: in the background of a script.
+            "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
             "scene = twofold.Scene('tp-2', time={'span': 4e6, 'samples': 4000001}, output={'tolerance': 1e-6})\n"
             "scene.table(['angles'], progress=lambda part: print(part, flush=True))"
         )

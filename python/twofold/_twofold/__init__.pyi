@@ -500,4 +500,9 @@ def wobble_limits(model: TimingModel, data: TimingData, unknowns: SupportsGetIte
     The wobble that arrival times allow at some periods of precession (s), of a star that was fitted to them without one by the `unknowns`. A dict of arrays: `period` (s), the `best` wobble (rad), the `gain` of chi^2 by it, and the `limit` (rad) that is not exceeded with the probability `confidence`; infinite where the data do not limit it. chi and the share of the torque are those of the model.
     """
 
+def wobble_posterior(along: ArrayLike, across: ArrayLike, residuals: ArrayLike, *, confidence: SupportsFloat | SupportsIndex = 0.95) -> dict:
+    """
+    What data tell of a small wobble `x = theta (cos psi_0, sin psi_0)` (rad) in which residuals are linear, in standard deviations and without what other unknowns take up: `residuals + along x[0] + across x[1]`. A dict: the `best` x, the `gain` of chi^2 by it, and the `limit` on theta that is not exceeded with the probability `confidence`, with a flat prior for theta and psi_0; infinite above 0.1 rad.
+    """
+
 def __getattr__(name: str) -> Incomplete: ...
