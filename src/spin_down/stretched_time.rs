@@ -16,6 +16,9 @@ const TERMS: usize = 30;
 /// Most steps of Newton's method from the time to the stretched time. From 10 % off it reaches rounding in six.
 const STEPS: usize = 12;
 
+/// Largest stretched time over the time, and largest `|ln u|` over `kappa tau`, while the star loses or gains so much: 1.06, and a hundredth by the varying torque.
+const MOST_STRETCHED: f64 = 1.1;
+
 /// Largest part of the rotation by which the varying torque may move it within a precession: more is no small change of the rotation that the scene states.
 const MOST_VARYING: f64 = 0.01;
 
@@ -188,25 +191,27 @@ impl StretchedTime {
         3.0 * error * (self.braking.rate * self.modulation / self.precession.rate.powi(2)).abs()
     }
 
-    /// What the map leaves out at a time: what is of third order in `kappa`, and of third order in the damping of the wobble over the rate of the precession.
+    /// A bound on what the map leaves out at a time.
+    ///
+    /// With `y = n - 2` and `s = 1 + y kappa tau` the law is `dt/dtau = (s + y kappa P)^(1 / y)`, and `Q` has its first two orders in `kappa P`. It leaves out, all in proportion to
+    /// `(1 - y)(1 - 2 y) kappa^3`: the third order, `P^3 / 6`; of the second, what `u` has changed since the time zero, `tau P^2 / 2`; of the first, the integral that is left after two
+    /// integrations by parts, of a sine over `w^3` times a monotonic function, below twice its largest value over `w`. With damping, what [`Precession`] leaves out.
     pub fn truncation(&self, t: f64) -> f64 {
         let Braking { rate, index, .. } = self.braking;
         let Precession { torque, rate: w, .. } = self.precession;
         if w == 0.0 {
             return 0.0;
         }
-        if index == 3.0 {
-            return (rate * self.modulation).abs() * self.precession.truncation(t);
-        }
-        let varying = (rate * self.modulation / w).abs() * (torque.once.abs() + torque.twice.abs());
-        let in_a_precession = (rate / w).abs().max(varying);
-        // Each order has a factor below |5 - 2 n| + 1; the square of the varying torque falls with u as time goes on.
-        let factor = (3.0 - index).abs() * ((5.0 - 2.0 * index).abs() + 1.0);
-        factor
-            * varying
-            * (in_a_precession * in_a_precession / w.abs()
-                + varying * (rate * t * t).abs()
-                + varying * varying * t.abs())
+        let (y, tau) = (index - 2.0, MOST_STRETCHED * t.abs());
+        let [once, twice] = [torque.once, torque.twice].map(|harmonic| (self.modulation * harmonic / w).abs());
+        let largest = once + twice / 2.0;
+        // Powers of s + y kappa P on the way.
+        let power = (1.0 - 2.0 * y).abs().max((1.0 - 3.0 * y).abs());
+        let most = (power * MOST_STRETCHED * rate.abs() * (tau + largest)).exp();
+        let left = 2.0 * (once + twice / 16.0) / w.abs().powi(3)
+            + largest.powi(2) * tau * (0.25 * MOST_STRETCHED * tau + largest / 6.0);
+        let third = ((1.0 - y) * (1.0 - 2.0 * y) * rate.powi(3)).abs() * most * left;
+        third + (rate * self.modulation).abs() * self.precession.truncation(MOST_STRETCHED * t)
     }
 }
 

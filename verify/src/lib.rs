@@ -1,6 +1,7 @@
 //! Verification of the model `twofold`: checks, derivations, references and golden numbers.
 
 pub mod averaged_scenes;
+pub mod braked_stars;
 pub mod check;
 pub mod checks;
 pub mod claims;
