@@ -25,7 +25,7 @@ fn main() -> ExitCode {
         let refused = seen.iter().filter(|(_, seen)| seen.is_err()).count();
         let judged: Vec<_> =
             seen.iter().filter_map(|(number, seen)| Some((number, seen.as_ref().ok()?.as_ref()?))).collect();
-        for (number, ratio) in judged.iter().filter(|(_, ratio)| !(**ratio >= 1.0)).take(20) {
+        for (number, ratio) in judged.iter().filter(|(_, ratio)| ratio.is_nan() || **ratio < 1.0).take(20) {
             println!("{name} star {number}: {ratio:.3} {:?}", BrakedStar::draw(seed, **number, damped));
         }
         let rounding = seen.len() - refused - judged.len();
