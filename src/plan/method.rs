@@ -65,7 +65,7 @@ impl Method {
     }
 
     /// Whether it keeps its phases in 32 digits, so that a span may have any number of turns.
-    pub fn keeps_phases(self) -> bool {
+    pub(crate) fn keeps_phases(self) -> bool {
         matches!(self, Self::Averaged | Self::Torus)
     }
 

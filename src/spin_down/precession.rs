@@ -106,7 +106,7 @@ impl<S: Real> Precession<S> {
     }
 
     /// The angle `psi` at a stretched time, less whole turns of `w tau` (rad).
-    pub fn phase_at(&self, tau: S) -> S {
+    pub(crate) fn phase_at(&self, tau: S) -> S {
         self.phase + self.swept(tau, TAU)
     }
 

@@ -117,7 +117,7 @@ impl StretchedTime {
     }
 
     /// Whether both times are the same.
-    pub fn is_uniform(&self) -> bool {
+    pub(crate) fn is_uniform(&self) -> bool {
         self.secular.is_empty()
     }
 
@@ -184,7 +184,7 @@ impl StretchedTime {
 
     /// What wrong angles of the wobble and of its phase do to the lateness: three times their error, `error` at the wobble of a radian and as much over it for a smaller one, as
     /// `a_1` goes with the first and `a_2` with the second power of the wobble.
-    pub fn error_by_angles(&self, error: f64) -> f64 {
+    pub(crate) fn error_by_angles(&self, error: f64) -> f64 {
         if self.precession.rate == 0.0 {
             return 0.0;
         }

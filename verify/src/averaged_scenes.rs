@@ -143,12 +143,23 @@ impl AveragedScene {
         AveragedSolution::new(&self.problem.map(S::from_f64), order)
     }
 
-    /// True error over estimate of an order, at random times and the end. What the numerical motion may be off does not count.
+    /// True error over estimate of the first and the second order, at random times and the end. What the numerical motion may be off does not count.
     ///
     /// # Errors
     /// A motion that is refused.
-    pub fn estimate_seen(&self, order: AveragingOrder, seed: u64) -> Result<EstimateSeen, Error> {
-        let (exact, averaged) = (self.problem.taylor((0.0, self.end), 1e-13)?, self.motion::<f64>(order)?);
+    pub fn estimates_seen(&self, seed: u64) -> Result<[EstimateSeen; 2], Error> {
+        let exact = self.problem.taylor((0.0, self.end), 1e-13)?;
+        let seen = |order| self.estimate_seen(&exact, order, seed);
+        Ok([seen(AveragingOrder::First)?, seen(AveragingOrder::Second)?])
+    }
+
+    fn estimate_seen(
+        &self,
+        exact: &TaylorMotion<f64>,
+        order: AveragingOrder,
+        seed: u64,
+    ) -> Result<EstimateSeen, Error> {
+        let averaged = self.motion::<f64>(order)?;
         let mut random = Random::with_seed(seed);
         let mut seen = EstimateSeen { worst: f64::NEG_INFINITY, at: [f64::NAN; 3] };
         for i in 0..12 {

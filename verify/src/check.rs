@@ -204,10 +204,22 @@ impl Default for Worst {
 impl Worst {
     /// Takes one figure; `place` is asked only where it is the largest so far.
     pub fn see(&mut self, figure: f64, place: impl FnOnce() -> String) {
+        if let Some(figure) = self.larger(figure) {
+            self.measured = Measured { figure, detail: place() };
+        }
+    }
+
+    /// Counts a figure; what it is kept as, if it is the largest so far.
+    fn larger(&mut self, figure: f64) -> Option<f64> {
         let figure = if figure.is_nan() { f64::INFINITY } else { figure };
         self.cases += 1;
-        if figure > self.measured.figure {
-            self.measured = Measured::new(figure, place());
+        (figure > self.measured.figure).then_some(figure)
+    }
+
+    /// Takes what a case showed.
+    fn see_case(&mut self, case: &dyn std::fmt::Debug, shown: Option<Measured>) {
+        if let Some(Measured { figure, detail }) = shown {
+            self.see(figure, || format!("{case:?} {detail}"));
         }
     }
 
@@ -251,9 +263,7 @@ pub(crate) fn worst_of<C: std::fmt::Debug, F: Figure>(
 ) -> Result<Measured, String> {
     let mut worst = Worst::default();
     for case in cases {
-        if let Some(Measured { figure, detail }) = figure(&case)?.measured() {
-            worst.see(figure, || format!("{case:?} {detail}"));
-        }
+        worst.see_case(&case, figure(&case)?.measured());
     }
     worst.finish()
 }

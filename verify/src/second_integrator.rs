@@ -21,10 +21,34 @@ fn unpack<const N: usize>(y: &Vector<f64, N>) -> BodyState<f64> {
 
 /// State after `duration` by the regular equations.
 pub(crate) fn regular_motion(problem: &Problem<f64>, duration: f64, tolerance: f64) -> Result<BodyState<f64>, String> {
+    let states = regular_states(problem, &[duration], tolerance)?;
+    Ok(states[0])
+}
+
+/// States at times in ascending order from zero.
+pub(crate) fn regular_states(
+    problem: &Problem<f64>,
+    times: &[f64],
+    tolerance: f64,
+) -> Result<Vec<BodyState<f64>>, String> {
     let rates = |_: f64, y: &Vector<f64, 9>| pack(&rates_of(problem, problem.spheroid(), &unpack(y)));
-    let end = RKV98NoInterp::integrate(0.0, duration, &pack(problem.initial()), rates, &settings(tolerance))
-        .map_err(|e| e.to_string())?;
-    Ok(unpack(&end.y))
+    Ok(integrated(pack(problem.initial()), rates, times, tolerance)?.iter().map(unpack).collect())
+}
+
+/// The solution that starts at the time zero, at times in ascending order.
+fn integrated<const N: usize>(
+    start: Vector<f64, N>,
+    rates: impl Fn(f64, &Vector<f64, N>) -> Vector<f64, N>,
+    times: &[f64],
+    tolerance: f64,
+) -> Result<Vec<Vector<f64, N>>, String> {
+    let (mut y, mut time, mut found) = (start, 0.0, Vec::new());
+    for &next in times {
+        let end = RKV98NoInterp::integrate(time, next, &y, &rates, &settings(tolerance)).map_err(|e| e.to_string())?;
+        (y, time) = (end.y, next);
+        found.push(y);
+    }
+    Ok(found)
 }
 
 /// The equations of motion of the problem with another spheroid. `{u, b L.(s L)} = 2 b (s L) x u` for any axis `u` of the body, and for `L`.
@@ -74,13 +98,8 @@ pub(crate) fn braked_states(
         with_last(&rates, -lambda * a)
     };
     let start = problem.initial();
-    let (mut y, mut time, mut found) = (with_last(start, start.momentum.norm() / unit), 0.0, Vec::new());
-    for &next in times {
-        let end = RKV98NoInterp::integrate(time, next, &y, rates, &settings(tolerance)).map_err(|e| e.to_string())?;
-        (y, time) = (end.y, next);
-        found.push(unpack(&y));
-    }
-    Ok(found)
+    let start = with_last(start, start.momentum.norm() / unit);
+    Ok(integrated(start, rates, times, tolerance)?.iter().map(unpack).collect())
 }
 
 /// Symmetry axis and angular momentum at the given times, in ascending order from zero, by the interpolant of order 8 of the

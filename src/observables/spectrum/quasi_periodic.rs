@@ -48,7 +48,7 @@ impl QuasiPeriodicMotion {
     }
 
     /// The state after turns of the three angles since the start.
-    pub fn state_after_turns(&self, turns: [f64; 3]) -> BodyState<f64> {
+    pub(crate) fn state_after_turns(&self, turns: [f64; 3]) -> BodyState<f64> {
         self.motion.state_at(sum(self.start, turns))
     }
 

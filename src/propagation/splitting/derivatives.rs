@@ -41,7 +41,7 @@ pub(crate) fn states_with_derivatives<X: RotationState<Dual64>>(
     times: &[f64],
     tolerance: f64,
 ) -> Result<Option<Vec<Vec<BodyState<Dual64>>>>, Error> {
-    if X::VECTORS == 3 {
+    if const { X::VECTORS == 3 } {
         states_of::<X, 3>(seeded, start, times, tolerance)
     } else {
         states_of::<X, 2>(seeded, start, times, tolerance)

@@ -191,7 +191,7 @@ impl<X: RotationState<f64>> Problem<f64, X> {
     }
 
     fn split(&self, span: (f64, f64), steps: Steps) -> Result<SplittingMotion<X>, Error> {
-        let kept = if X::VECTORS == 3 {
+        let kept = if const { X::VECTORS == 3 } {
             Kept::Body(KeptStates::new(self, span, steps)?)
         } else {
             Kept::Axis(KeptStates::new(self, span, steps)?)

@@ -28,7 +28,7 @@ impl<X: RotationState<f64>> Problem<f64, X> {
     /// # Errors
     /// As for [`taylor`](Self::taylor), but for the number of steps.
     pub fn taylor_forecast(&self, duration: f64, tolerance: f64) -> Result<TaylorForecast, Error> {
-        if X::VECTORS == 3 {
+        if const { X::VECTORS == 3 } {
             forecast::<X, 3>(self, duration, tolerance)
         } else {
             forecast::<X, 2>(self, duration, tolerance)

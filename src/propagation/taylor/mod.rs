@@ -305,7 +305,7 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
     /// # Errors
     /// [`Error::Domain`] for a tolerance out of range, a span that is not finite, and one that needs more than [`STEP_LIMIT`] steps.
     pub fn taylor(&self, span: (f64, f64), tolerance: f64) -> Result<TaylorMotion<S, X>, Error> {
-        let kept = if X::VECTORS == 3 {
+        let kept = if const { X::VECTORS == 3 } {
             Kept::Body(KeptSeries::new(self, span, tolerance)?)
         } else {
             Kept::Axis(KeptSeries::new(self, span, tolerance)?)

@@ -55,7 +55,7 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
         tolerance: f64,
         estimates: ErrorEstimates,
     ) -> Result<Samples<X>, Error> {
-        if X::VECTORS == 3 {
+        if const { X::VECTORS == 3 } {
             let AxisState { axis, momentum } = self.initial().axis_state();
             let rate = rate_about_axis(self.spheroid(), &axis, &momentum);
             let state = |vectors, t| X::from_vectors(body_state(vectors, rate * (t - S::from_f64(start))).vectors());

@@ -160,7 +160,7 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
         // Several orders at once share what they read. How many the registers hold depends on the sums of each.
         if A::MANY {
             self.expand_by::<1>(start, series);
-        } else if V > COMPANION {
+        } else if const { V > COMPANION } {
             self.expand_by::<2>(start, series);
         } else {
             self.expand_by::<3>(start, series);

@@ -83,13 +83,13 @@ impl<S: Real> AveragedSolution<S> {
     }
 
     /// `|C| (s_max - s_min) I^xx / |L|^2` at the start, whose powers the orders are in: errors are of its size (first order) or of its square
-    /// (second), and grow with its square, or its cube, times the angle turned. That of a bulge is [`bulge_strength`](Self::bulge_strength).
+    /// (second), and grow with its square, or its cube, times the angle turned. That of a bulge is `|b| (s_max - s_min) I^xx`.
     pub fn relative_strength(&self) -> S {
         self.relative_strength
     }
 
     /// `|b| (s_max - s_min) I^xx`, of a star with a bulge. It goes with the strength of the torque only: the motion of a bulge alone is exact.
-    pub fn bulge_strength(&self) -> S {
+    pub(crate) fn bulge_strength(&self) -> S {
         self.bulge_strength
     }
 

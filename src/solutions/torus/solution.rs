@@ -183,7 +183,7 @@ impl TorusSolution {
     }
 
     /// Number of pairs of frequencies in the series of `n` and `L`, and in that of `e_x`.
-    pub fn term_counts(&self) -> [usize; 2] {
+    pub(crate) fn term_counts(&self) -> [usize; 2] {
         [self.axes.len(), self.vector.len()]
     }
 
@@ -207,7 +207,7 @@ impl TorusSolution {
     ///
     /// # Errors
     /// [`Error::NotConverged`] for a torus so thin that its flows hardly differ: `n` on `L`, `L` on an axis. Neighbours of such a motion have another number of frequencies.
-    pub fn error_of_derivatives(&self) -> Result<f64, Error> {
+    pub(crate) fn error_of_derivatives(&self) -> Result<f64, Error> {
         if self.width <= THINNEST {
             let what = "derivatives on the torus: n is on L, or L on an axis";
             return Err(Error::NotConverged { what, iterations: 1, residual: self.width });

@@ -7,7 +7,7 @@ use twofold::observables::pulsar::timing_model::{TimingModel, Turns};
 use twofold::propagation::PhasedMotion;
 use twofold::spin_down::Braking;
 
-use super::spin_down::{integrated, problem};
+use super::spin_down::{LongDipole, beam, long_dipole, problem, sight};
 use crate::coverage::{Case, Coverage};
 use crate::prelude::*;
 use crate::timing_simulation::{YEAR, arrivals_of, widths_of};
@@ -83,18 +83,11 @@ fn of_clock() -> Result<Measured, String> {
 }
 
 fn of_torque() -> Result<Measured, String> {
-    let wobble = 0.3;
-    let problem = problem(0.05, wobble, Matrix3::zeros())?;
-    let sight = Observer::at(1.1, 0.2);
-    let beam = Beam::new(CHI, 0.4, 0.3);
-    let clock = PulsarClock::on(PhasedMotion::new(&problem, 1e5)?, &beam, &sight)?;
-    let clock = clock.braked(&Braking { rate: 7e-7, index: 3.0, torque_share: 1.0 })?;
+    let LongDipole { clock, times, states } = long_dipole()?;
     let (model, time) = (clock.timing_model()?, clock.stretched_time());
-    let span = 997.3 * TAU / time.precession().rate;
-    let times: Vec<f64> = (1..=100).map(|k| span * f64::from(k) / 100.0).collect();
-    let states = integrated(&problem, (wobble, CHI), time, &times)?;
+    let (sight, beam) = (sight(), beam(CHI));
     let late = largest(times.iter().map(|&t| time.late(t)));
-    let off = worst_of(times.iter().zip(&states), |(time, state)| {
+    let off = worst_of(times.iter().zip(states), |(time, state)| {
         let (l, o) = (state.momentum.normalize(), sight.direction);
         let (m, o) = (beam.direction(state), o - l * o.dot(&l));
         let azimuth = l.dot(&o.cross(&m)).atan2(o.dot(&m));

@@ -1,6 +1,7 @@
 //! The test binaries of the rewritten tree, and how one is run with a mutant.
 
 use std::io::Read;
+use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
@@ -95,7 +96,7 @@ impl Suite {
             .collect())
     }
 
-    /// The command for tests of a binary.
+    /// The command for tests of a binary, in a process group of its own: what it starts can be ended with it.
     pub fn command(&self, binary: usize, names: &[&str]) -> Command {
         let binary = &self.binaries[binary];
         let mut command = Command::new("sh");
@@ -110,7 +111,8 @@ impl Suite {
             .env("INSTA_UPDATE", "no")
             .env("RUST_BACKTRACE", "0")
             .env("PROPTEST_FAILURE_PERSISTENCE", "off")
-            .stdin(Stdio::null());
+            .stdin(Stdio::null())
+            .process_group(0);
         command
     }
 
@@ -137,17 +139,17 @@ impl Suite {
     }
 }
 
-/// How a process ended; none if it had to be stopped.
+/// How the leader of a process group ended; none if it had to be stopped. What it has started ends with it: a mutant that runs for ever would
+/// keep a core busy, and the pipe of its output open.
 pub fn ended(mut child: Child, limit: f64) -> Option<ExitStatus> {
     let started = Instant::now();
     loop {
-        if let Some(status) = child.try_wait().expect("the child is ours") {
-            return Some(status);
-        }
-        if started.elapsed().as_secs_f64() > limit {
-            let _ = child.kill();
+        let status = child.try_wait().expect("the child is ours");
+        if status.is_some() || started.elapsed().as_secs_f64() > limit {
+            let group = format!("-{}", child.id());
+            let _ = Command::new("kill").args(["-KILL", "--", &group]).stderr(Stdio::null()).status();
             let _ = child.wait();
-            return None;
+            return status;
         }
         std::thread::sleep(Duration::from_millis(3));
     }

@@ -29,29 +29,28 @@ checks! {
     because "one and a half orders of magnitude: the coefficients of the estimate are those of the worst geometry";
 }
 
-const ORDERS: [AveragingOrder; 2] = [AveragingOrder::First, AveragingOrder::Second];
-
-type AllSeen = Result<Vec<EstimateSeen>, String>;
-
-/// What two checks look at, for each order.
-fn seen(order: AveragingOrder) -> &'static AllSeen {
-    static SEEN: LazyLock<[AllSeen; 2]> = LazyLock::new(|| {
-        ORDERS.map(|order| {
-            let seen = |number| AveragedScene::draw(11, number, 1500.0).estimate_seen(order, number);
-            (0..400).map(|number| seen(number).map_err(String::from)).collect()
-        })
+/// What two checks look at, for both orders.
+fn seen() -> Result<&'static [[EstimateSeen; 2]], String> {
+    static SEEN: LazyLock<Result<Vec<[EstimateSeen; 2]>, String>> = LazyLock::new(|| {
+        let seen = |number| Ok(AveragedScene::draw(11, number, 1500.0).estimates_seen(number)?);
+        (0..400).map(seen).collect()
     });
-    &SEEN[order as usize]
+    Ok(SEEN.as_ref()?)
+}
+
+/// The larger ratio of the two orders.
+fn larger(seen: &[EstimateSeen; 2]) -> f64 {
+    largest(seen.map(|seen| seen.worst))
 }
 
 fn not_below() -> Result<Measured, String> {
-    worst_of(ORDERS, |&order| worst_of(seen(order).as_ref()?, |seen| Ok(seen.worst)))
+    worst_of(seen()?.iter().enumerate(), |(_, seen)| Ok(larger(seen)))
 }
 
 fn beside_separatrix() -> Result<Measured, String> {
     worst_of(0..300, |&number| {
         let scene = AveragedScene::beside_separatrix(13, number);
-        worst_of(ORDERS, |&order| Ok(scene.estimate_seen(order, number)?.worst))
+        Ok(larger(&scene.estimates_seen(number)?))
     })
 }
 
@@ -80,8 +79,7 @@ fn rounding() -> Result<Measured, String> {
 }
 
 fn not_idle() -> Result<Measured, String> {
-    let seen = seen(AveragingOrder::Second).as_ref()?;
-    let mut ratios: Vec<f64> = seen.iter().map(|seen| 1.0 / seen.worst).collect();
+    let mut ratios: Vec<f64> = seen()?.iter().map(|[_, second]| 1.0 / second.worst).collect();
     ratios.sort_by(f64::total_cmp);
     Ok(Measured::new(ratios[ratios.len() / 2], format!("median of {} motions", ratios.len())))
 }
