@@ -323,6 +323,17 @@ mod tests {
         assert!(sum < scene.tolerance, "{sum:e}");
     }
 
+    /// So that memory does not grow with the span, a segment turns by 5e4 rad at most: 1.2e5 rad are three.
+    #[test]
+    fn a_long_motion_is_in_segments() {
+        let mut scene = Scene::named("tp-2").unwrap();
+        scene.choose_method("taylor").unwrap();
+        let last = 1.2e5 / scene.turning_rate();
+        scene.times = crate::scene_file::Times::Listed { start: 0.0, times: vec![last] };
+        let plan = scene.plan(&scene.columns).unwrap();
+        assert_eq!(Segments::<BodyState<f64>>::new(&scene, &plan).unwrap().count, 3);
+    }
+
     #[test]
     fn each_earlier_error_grows_with_the_rotation_since() {
         for sense in [1.0, -1.0] {
