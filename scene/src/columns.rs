@@ -220,7 +220,8 @@ mod tests {
     /// the norm 5, and to the size the other polarization.
     #[test]
     fn a_wave_has_the_size_of_its_terms_at_least() {
-        for (ratio, torque, least) in [(1.25, 0.0, 0.25 * 9.0), (0.75, 0.0, 0.25 * 9.0), (1.25, 1.0, 0.25 * 9.0 + 5.0)]
+        for (ratio, torque, least) in
+            [(1.25, 0.0, 0.25 * 9.0), (1.25, 1.0, 0.25 * 9.0 + 5.0), (0.75, 1.0, 0.25 * 9.0 + 5.0)]
         {
             let mut scene = Scene::named("wave-source").unwrap();
             let state = BodyState { axis: Vector3::x(), momentum: Vector3::z() * 3.0, equatorial_axis: Vector3::y() };

@@ -138,7 +138,7 @@ mod tests {
     fn a_star_turns_by_no_more_than_its_rates_and_that_of_the_torque() {
         for (ratio, torque, momentum, rate) in [
             (1.25, 0.0, Vector3::new(0.0, 0.0, 5.0), 5.0),
-            (0.8, 0.0, Vector3::new(0.0, 0.0, 4.0), 5.0),
+            (0.8, 0.0, Vector3::new(0.0, 0.0, 2.0), 2.5),
             (0.8, 0.0, Vector3::new(4.0, 0.0, 0.0), 4.0),
             (1.25, 1.0, Vector3::new(0.0, 0.0, 5.0), 5.0 + 6.0_f64.sqrt()),
         ] {
