@@ -105,11 +105,11 @@ pub fn values(group: Output, scene: &Scene, sample: &Sample) -> Option<Vec<f64>>
 /// Angles that grow without end or jump by a turn: a spectrum would be that of the growth or of the jumps.
 const TURNING: [&str; 5] = ["alpha", "gamma", "alpha_printed", "Phi", "psi"];
 
-/// The strain that the rotation would have at right angles to the symmetry axis, and the torque: terms of a wave have that size, whatever is left of their sum.
+/// The strain that the rotation would have at right angles to the symmetry axis, `eps |L|^2` as `I^xx = 1`, and the torque, `|s|` as `C = 1`: terms of a wave have that
+/// size, whatever is left of their sum.
 fn strain_of_rotation(scene: &Scene) -> f64 {
     let (body, s) = (scene.problem.spheroid(), scene.problem.coefficients());
-    let rate = scene.problem.initial().momentum.norm() / body.inertia_xx;
-    scene.strain_unit() * (body.inertia_xx * body.oblateness().abs() * rate * rate + body.constant_c.abs() * s.norm())
+    scene.strain_unit() * (body.oblateness().abs() * scene.problem.initial().momentum.norm_squared() + s.norm())
 }
 
 /// One column of a table.
@@ -186,5 +186,64 @@ impl Column {
         let least = if self.group == Output::GravitationalWave { strain_of_rotation(scene) } else { 0.0 };
         let size = self.parts.iter().fold(least, |size, &part| size.hypot(values[part]));
         Some((values[self.index], size))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix3, Vector3};
+    use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
+
+    use super::*;
+    use crate::samples::SampledState;
+
+    /// The components of one quantity are its parts; angles that turn are of no size, and integrals of three units are three quantities.
+    #[test]
+    fn a_value_has_the_size_of_what_it_is_a_part_of() {
+        let scene = Scene::named("tp-2").unwrap();
+        let state = BodyState {
+            axis: Vector3::new(0.6, 0.0, 0.8),
+            momentum: Vector3::new(2.0, -3.0, 6.0),
+            equatorial_axis: Vector3::y(),
+        };
+        let mut sample = Sample::new(0.0, SampledState::Orientation(state));
+        sample.angles = Some(twofold::euler_angles::EulerAngles { alpha: 3.0, beta: -4.0, gamma: 12.0 });
+        let of = |name| Column::oscillating(name, &scene).unwrap().value_and_size(&scene, &sample).unwrap();
+        assert_eq!(of("L_Y"), (-3.0, 7.0));
+        assert_eq!(of("beta"), (-4.0, 4.0));
+        let (spin, size) = of("Omega_z");
+        assert_eq!((spin, size), (spin, spin.abs()));
+    }
+
+    /// A star that spins by 3 about an axis across its own, seen along it, sends a wave of `2 eps 3^2` twice a turn: the moment of inertia is
+    /// `1 + eps n n`, whose second derivative is up to `2 eps 3^2`, and `h` is minus twice that. Half of that is the size of the terms; to it comes a torque, of
+    /// the norm 5, and to the size the other polarization.
+    #[test]
+    fn a_wave_has_the_size_of_its_terms_at_least() {
+        for (ratio, torque, least) in
+            [(1.25, 0.0, 0.25 * 9.0), (1.25, 1.0, 0.25 * 9.0 + 5.0), (0.75, 1.0, 0.25 * 9.0 + 5.0)]
+        {
+            let mut scene = Scene::named("wave-source").unwrap();
+            let state = BodyState { axis: Vector3::x(), momentum: Vector3::z() * 3.0, equatorial_axis: Vector3::y() };
+            let s = Matrix3::from_diagonal(&Vector3::new(0.0, 3.0, -4.0)) * torque;
+            scene.problem = Problem::new(RigidSpheroid::in_units_of_tc(ratio), s, state).unwrap();
+            scene.observer.as_mut().unwrap().theta_o = 0.0;
+            let sample = Sample::new(0.0, SampledState::Orientation(state));
+            let column = Column::oscillating("h_plus", &scene).unwrap();
+            let (_, size) = column.value_and_size(&scene, &sample).unwrap();
+            let wave = values(Output::GravitationalWave, &scene, &sample).unwrap();
+            let expected = (least * scene.strain_unit()).hypot(wave[0]).hypot(wave[1]);
+            assert!((size / expected - 1.0).abs() < 8.0 * f64::EPSILON, "{size:e} and {expected:e}");
+        }
+    }
+
+    /// What turns and what the scene has no section for is not offered.
+    #[test]
+    fn columns_are_offered_that_oscillate_and_can_be_computed() {
+        let scene = Scene::named("wave-source").unwrap();
+        let why = Column::oscillating("e_z_x", &scene).unwrap_err();
+        let offered = why.split_once("this scene has ").unwrap().1;
+        assert!(["`e_z_X`", "`beta`", "`h_plus`"].iter().all(|name| offered.contains(name)), "{why}");
+        assert!(!["`alpha`", "`gamma`", "`psi`", "`m.n`"].iter().any(|name| offered.contains(name)), "{why}");
     }
 }

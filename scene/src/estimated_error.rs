@@ -19,4 +19,11 @@ mod tests {
         }
         assert!(as_printed(f64::NAN, 9e-12).is_nan());
     }
+
+    /// One and what is added are rounded to one up to half of the distance to the next double, and to that beyond.
+    #[test]
+    fn the_rounding_of_a_component_is_the_most_that_a_sum_beside_one_loses() {
+        assert_eq!(1.0 + ROUNDING_OF_COMPONENT, 1.0);
+        assert_eq!(1.0 + ROUNDING_OF_COMPONENT.next_up(), 1.0_f64.next_up());
+    }
 }

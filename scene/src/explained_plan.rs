@@ -157,3 +157,103 @@ pub fn bytes(count: f64) -> String {
         count => format!("{:.1} TB", count / 1e12),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use twofold::parameters::Parameter;
+    use twofold::plan::{Method, Output, Skipped, Work};
+
+    use super::*;
+
+    const OF_TAYLOR: Prediction = Prediction {
+        truncation: 2e-9,
+        promise: Promise::Goal(0.98),
+        rounding: 3e-13,
+        order: 20,
+        work: Work { steps: 40.0, right_hand_sides: 800.0, axis_evaluations: 3.0, orientation_evaluations: 4.0 },
+        bytes: 1e3,
+        cost: 1e3,
+    };
+
+    /// Every number of a plan that is made up, in its line.
+    #[test]
+    fn every_number_of_a_plan_is_in_its_line() {
+        let mut scene = Scene::named("isolated-pulsar").unwrap();
+        scene.units.time = 4.0;
+        scene.times = crate::scene_file::Times::Listed { start: 100.0, times: vec![120.0] };
+        let candidate = |method, prediction| Candidate { method, prediction: Ok(prediction) };
+        let lossy = Prediction { rounding: 2e-3, ..OF_TAYLOR };
+        let coarse = Prediction { truncation: 1e-2, promise: Promise::Estimate, ..OF_TAYLOR };
+        let bound = Prediction { truncation: 0.0, promise: Promise::Bound, cost: 2.5e3, ..OF_TAYLOR };
+        let not_possible = twofold::Error::Unsupported { what: "a motion", why: "there is a torque" };
+        let mut plan = Plan {
+            outputs: vec![Output::SymmetryAxis, Output::FirstIntegrals],
+            state: State::AxisAndMomentum,
+            method: Some(Method::Taylor),
+            forced: false,
+            span: (0.5, 5.0),
+            samples: 7,
+            derivatives: vec![Parameter::Oblateness, Parameter::Spin],
+            tolerance: 1e-6,
+            prediction: Some(OF_TAYLOR),
+            considered: vec![
+                Candidate { method: Method::Free, prediction: Err(not_possible.clone()) },
+                candidate(Method::Steady, lossy),
+                candidate(Method::Averaged, coarse),
+                candidate(Method::Splitting, bound),
+                candidate(Method::Taylor, OF_TAYLOR),
+            ],
+            skipped: vec![Skipped { what: "orientation", why: "no output needs it" }],
+        };
+        let derivatives = [Parameter::Oblateness, Parameter::Spin].map(Parameter::symbol).join(", ");
+        let start = "outputs      symmetry axis, first integrals\nstate        n, L\n";
+        let method = "method       taylor (Taylor series with adaptive steps and dense output)";
+        // Times are 100 + 4 t; the other method costs 2.5 times as much.
+        let rest = format!(
+            "stretch      102.0 to 120.0 s\nsamples      7\nderivatives  {derivatives}\nsteps        about 40 of order 20: 800 right-hand sides\n\
+             evaluations  about 7 of n, L\nmemory       about 1.0 kB\ncost         about 1.0 us on {MACHINE}\n\
+             error        goal 2.0e-9 by the method, which 98 % of random motions stay below; asked is 1e-6\n\
+             rounding     about 3.0e-13, as the motion's error estimate will count it\n\nskipped\n  orientation: no output needs it\n\n\
+             methods considered\n  free: not possible: {not_possible}\n  steady: loses digits that another keeps, about 2.0e-3 by rounding\n  \
+             averaged: not accurate enough, error estimated 1.0e-2\n  splitting: 2.5 us, error at most 1.1e-16\n  taylor: 1.0 us, error goal 2.0e-9\n"
+        );
+        let why = "why          the cheapest of those whose predicted error is at most 1e-6; next is splitting, 2.5 times the cost\n";
+        assert_eq!(explained(&scene, &plan), format!("{start}{method}\n{why}{rest}"));
+        plan.forced = true;
+        assert_eq!(explained(&scene, &plan), format!("{start}{method}, as asked\n{rest}"));
+        // The error of rounding is at least that of a component; a series has one order at least.
+        plan.prediction = Some(Prediction { rounding: 0.0, order: 1, ..bound });
+        let text = explained(&scene, &plan);
+        assert!(text.contains("rounding     about 1.1e-16") && text.contains("of order 1:"), "{text}");
+        plan.prediction = Some(Prediction { order: 0, ..bound });
+        assert!(!explained(&scene, &plan).contains("\nsteps"));
+        plan = Plan { samples: 0, derivatives: Vec::new(), prediction: None, considered: Vec::new(), ..plan };
+        let text = explained(&scene, &plan);
+        assert!(text.contains("samples      none\nderivatives  none\n\nskipped\n"), "{text}");
+    }
+
+    #[test]
+    fn a_unit_begins_where_its_number_is_one() {
+        for (ns, text) in [
+            (999.0, "999 ns"),
+            (1e3, "1.0 us"),
+            (9.99e5, "999.0 us"),
+            (1e6, "1.0 ms"),
+            (1e9, "1.0 s"),
+            (1e12, "1000.0 s"),
+        ] {
+            assert_eq!(duration(ns), text);
+        }
+        for (count, text) in [
+            (999.0, "999 bytes"),
+            (1e3, "1.0 kB"),
+            (1e6, "1.0 MB"),
+            (1e9, "1.0 GB"),
+            (9.99e11, "999.0 GB"),
+            (1e12, "1.0 TB"),
+            (1e15, "1000.0 TB"),
+        ] {
+            assert_eq!(bytes(count), text);
+        }
+    }
+}

@@ -93,3 +93,63 @@ impl Scene {
         ))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix3, Vector3};
+    use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
+
+    use super::*;
+    use crate::scene_file::Times;
+
+    fn scene(start: f64, last: f64, unit: f64) -> Scene {
+        let mut scene = Scene::named("tp-2").unwrap();
+        scene.units.time = unit;
+        scene.times = Times::Listed { start, times: vec![last] };
+        scene
+    }
+
+    /// In whole multiples of 2^-70: doubles of these sizes are such, and three times the sum of the parts is the difference but for a rounding of the
+    /// second part, 2^-78, and what is cut.
+    #[test]
+    fn two_parts_are_a_time_to_twice_the_digits() {
+        let whole = |x: f64| (x * 2.0_f64.powi(70)) as i128;
+        for (start, time) in [(0.1, 1e9), (1e9, 0.1), (-0.3, 7.7e8), (0.0, 1e9)] {
+            let [most, rest] = scene(start, time, 3.0).since_start_in_parts(time);
+            let off = 3 * (whole(most) + whole(rest)) - (whole(time) - whole(start));
+            assert!(off.abs() < 6 && rest != 0.0, "{start} to {time}: {off}");
+        }
+        assert_eq!(scene(-f64::MAX, f64::MAX, 3.0).since_start_in_parts(f64::MAX), [f64::INFINITY, 0.0]);
+    }
+
+    #[test]
+    fn the_part_done_goes_from_zero_to_one_in_either_sense() {
+        for last in [26.0, -6.0] {
+            let scene = scene(10.0, last, 2.0);
+            let parts = [0.0, 0.25, 1.0].map(|part| scene.part_done(part * scene.duration()));
+            assert_eq!(parts, [0.0, 0.25, 1.0]);
+        }
+        assert_eq!(scene(10.0, 10.0, 2.0).part_done(0.0), 1.0);
+    }
+
+    /// At right angles to the axis a star turns by `|L|`, about it by `|L| / I^zz`, which is the faster of the two if the star is prolate; to that comes
+    /// `sqrt(2 |s|)`. A tensor of the eigenvalues 2, -1 and 2 has the norm 3.
+    #[test]
+    fn a_star_turns_by_no_more_than_its_rates_and_that_of_the_torque() {
+        for (ratio, torque, momentum, rate) in [
+            (1.25, 0.0, Vector3::new(0.0, 0.0, 5.0), 5.0),
+            (0.8, 0.0, Vector3::new(0.0, 0.0, 2.0), 2.5),
+            (0.8, 0.0, Vector3::new(4.0, 0.0, 0.0), 4.0),
+            (1.25, 1.0, Vector3::new(0.0, 0.0, 5.0), 5.0 + 6.0_f64.sqrt()),
+        ] {
+            let mut scene = scene(10.0, -10.0, 2.0);
+            let s = Matrix3::from_diagonal(&Vector3::new(2.0, -1.0, 2.0)) * torque;
+            let state = BodyState { axis: Vector3::z(), momentum, equatorial_axis: Vector3::x() };
+            scene.problem = Problem::new(RigidSpheroid::in_units_of_tc(ratio), s, state).unwrap();
+            // A rounding or two of each of the terms.
+            assert!((scene.turning_rate() - rate).abs() < 4.0 * f64::EPSILON * rate, "{}", scene.turning_rate());
+            // Twenty units of the output, ten of t_c, backwards.
+            assert!((scene.rotation() - 10.0 * rate).abs() < 40.0 * f64::EPSILON * rate, "{}", scene.rotation());
+        }
+    }
+}

@@ -24,3 +24,30 @@ impl Random {
         low + (high - low) * (self.word() >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Random;
+
+    /// The first words from two seeds as Java's `SplittableRandom` has them, and published implementations with it.
+    #[test]
+    fn words_are_those_of_the_published_generator() {
+        for (seed, words) in [
+            (0, [0xe220_a839_7b1d_cdaf, 0x6e78_9e6a_a1b9_65f4, 0x06c4_5d18_8009_454f]),
+            (1_234_567, [6_457_827_717_110_365_317, 3_203_168_211_198_807_973, 9_817_491_932_198_370_423]),
+        ] {
+            let mut random = Random::with_seed(seed);
+            assert_eq!(words.map(|_| random.word()), words);
+        }
+    }
+
+    /// A word as a part of 2^64, cut to 53 bits: within 2^-53 of the interval below, and a rounding.
+    #[test]
+    fn a_number_lies_where_its_word_does_among_all_words() {
+        let (mut words, mut numbers) = (Random::with_seed(3), Random::with_seed(3));
+        for _ in 0..20 {
+            let (part, number) = (words.word() as f64 * 0.5_f64.powi(64), numbers.within(3.0, 7.0));
+            assert!((number - (3.0 * (1.0 - part) + 7.0 * part)).abs() < 16.0 * f64::EPSILON, "{number}");
+        }
+    }
+}

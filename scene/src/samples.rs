@@ -323,6 +323,99 @@ mod tests {
         assert!(sum < scene.tolerance, "{sum:e}");
     }
 
+    /// A scene that turns by so many radians, at samples of that rotation.
+    fn scene(name: &str, method: &str, columns: &[&str], rotations: &[f64]) -> (Scene, Plan) {
+        let mut scene = Scene::named(name).unwrap();
+        scene.choose_method(method).unwrap();
+        scene.choose_columns(columns).unwrap();
+        let times = rotations.iter().map(|rotation| rotation / scene.turning_rate()).collect();
+        scene.times = crate::scene_file::Times::Listed { start: 0.0, times };
+        let plan = scene.plan(&scene.columns).unwrap();
+        (scene, plan)
+    }
+
+    /// A segment begins where and as the one before ends, or where it is resumed; all of them end as one motion does, to some tolerances of it.
+    #[test]
+    fn segments_follow_one_another_in_either_sense() {
+        for sense in [1.0, -1.0] {
+            let (scene, plan) = scene("tp-2", "taylor", &["e_z"], &[sense * 30.0]);
+            let mut segments = Segments::<AxisState<f64>>::with_rotation(&scene, &plan, 12.0).unwrap();
+            let (mut from, mut state, mut count) = (0.0, AxisState::from(scene.problem.initial()), 0);
+            while let Some(segment) = segments.next().unwrap() {
+                let found = segment.motion.motion.state(from).unwrap();
+                assert!((found.axis - state.axis).norm() + (found.momentum - state.momentum).norm() < 1e-14);
+                assert!(segment.from == from && (segment.to - from) * sense > 0.0, "{from} to {}", segment.to);
+                from = if count == 0 { segment.to / 2.0 } else { segment.to };
+                state = segment.motion.motion.state(from).unwrap();
+                if count == 0 {
+                    segments.resume_at(&segment, from).unwrap();
+                }
+                if segment.is_last {
+                    let prediction = plan.prediction.unwrap();
+                    let foreseen = ErrorAtEnd::Foreseen(prediction.truncation + prediction.rounding);
+                    assert_eq!(segments.error_at_end(&segment.motion, from, &plan), foreseen);
+                }
+                count += 1;
+            }
+            let whole = scene.problem.taylor((0.0, scene.duration()), 1e-13).unwrap().state(scene.duration()).unwrap();
+            assert!((state.axis - whole.axis).norm() < 10.0 * scene.tolerance && from == scene.duration());
+            assert_eq!(count, 3);
+        }
+    }
+
+    /// So that memory does not grow with the span, a segment turns by 5e4 rad at most: 5.2e4 rad are two of 2.6e4. An error does not become less with time where one ends, nor
+    /// is that of a closed form, which begins with the scene, more for the segments before. It is asked for at the end alone, or at the samples.
+    #[test]
+    fn errors_go_on_over_the_ends_of_segments() {
+        let rotations = [2.5e4, 2.7e4, 5.2e4];
+        let errors = |scene: &Scene, plan: &Plan, estimates| {
+            let (mut errors, mut ends) = (Vec::new(), vec![0.0]);
+            let take = |_, sample: &Sample| {
+                errors.extend(sample.error_estimate);
+                Ok::<_, Error>(())
+            };
+            let after = |_: &AxisStateAt<'_>, from: f64, to: f64| {
+                assert_eq!(Some(&from), ends.last());
+                ends.push(to);
+                Ok(())
+            };
+            let sampled = for_each_sample(scene, plan, estimates, take, after).unwrap();
+            assert_eq!(sampled.error.is_some(), estimates == ErrorEstimates::AtEnd);
+            (errors, ends.len() - 1)
+        };
+        let (mut numeric, plan) = scene("tp-2", "taylor", &["e_z"], &rotations);
+        numeric.tolerance = 1e-4;
+        let (found, segments) = errors(&numeric, &plan, ErrorEstimates::OfEachSample);
+        assert!(found.len() == 3 && found.is_sorted(), "{found:?}");
+        assert_eq!(segments, 2);
+        let (closed, in_segments) = scene("free", "free", &["angles"], &rotations);
+        let (of_segments, segments) = errors(&closed, &in_segments, ErrorEstimates::OfEachSample);
+        let (of_one, one) =
+            errors(&closed, &closed.plan(&[Output::SymmetryAxis]).unwrap(), ErrorEstimates::OfEachSample);
+        assert_eq!((segments, one), (2, 1));
+        assert_eq!(of_segments, of_one);
+        let (short, plan) = scene("tp-2", "taylor", &["e_z"], &[1.0]);
+        for estimates in [ErrorEstimates::None, ErrorEstimates::AtEnd] {
+            assert_eq!(errors(&short, &plan, estimates), (Vec::new(), 1));
+        }
+    }
+
+    /// Errors of the same size in every unit of time grow to `1 + rate (T - t)` times themselves, to `T + rate T^2 / 2` in all: with `rate T = 2` to `2 T`, and over the
+    /// half of it to `3 T / 4`.
+    #[test]
+    fn half_of_a_span_has_less_than_half_of_the_tolerance() {
+        let mut scene = Scene::named("tp-2").unwrap();
+        scene.tolerance = 1e-6;
+        for sense in [1.0, -1.0] {
+            let last = sense * 2.0 / scene.turning_rate();
+            scene.times = crate::scene_file::Times::Listed { start: 0.0, times: vec![last] };
+            let plan = scene.plan(&scene.columns).unwrap();
+            let segments = Segments::<BodyState<f64>>::new(&scene, &plan).unwrap();
+            let share = segments.share_of_tolerance(last / 2.0);
+            assert!((share / 0.375e-6 - 1.0).abs() < 8.0 * f64::EPSILON, "{share:e}");
+        }
+    }
+
     #[test]
     fn each_earlier_error_grows_with_the_rotation_since() {
         for sense in [1.0, -1.0] {

@@ -76,7 +76,7 @@ impl DataFile {
         let mut rows = Vec::new();
         for record in reader.into_records() {
             let record = record.map_err(|error| format!("{name}: {error}"))?;
-            let line = record.position().map_or(0, csv::Position::line);
+            let line = record.position().expect("a record that was read has a place").line();
             if rows.len() == MOST_ROWS {
                 return Err(format!("{name}:{line}: one row too many: allowed are {MOST_ROWS} in a file"));
             }
@@ -165,5 +165,56 @@ impl DataFile {
             }
         }
         Ok(data)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene_file::Times;
+
+    fn table(text: &str) -> DataFile {
+        DataFile::of_bytes("data", text.as_bytes().to_vec()).unwrap()
+    }
+
+    /// Times from 10 in units of 2. A period is one where the pulse of the turn before was seen once.
+    #[test]
+    fn data_are_in_units_of_the_scene_from_its_start() {
+        let mut scene = Scene::named("tp-2").unwrap();
+        scene.units.time = 2.0;
+        scene.times = Times::Listed { start: 10.0, times: vec![100.0] };
+        let file = table(
+            "beam,turn,midpoint [t_c],duration [t_c],closest_approach [t_c],period [t_c]\n1,4,30,3,31,\n1,5,38,3,39,8\n1,6,46,3,47,\n\
+             2,6,46,3,47,8\n1,8,62,3,63,16\n1,9,70,3,71,8\n1,9,71,3,72,1\n1,10,78,3,79,8\n",
+        );
+        let noise = [Observable::Arrivals, Observable::Widths, Observable::ClosestApproaches, Observable::Periods];
+        let data = file.pulses(&scene, &noise.map(|observable| (observable, 0.5))).unwrap();
+        let of = |observable| {
+            let data = data.iter().filter(move |datum| datum.observable == observable);
+            data.map(|datum| (datum.place, datum.value)).collect::<Vec<_>>()
+        };
+        let turns = [(4, 10.0), (5, 14.0), (6, 18.0), (8, 26.0), (10, 34.0)];
+        let place = |(number, near): (i64, f64)| Place::Turn { number, near };
+        assert_eq!(of(Observable::Arrivals), turns.map(|turn| (place(turn), turn.1)));
+        assert_eq!(of(Observable::Widths), turns.map(|turn| (place(turn), 1.5)));
+        assert_eq!(of(Observable::ClosestApproaches), turns.map(|turn| (place(turn), turn.1 + 0.5)));
+        assert_eq!(of(Observable::Periods), [(place(turns[1]), 4.0)]);
+        let file = table("t [t_c],h_cross [1],h_plus [1]\n14,2.5,-1\n");
+        let strain = |observable, value| Datum { observable, place: Place::Time(2.0), epoch: 0.0, value, sigma: 0.5 };
+        let (plus, cross) = (Observable::StrainPlus, Observable::StrainCross);
+        let found = file.strain(&scene, &[(plus, 0.5), (cross, 0.5)]).unwrap();
+        assert_eq!(found, [strain(plus, -1.0), strain(cross, 2.5)]);
+    }
+
+    #[test]
+    fn messages_name_thirty_columns_and_whole_numbers_go_to_ten_to_the_fifteen() {
+        let names: Vec<_> = (1..=31).map(|i| format!("c{i}")).collect();
+        let why = table(&names.join(",")).rows(&["x".to_owned()]).unwrap_err();
+        assert!(why.ends_with("c29, c30, and 1 more"), "{why}");
+        for sign in ["", "-"] {
+            assert!(table("").whole(2, "turn", &format!("{sign}1000000000000000")).is_ok());
+            let why = table("").whole(2, "turn", &format!("{sign}1000000000000001")).unwrap_err();
+            assert!(why.starts_with("data:2: `turn`"), "{why}");
+        }
     }
 }

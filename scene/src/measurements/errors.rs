@@ -24,3 +24,29 @@ pub fn beside<M: Model>(fisher: &Fisher<M>, factor: f64, random: &mut ChaCha8Rng
     let normal = DVector::from_fn(fisher.unknowns.len(), |_, _| StandardNormal.sample(random));
     fisher.beside(&normal, factor)
 }
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+    use twofold::inference::{MeasuredArrival, MeasuredWidth};
+
+    use super::*;
+
+    /// The numbers of the generator in the order of arrivals and then widths, in standard deviations of each.
+    #[test]
+    fn arrivals_and_then_widths_are_off_by_normal_numbers() {
+        let arrivals = [1e-3, 4.0].map(|sigma| MeasuredArrival { time: [1e9, 0.5], sigma, number: Some(7) }).to_vec();
+        let widths = vec![MeasuredWidth { time: 1e9, duration: 2.0, sigma: 0.25 }];
+        let mut data = TimingData { arrivals, widths, priors: Vec::new() };
+        add_timing_noise(&mut data, &mut ChaCha8Rng::seed_from_u64(1));
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        let normal: [f64; 3] = std::array::from_fn(|_| StandardNormal.sample(&mut random));
+        let found = [(data.arrivals[0].time[1] - 0.5) / 1e-3, (data.arrivals[1].time[1] - 0.5) / 4.0];
+        let found = [found[0], found[1], (data.widths[0].duration - 2.0) / 0.25];
+        for (found, normal) in found.iter().zip(normal) {
+            // A rounding of the sum over the smallest deviation.
+            assert!((found - normal).abs() < 4.0 * f64::EPSILON / 1e-3, "{found} and {normal}");
+        }
+        assert!(data.arrivals.iter().all(|arrival| arrival.time[0] == 1e9) && data.widths[0].time == 1e9);
+    }
+}

@@ -227,3 +227,67 @@ pub fn named<U: Unknown>(list: &str, all: &[U]) -> Result<Vec<U>, String> {
     }
     Ok(found)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene_file::Times;
+
+    fn measured(observe: &str, last: f64, samples: usize) -> (Measurement, Signal) {
+        let mut scene = Scene::named("tp-2").unwrap();
+        scene.times = Times::Even { start: 0.0, end: last, samples };
+        let measurement = Measurement::new(scene, observe, None).unwrap_or_else(|error| panic!("{error}"));
+        let signal = Signal::new(&measurement.parameters, measurement.end).unwrap();
+        (measurement, signal)
+    }
+
+    #[test]
+    fn many_samples_are_refused_where_strains_are_taken_at_them() {
+        for (observe, samples, is_taken) in [
+            ("arrivals:1", 100_001, true),
+            ("strain:1", 100_001, false),
+            ("arrivals:1,strain:1", 100_001, false),
+            ("strain:1", 100_000, true),
+        ] {
+            // A span of half a t_c is one.
+            let (measurement, signal) = measured(observe, 0.5, samples);
+            assert_eq!(measurement.check_samples(&signal).is_ok(), is_taken, "{observe} {samples}");
+        }
+    }
+
+    fn strains(rows: &str) -> DataFile {
+        DataFile::of_bytes("strains", format!("t [t_c],h_plus [1],h_cross [1]\n{rows}").into_bytes()).unwrap()
+    }
+
+    /// The same number of the same kind at the same time is one datum; of the pulses that of the first turn is left out.
+    #[test]
+    fn data_are_taken_once_and_none_of_those_asked_for_may_lack() {
+        let pulses = |rows: &str| {
+            let header = "beam,turn,midpoint [t_c],duration [t_c],closest_approach [t_c],period [t_c]";
+            DataFile::of_bytes("pulses", format!("{header}\n{rows}").into_bytes()).unwrap()
+        };
+        let (measurement, signal) = measured("strain:1,arrivals:1", 400.0, 10);
+        let both = [pulses("1,0,0.5,1,1,\n1,9,50,1,50,\n1,10,56,1,56,\n"), strains("3,1,2\n4,1,2\n")];
+        let (data, left_out) = measurement.data_in(&both, &signal).unwrap();
+        assert_eq!((data.len(), left_out), (6, 1));
+        let why = measurement.data_in(&both[1..], &signal).unwrap_err();
+        assert!(why.contains("--observe arrivals: there is no such datum in strains"), "{why}");
+
+        let (measurement, signal) = measured("strain:1", 400.0, 10);
+        for (rows, is_taken) in [("3,1,2\n", false), ("3,1.5,2\n", true), ("5,1,2\n", true)] {
+            let data = measurement.data_in(&[strains("3,1,2\n4,1,2\n"), strains(rows)], &signal);
+            assert_eq!(data.map(|(data, left_out)| (data.len(), left_out)).ok(), is_taken.then_some((6, 0)), "{rows}");
+        }
+    }
+
+    #[test]
+    fn data_of_two_kinds_numbers_or_times_are_two() {
+        let (observable, place) = (twofold::inference::Observable::StrainPlus, Place::Time(3.0));
+        let datum = Datum { observable, place, epoch: 0.0, value: 1.0, sigma: 1.0 };
+        assert!(same(&datum, &datum));
+        let cross = Datum { observable: twofold::inference::Observable::StrainCross, ..datum };
+        for other in [cross, Datum { value: 2.0, ..datum }, Datum { place: Place::Time(4.0), ..datum }] {
+            assert!(!same(&datum, &other), "{other:?}");
+        }
+    }
+}

@@ -85,3 +85,19 @@ pub fn parse_noise(text: &str, time_unit: f64) -> Result<Vec<Noise>, String> {
     }
     Ok(found)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parameters_are_those_of_the_scene_off_the_poles() {
+        let mut scene = Scene::named("b1828-11").unwrap();
+        for (beta, is_taken) in [(1e-5, true), (1e-7, false), (std::f64::consts::FRAC_PI_2, true)] {
+            scene.initial_angles.beta = beta;
+            assert_eq!(parameters_of(&scene).is_ok(), is_taken, "{beta}");
+        }
+        // A fluid bulge is a quarter of I^xx in units of the rotation.
+        assert_eq!(parameters_of(&scene).unwrap().bulge, 0.25);
+    }
+}

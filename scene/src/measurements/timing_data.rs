@@ -126,3 +126,34 @@ impl DataFile {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(name: &str, text: &str) -> Result<TimingData, String> {
+        let file = DataFile::of_bytes(name, text.as_bytes().to_vec())?;
+        let mut data = TimingData { arrivals: Vec::new(), widths: Vec::new(), priors: Vec::new() };
+        let noise = [(Observable::Arrivals, 0.5), (Observable::Widths, 0.25)];
+        file.add_timing(&Epoch::new(55000, 0.0).unwrap(), &noise, &mut data).map(|()| data)
+    }
+
+    /// By its name, or by its first line that is no comment. An uncertainty is in microseconds, half a day 43,200 s.
+    #[test]
+    fn arrival_times_of_timing_programs_are_told_from_tables() {
+        let arrival = |number| vec![MeasuredArrival { time: [43_200.0, 0.0], sigma: 2e-6, number }];
+        let line = "x 0.0 55000.5 2.0 @";
+        assert_eq!(read("data", &format!("\n# a\nC b\nFORMAT 1\n{line} -pn 3\n")).unwrap().arrivals, arrival(Some(3)));
+        assert_eq!(read("data.tim", &format!("{line}\n")).unwrap().arrivals, arrival(None));
+        let header = "arrival_day [MJD],arrival_fraction [d],duration [s]\n";
+        let data = read("data", &format!("{header}55000,0.5,3\n")).unwrap();
+        assert_eq!((data.arrivals[0].time, data.arrivals[0].sigma), ([43_200.0, 0.0], 0.5));
+        assert_eq!(data.widths, [MeasuredWidth { time: 43_200.0, duration: 3.0, sigma: 0.25 }]);
+        for (row, column) in
+            [("x,0.5,3", "arrival_day [MJD]"), ("55000,x,3", "arrival_fraction [d]"), ("55000,0.5,0", "duration [s]")]
+        {
+            let why = read("data", &format!("{header}{row}\n")).unwrap_err();
+            assert!(why.starts_with(&format!("data:2: `{column}`")), "{why}");
+        }
+    }
+}

@@ -209,7 +209,7 @@ impl Normal {
         let mean = mean.abs() / deviation;
         let density = |x: f64| (-0.5 * (x - mean) * (x - mean)).exp() / (2.0 * PI).sqrt();
         let below = |size: f64| rule.integrate((mean - 8.0).max(-size), size, density);
-        let (mut low, mut high) = ((mean - 8.0).max(0.0), mean + 8.0);
+        let (mut low, mut high) = (0.0, mean + 8.0);
         for _ in 0..60 {
             let middle = (low + high) / 2.0;
             *(if below(middle) < probability { &mut low } else { &mut high }) = middle;
@@ -226,11 +226,67 @@ mod tests {
     fn sizes_of_normal_numbers_have_the_quantiles_of_tables() {
         // 1.959964 and 1.644854 standard deviations: both sides of zero, and one side far from zero.
         for (mean, deviation, expected) in
-            [(0.0, 2.0, 2.0 * 1.959964), (100.0, 1.0, 101.644854), (-1e9, 1.0, 1e9 + 1.644854), (3.0, 0.0, 3.0)]
+            [(0.0, 2.0, 2.0 * 1.959964), (100.0, 1.0, 101.644854), (-1e9, 1.0, 1e9 + 1.644854), (-3.0, 0.0, 3.0)]
         {
             let found = Normal { mean, deviation }.size_quantile(CONFIDENCE);
             assert!((found - expected).abs() < 1e-6 * deviation.max(1e-9), "{mean} +- {deviation}: {found}");
         }
+        // Half of all are within 0.674490 standard deviations.
+        assert!((Normal { mean: 0.0, deviation: 2.0 }.size_quantile(0.5) - 2.0 * 0.674490).abs() < 2e-6);
+        assert_eq!(Normal { mean: -3.0, deviation: 0.0 }.sizes(), [(3.0, 1.0)]);
+    }
+
+    /// The mean square is that of the normal distribution, `mean^2 + deviation^2`, and the weights are one together: to the roundings of a hundred terms.
+    #[test]
+    fn sizes_have_the_moments_of_their_distribution() {
+        for (mean, deviation) in [(0.0, 2.0), (-1.5, 1.0), (30.0, 2.0)] {
+            let sizes = Normal { mean, deviation }.sizes();
+            let weight: f64 = sizes.iter().map(|(_, weight)| weight).sum();
+            let square: f64 = sizes.iter().map(|(size, weight)| weight * size * size).sum();
+            assert!((weight - 1.0).abs() < 1e-13, "{weight}");
+            assert!((square / (mean * mean + deviation * deviation) - 1.0).abs() < 1e-13, "{square}");
+        }
+    }
+
+    /// The share of all directions Z of which `|l.Z| |l x Z| |cos psi|`, with `l` and the motion along two axes the product of two components of Z, is below a rate:
+    /// on a grid, whose cells at the edge are some 0.002 of all. It is never above 1/2.
+    #[test]
+    fn slow_motions_are_as_frequent_as_directions_of_them_on_a_grid() {
+        const CELLS: u32 = 1000;
+        let directions = Directions { inclination: None, sine: 0.5 };
+        let middles = |length: f64| (0..CELLS).map(move |i| (f64::from(i) + 0.5) / f64::from(CELLS) * length);
+        for rate in [0.02, 0.2, 0.45] {
+            let mut count = 0;
+            for mu in middles(1.0) {
+                count += middles(FRAC_PI_2).filter(|phi| (1.0 - mu * mu) * phi.sin() * phi.cos() < rate).count();
+            }
+            let share = count as f64 / f64::from(CELLS * CELLS);
+            let found = directions.is_slower_than(0.5 * rate, &rule(60));
+            assert!((found - share).abs() < 2e-3, "{rate}: {found} and {share}");
+        }
+        for (rate, share) in [(0.0, 0.0), (0.25, 1.0), (3.0, 1.0)] {
+            assert_eq!(directions.is_slower_than(rate, &rule(60)), share);
+        }
+    }
+
+    /// `eta` goes as `1 / sin(2 b0)`: half of what it changes by from one end of the error of `b0` to the other. The next term of the series is some 1e-6 of it.
+    #[test]
+    fn the_uncertainty_of_eta_is_that_of_the_inclination() {
+        for (beta_0, error) in [(30.0, 0.05), (60.0, 0.05), (150.0, 0.05)] {
+            let text = format!(
+                "[[pulsar]]\nname = \"x\"\nspin_period = 4e-3\nlambda = 95\nchi = 51\nwidth = 13\nwidth_change = 0.02\nyears = 15\nbeta_0 = [{beta_0}, {error}]\n"
+            );
+            let pulsar = crate::pulsar_table::pulsars("table", &text).unwrap().remove(0);
+            let eta = |degrees: f64| 1.0 / (2.0 * degrees * DEGREE).sin().abs();
+            let expected = (eta(beta_0 + error) - eta(beta_0 - error)).abs() / 2.0 / eta(beta_0);
+            let found = pulsar.relative_uncertainty_of_eta();
+            assert!((found / expected - 1.0).abs() < 1e-5, "{beta_0}: {found} and {expected}");
+        }
+    }
+
+    #[test]
+    fn an_angle_to_the_line_of_sight_of_either_sign_has_one_limit() {
+        assert_eq!(limit_over_directions(-0.7, 1.0, 0.5), limit_over_directions(0.7, 1.0, 0.5));
     }
 
     /// Against adaptive quadratures of another program (`verify/oracles/second_program/bounds.py`), which random draws confirm to 1e-3.
@@ -242,7 +298,8 @@ mod tests {
             (40.0, None, 0.0, 1.0, 103.082_788_623_988_7),
             (40.0, None, -30.0, 1.0, 4_073.544_488_652_147),
             (75.0, Some(35.0), 1.0, 0.0, 28.083_879_615_124_71),
-            (75.0, Some(35.0), 1.0, 0.4, 28.142_660_688_733_76),
+            // An axis of the tensor has two ends: 35 degrees from one is 145 from the other.
+            (75.0, Some(145.0), 1.0, 0.4, 28.142_660_688_733_76),
             (75.0, Some(80.0), 0.0, 2.0, 123.404_499_675_616_7),
         ] {
             let directions =

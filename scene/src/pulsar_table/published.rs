@@ -58,3 +58,28 @@ pub fn published() -> impl Iterator<Item = Published> {
 pub fn limit_of(paper: &str) -> f64 {
     published().find(|limit| limit.source.ends_with(paper)).expect("a published limit").limit
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pulsar_table::{CONSERVATIVE_ETA, ROUND_INERTIA_OVER_C};
+
+    #[test]
+    fn limits_begin_with_the_first_line_below_the_header() {
+        let first = published().next().unwrap();
+        assert_eq!((first.quantity, first.limit), ("s^XX + s^YY - 2 s^ZZ", 4.1e-11));
+        assert!(published().all(|limit| limit.limit > 0.0));
+    }
+
+    /// The paper prints powers of ten: the same order of magnitude (`docs/discrepancies.md`).
+    #[test]
+    fn the_round_numbers_of_the_paper_give_its_bounds() {
+        for (pulsar, printed) in printed_bounds() {
+            let [bound, conservative]: [f64; 2] =
+                [printed.bound, printed.conservative].map(|text| text.parse().unwrap());
+            assert_eq!(conservative / bound, CONSERVATIVE_ETA);
+            let found = pulsar.bound_over_eta(ROUND_INERTIA_OVER_C).unwrap();
+            assert!((found / (bound * 1e-16)).log10().abs() < 1.0, "{}: {found:e}", pulsar.name);
+        }
+    }
+}

@@ -135,3 +135,59 @@ fn quantity_within(
     let uncertainty = uncertainty.number_where(&allowed, |u| (0.0..=largest).contains(&u))?;
     Ok(Quantity { value, uncertainty, spread: Spread::Given })
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::pulsar_table::{Inertia, pulsars};
+
+    /// A pulse with some lines in place of its own.
+    fn pulse(lines: &[&str]) -> String {
+        let key = |line: &str| line.split(" =").next().unwrap_or("").to_owned();
+        let usual =
+            ["spin_period = 4e-3", "lambda = 95", "chi = 51", "width = 13", "width_change = 0.02", "years = 15"];
+        let kept = usual.iter().filter(|usual| !lines.iter().any(|line| key(line) == key(usual)));
+        let kept = kept
+            .filter(|usual| !(key(usual) == "spin_period" && lines.iter().any(|line| key(line) == "spin_frequency")));
+        format!("[[pulsar]]\nname = \"x\"\n{}\n{}\n", kept.copied().collect::<Vec<_>>().join("\n"), lines.join("\n"))
+    }
+
+    /// Of each range a number at or near its end, and one beyond.
+    #[test]
+    fn numbers_are_taken_up_to_the_ends_of_their_ranges() {
+        let (density, oblateness) = ("density = 1e15", "oblateness = 1e-3");
+        for (lines, taken, refused) in [
+            (vec!["spin_frequency = "], &["1e-5", "1e5"][..], &["9e-6", "2e5"][..]),
+            (vec!["spin_period = "], &["1e-5", "1e5"], &["9e-6", "2e5"]),
+            (vec!["width = "], &["0.5"], &["0.0", "360.0"]),
+            (vec!["width_change = "], &["-10.0", "10.0", "[0.0, 10.0]"], &["10.5", "[0.0, 10.5]", "0.0"]),
+            (vec!["years = "], &["0.5", "1000.0"], &["0.0", "1001.0"]),
+            (vec!["w = "], &["0.5", "299791.0"], &["0.0", "299792.0"]),
+            (vec![oblateness, "density = "], &["1e-6", "1e17"], &["9e-7", "2e17"]),
+            (vec![density, "oblateness = "], &["1e-15", "0.99"], &["9e-16", "1.0"]),
+            (vec!["inertia_over_c = "], &["1e-30", "1e20"], &["0.0", "2e20"]),
+            (vec!["eta = "], &["0.5", "1e6"], &["0.0", "2e6"]),
+            (
+                vec!["beta_0 = "],
+                &["0.001", "0.5", "179.5", "179.999"],
+                &["0.0005", "0.0", "-1.0", "89.9995", "90.0", "179.9995", "180.5"],
+            ),
+        ] {
+            let (last, others) = lines.split_last().unwrap();
+            let read = |number: &str| pulsars("table", &pulse(&[others, &[&format!("{last}{number}")]].concat()));
+            for number in taken {
+                assert!(read(number).is_ok(), "{last}{number}: {}", read(number).unwrap_err());
+            }
+            for number in refused {
+                let why = read(number).expect_err(last).to_string();
+                assert!(why.contains("allowed"), "{last}{number}: {why}");
+            }
+        }
+    }
+
+    #[test]
+    fn density_and_oblateness_are_what_they_are_called() {
+        let pulsar = pulsars("table", &pulse(&["density = 2e14", "oblateness = 3e-4"])).unwrap().remove(0);
+        let Inertia::Uniform { density, oblateness } = pulsar.inertia else { panic!("{:?}", pulsar.inertia) };
+        assert_eq!((density.value, oblateness.value), (2e14, 3e-4));
+    }
+}

@@ -64,3 +64,53 @@ impl PulsarScene {
         Ok(Causes { geometry, torque, violation, spin_down_rate })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{scene, timed};
+    use crate::scene_file::{IndexOrSecond, SpinDown};
+
+    fn spin_down(f1: f64, torque_share: f64) -> Option<SpinDown> {
+        Some(SpinDown { f1, index: IndexOrSecond::Index(3.0), torque_share, damping_time: None })
+    }
+
+    /// To the rounding of the arrival times, 1e-16 d, and of residuals that are 1e-16 of the largest distance from the chord.
+    #[test]
+    fn without_braking_the_causes_add_up_to_the_residuals() {
+        let times: Vec<_> = (0..12).map(|k| 0.9e8 / 11.0 * f64::from(k)).collect();
+        let (pulsar, timing) = timed(&scene("[2e-9, 0.0, -3e-9]"), &times);
+        let causes = pulsar.causes(&timing).unwrap();
+        for (i, residual) in timing.fit.residuals.iter().enumerate() {
+            let sum = causes.geometry[i] + causes.torque[i] + causes.violation[i];
+            assert!((sum - residual).abs() < 2e-11, "{sum:e} and {residual:e}");
+        }
+        let largest = |late: &[f64]| late.iter().fold(0.0, |largest: f64, late| largest.max(late.abs()));
+        assert!(largest(&causes.geometry) > 1e-6 && largest(&causes.violation) > 1e-6, "{causes:?}");
+    }
+
+    /// With the index 3 and a constant torque `f1 (f / f0)^3 = f1 (1 - 2 t f1 / f0)^(-3/2)`. A torque in vacuum goes with the sine squared of the angle of the magnetic axis to `L` besides:
+    /// what that changes of the frequency is a part of `f1 / f0` over the rate of the precession, 2e-9.
+    #[test]
+    fn the_frequency_falls_by_the_law_of_braking_and_the_torque() {
+        let mut scene = scene("[0.0, 0.0, 0.0]");
+        for (f1, share, bound) in [(-1e-10, 0.0, 1e-12), (-1e-15, 1.0, 1e-9)] {
+            scene.spin_down = spin_down(f1, share);
+            let (pulsar, timing) = timed(&scene, &[0.0, 0.7e7, 1.6e7, 3e8]);
+            let f0 = 1.0 / pulsar.clock.period();
+            let torque = timing.pulses.iter().map(|timed| {
+                let state = &timed.pulse.state;
+                let sine = pulsar.beam.direction(state).cross(&state.momentum.normalize()).norm();
+                let law = f1 * (1.0 - 2.0 * timed.pulse.midpoint[0] * f1 / f0).powf(-1.5);
+                if share == 0.0 { law } else { law * sine * sine }
+            });
+            let ratios: Vec<_> = torque
+                .zip(pulsar.causes(&timing).unwrap().spin_down_rate)
+                .map(|(torque, rate)| rate / torque)
+                .collect();
+            // The mean of the sine squared over a precession is the one number for all; a constant torque needs none.
+            let mean = if share == 0.0 { 1.0 } else { ratios[0] };
+            assert!(ratios.iter().all(|ratio| (ratio / mean - 1.0).abs() < bound), "{ratios:?}");
+            assert!((1.0..1.5).contains(&mean), "{mean}");
+        }
+    }
+}

@@ -99,9 +99,9 @@ impl PulsarScene {
     /// by its order, the series on the torus by its length), the rounding of directions, and that of an arrival time to 1e-16 d.
     pub fn residual_error(&self, t: f64) -> f64 {
         let motion = self.clock.motion();
-        let per_radian = self.clock.period().abs() / TAU;
+        let per_radian = self.clock.period() / TAU;
         // The rounding of rates is linear in time, but for the slow ones, whose share is 1e-15 of a residual.
-        ARRIVAL_ROUNDING.max(self.clock.truncation(t).abs() + motion.rounding(0.0) * per_radian)
+        ARRIVAL_ROUNDING.max(self.clock.truncation(t) + motion.rounding(0.0) * per_radian)
     }
 
     /// Estimated error (s) of an arrival time at the time `t` (s, from the epoch) for the numbers that the scene states. Beside that of a residual
@@ -111,7 +111,7 @@ impl PulsarScene {
     /// products of it, four of the rate about the axis and of the axis, a sum, the moment of inertia, the unit of time.
     pub fn arrival_error(&self, t: f64) -> f64 {
         const ROUNDINGS: f64 = 10.0;
-        let per_radian = self.clock.period().abs() / TAU;
+        let per_radian = self.clock.period() / TAU;
         let of_motion = self.clock.motion().error_estimate(t) * per_radian;
         self.residual_error(t).max(of_motion) + ROUNDINGS * f64::EPSILON / 2.0 * t.abs()
     }
@@ -174,5 +174,87 @@ impl Timing {
     pub fn root_mean_square(&self) -> f64 {
         let residuals = &self.fit.residuals;
         (residuals.iter().map(|residual| residual * residual).sum::<f64>() / residuals.len() as f64).sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene_file::{Times, text_of};
+
+    /// The isolated pulsar without braking, with eigenvalues of `s^IJ`.
+    pub(super) fn scene(eigenvalues: &str) -> Scene {
+        let text = text_of("isolated-pulsar").unwrap().replace("[0.0, 0.0, 0.0]", eigenvalues);
+        let mut scene = Scene::from_toml("scene", &text).unwrap_or_else(|error| panic!("{error}"));
+        scene.spin_down = None;
+        scene
+    }
+
+    /// Its pulses nearest to times (s) since the epoch.
+    pub(super) fn timed(scene: &Scene, times: &[f64]) -> (PulsarScene, Timing) {
+        let pulsar = PulsarScene::new(scene).unwrap();
+        let epochs: Vec<_> = times.iter().map(|time| pulsar.epoch.after([*time, 0.0]).unwrap()).collect();
+        let timing = pulsar.timed(&epochs, 0).unwrap();
+        (pulsar, timing)
+    }
+
+    /// `C = I^xx / t_c^2`, and a strain in seconds is one in `t_c` by the square of it.
+    #[test]
+    fn a_scene_in_seconds_has_its_units() {
+        let scene = scene("[0.0, 0.0, 0.0]");
+        let (t_c, pulsar) = (scene.units.time, PulsarScene::new(&scene).unwrap());
+        assert!((pulsar.problem.spheroid().constant_c * t_c * t_c - 1.0).abs() < 4.0 * f64::EPSILON);
+        let strain = scene.strain_unit() * t_c * t_c;
+        assert!((pulsar.strain_unit.unwrap() / strain - 1.0).abs() < 8.0 * f64::EPSILON);
+    }
+
+    /// Of a span of no length, however late, the rates are good for its start alone.
+    #[test]
+    fn the_motion_is_good_for_the_span_of_the_scene() {
+        for (start, grows) in [(1e9, true), (0.0, false)] {
+            let mut scene = scene("[1e-5, 0.0, -3e-5]");
+            scene.times = Times::Listed { start, times: vec![1e9] };
+            let rounding = PulsarScene::new(&scene).unwrap().clock.motion().rounding(1e9);
+            assert_eq!(rounding > 1e-9, grows, "{rounding:e}");
+        }
+    }
+
+    /// Of a free star nothing is left out: `1e-16 * 86400 s`, and ten roundings of `2^-53` of the time, before and after. What is left out of a star that slows down is a time; where directions
+    /// are off by an angle a pulse is by that part of its turn.
+    #[test]
+    fn an_arrival_is_off_by_its_rounding_that_of_the_rate_and_what_the_motion_leaves_out() {
+        let near =
+            |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 8.0 * f64::EPSILON, "{found:e}");
+        let free = PulsarScene::new(&scene("[0.0, 0.0, 0.0]")).unwrap();
+        for t in [1e4, -1e4] {
+            near(free.residual_error(t), 8.64e-12);
+            near(free.arrival_error(t), 8.64e-12 + 1.110_223_024_625_156_5e-11);
+        }
+        let mut scene = scene("[1e-5, 0.0, -3e-5]");
+        scene.times = Times::Listed { start: 0.0, times: vec![0.0] };
+        let late = PulsarScene::new(&scene).unwrap();
+        let per_turn = TAU / late.clock.period();
+        near(late.arrival_error(1e9), late.clock.motion().error_estimate(1e9) / per_turn + 1.110_223_024_625_156_5e-6);
+        scene.spin_down = crate::scene_file::SpinDown {
+            f1: -1e-13,
+            index: crate::scene_file::IndexOrSecond::Index(3.0),
+            torque_share: 0.5,
+            damping_time: None,
+        }
+        .into();
+        let braked = PulsarScene::new(&scene).unwrap();
+        let left_out = braked.clock.truncation(1e8) + braked.clock.motion().rounding(0.0) / per_turn;
+        near(braked.residual_error(1e8), left_out);
+        near(braked.arrival_error(1e8), left_out + 1.110_223_024_625_156_5e-7);
+        assert!(left_out > 1e-6, "{left_out:e}");
+    }
+
+    /// Two epochs in one turn are one pulse. The fit is about the whole day nearest to the mean of the days.
+    #[test]
+    fn epochs_have_their_pulses_about_the_day_in_their_middle() {
+        let (_, timing) = timed(&scene("[0.0, 0.0, 0.0]"), &[0.0, 0.01, 2.0 * DAY, 5.0 * DAY]);
+        assert_eq!((timing.pulses.len(), timing.dark), (3, 0));
+        // The days 0, 0, 2 and 5 from 55000 on have the mean 1.75.
+        assert_eq!((timing.epoch.day(), timing.epoch.fraction()), (55002, 0.0));
     }
 }

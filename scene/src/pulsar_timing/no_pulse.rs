@@ -110,6 +110,53 @@ fn sentence(nearest: f64, farthest: f64, half_opening: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene_file::{Scene, text_of};
+
+    /// The isolated pulsar with some of its lines replaced, and the angles in the turn about an epoch a day later.
+    fn angles(replaced: &[(&str, &str)]) -> (PulsarScene, Epoch, [f64; 2]) {
+        let text = replaced.iter().fold(text_of("isolated-pulsar").unwrap(), |text, (old, new)| {
+            assert!(text.contains(old), "{old}");
+            text.replace(old, new)
+        });
+        let mut scene = Scene::from_toml("scene", &text).unwrap_or_else(|error| panic!("{error}"));
+        scene.spin_down = None;
+        let pulsar = PulsarScene::new(&scene).unwrap();
+        let epoch = pulsar.epoch.after([86400.0, 0.0]).unwrap();
+        let angles = angles_to_line_of_sight(&pulsar, &[epoch]).unwrap();
+        (pulsar, epoch, angles)
+    }
+
+    /// A magnetic axis at `chi` to `L` comes from `|i - chi|` to `i + chi` of a line of sight at `i`. Newton's step leaves less than 1e-8 rad; along the line of sight a
+    /// rounding of the cosine is some 1e-8 rad too.
+    #[test]
+    fn a_star_without_wobble_shows_its_axis_at_the_difference_and_the_sum_of_angles() {
+        for (inclination, chi) in [(60, 65), (60, 60), (75, 75), (82, 98), (35, 145), (120, 60)] {
+            let (_, _, [nearest, farthest]) = angles(&[
+                ("\"60 deg\"", &format!("\"{inclination} deg\"")),
+                ("\"65 deg\"", &format!("\"{chi} deg\"")),
+                ("\"1.0 deg\"", "\"0 deg\""),
+            ]);
+            let (inclination, chi) = (f64::from(inclination).to_radians(), f64::from(chi).to_radians());
+            let sum = (inclination + chi).min(2.0 * std::f64::consts::PI - inclination - chi);
+            assert!((nearest - (inclination - chi).abs()).abs() < 5e-8, "{nearest}");
+            assert!((farthest - sum).abs() < 5e-8, "{farthest}");
+        }
+    }
+
+    /// A star that precesses within some turns, against 20,000 looks at the half turn before the epoch and the half after. An extremum is flat: between looks it changes by 1e-7 rad.
+    #[test]
+    fn the_turn_is_that_about_the_epoch() {
+        let (pulsar, epoch, found) = angles(&[
+            ("precession_period = 400.0", "oblateness = 0.3"),
+            ("\nfrequency = ", "\nspin_frequency = "),
+            ("\"1.0 deg\"", "\"30 deg\""),
+        ]);
+        let near = pulsar.clock.near(epoch.seconds_since(&pulsar.epoch));
+        let looks = (0..=20_000).map(|k| pulsar.clock.period() * (f64::from(k) / 20_000.0 - 0.5));
+        let seen = looks.map(|t| pulsar.beam.direction(&near(t).unwrap()).angle(&pulsar.observer.direction));
+        let [least, most] = seen.fold([f64::INFINITY, 0.0], |[least, most]: [f64; 2], x| [least.min(x), most.max(x)]);
+        assert!((found[0] - least).abs() < 1e-6 && (found[1] - most).abs() < 1e-6, "{found:?}: {least} {most}");
+    }
 
     /// The beam that `a_pulse_is_not_given_where_it_lasts_over_more_turns_than_are_searched` has: it comes and goes with the wobble.
     #[test]

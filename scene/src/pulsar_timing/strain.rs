@@ -51,3 +51,30 @@ pub fn strain_series(pulsar: &PulsarScene, series: &Series) -> Result<Option<[St
     }
     Ok(Some(texts))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{scene, timed};
+    use super::*;
+
+    /// Two series of which one begins a second later have the same lines from there on.
+    #[test]
+    fn a_series_begins_at_its_start() {
+        let (pulsar, _) = timed(&scene("[0.0, 0.0, 0.0]"), &[0.0, 1e5]);
+        let values = |start, samples| -> Vec<(f64, f64)> {
+            let series = Series { start: pulsar.epoch.after([start, 0.0]).unwrap(), rate: 4.0, samples };
+            let [plus, _] = strain_series(&pulsar, &series).unwrap().unwrap();
+            let number = |text: Option<&str>| text.unwrap().parse().unwrap();
+            let line = |line: &str| (number(line.split(' ').next()), number(line.split(' ').nth(1)));
+            plus.lines().skip(1).map(line).collect()
+        };
+        let (early, late) = (values(0.0, 8), values(1.0, 4));
+        assert_eq!(early.iter().map(|line| line.0).collect::<Vec<_>>(), [0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75]);
+        let largest = early.iter().fold(0.0, |largest: f64, line| largest.max(line.1.abs()));
+        for (early, late) in early[4..].iter().zip(&late) {
+            // Roundings of phases of some 30 rad.
+            assert!((early.1 - late.1).abs() < 1e-13 * largest && early.0 == late.0 + 1.0, "{early:?} {late:?}");
+        }
+        assert_eq!(late.len(), 4);
+    }
+}

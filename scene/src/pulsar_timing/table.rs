@@ -77,3 +77,50 @@ pub fn csv(pulsar: &PulsarScene, timing: &Timing, causes: Option<&Causes>) -> St
     }
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{scene, timed};
+    use super::*;
+
+    /// Strains are half at twice the distance, and no columns of numbers without one; what the causes are stands in their columns.
+    #[test]
+    fn every_field_is_in_its_column() {
+        let mut scene = scene("[0.0, 0.0, 0.0]");
+        let fields = |text: &str| text.lines().map(|row| row.split(',').map(str::to_owned).collect()).collect();
+        let (pulsar, timing) = timed(&scene, &[0.0, 1e5, 3e7]);
+        let causes = Causes {
+            geometry: vec![1.0, 2.0, 3.0],
+            torque: vec![4.0, 5.0, 6.0],
+            violation: vec![7.0, f64::NAN, 9.0],
+            spin_down_rate: vec![10.0, 11.0, 12.0],
+        };
+        let near: Vec<Vec<_>> = fields(&csv(&pulsar, &timing, Some(&causes)));
+        assert_eq!(near[0][..16], HEADER);
+        assert_eq!(near[0][16..], CAUSES);
+        assert_eq!(near[2][16..], ["2.0", "5.0", "", "11.0"]);
+        let distance = scene.observer.and_then(|observer| observer.distance).unwrap();
+        for (factor, rest) in [(Some(2.0), 0.5), (None, 0.0)] {
+            scene.observer.as_mut().unwrap().distance = factor.map(|factor| factor * distance);
+            let (pulsar, timing) = timed(&scene, &[0.0, 1e5, 3e7]);
+            let table: Vec<Vec<_>> = fields(&csv(&pulsar, &timing, None));
+            assert_eq!(table.len(), 4);
+            for (row, near) in table.iter().zip(&near).skip(1) {
+                assert_eq!(row[..12], near[..12]);
+                let strains = row.iter().zip(near).skip(12).map(|(field, near)| {
+                    if factor.is_none() {
+                        assert_eq!(field, "")
+                    }
+                    [field, near].map(|field| field.parse().unwrap_or(0.0))
+                });
+                // The unit is rounded before it is multiplied.
+                assert!(
+                    strains
+                        .into_iter()
+                        .all(|[far, near]: [f64; 2]| (far - rest * near).abs() <= 4.0 * f64::EPSILON * far.abs())
+                );
+                assert_eq!(row.len(), 16);
+            }
+        }
+    }
+}
