@@ -99,9 +99,9 @@ impl PulsarScene {
     /// by its order, the series on the torus by its length), the rounding of directions, and that of an arrival time to 1e-16 d.
     pub fn residual_error(&self, t: f64) -> f64 {
         let motion = self.clock.motion();
-        let per_radian = self.clock.period() / TAU;
+        let per_radian = self.clock.period().abs() / TAU;
         // The rounding of rates is linear in time, but for the slow ones, whose share is 1e-15 of a residual.
-        ARRIVAL_ROUNDING.max(self.clock.truncation(t) + motion.rounding(0.0) * per_radian)
+        ARRIVAL_ROUNDING.max(self.clock.truncation(t).abs() + motion.rounding(0.0) * per_radian)
     }
 
     /// Estimated error (s) of an arrival time at the time `t` (s, from the epoch) for the numbers that the scene states. Beside that of a residual
@@ -111,7 +111,7 @@ impl PulsarScene {
     /// products of it, four of the rate about the axis and of the axis, a sum, the moment of inertia, the unit of time.
     pub fn arrival_error(&self, t: f64) -> f64 {
         const ROUNDINGS: f64 = 10.0;
-        let per_radian = self.clock.period() / TAU;
+        let per_radian = self.clock.period().abs() / TAU;
         let of_motion = self.clock.motion().error_estimate(t) * per_radian;
         self.residual_error(t).max(of_motion) + ROUNDINGS * f64::EPSILON / 2.0 * t.abs()
     }
