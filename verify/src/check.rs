@@ -217,7 +217,7 @@ impl Worst {
     }
 
     /// Takes what a case showed.
-    fn see_case(&mut self, case: &dyn std::fmt::Debug, shown: Option<Measured>) {
+    pub(crate) fn see_case(&mut self, case: &dyn std::fmt::Debug, shown: Option<Measured>) {
         if let Some(Measured { figure, detail }) = shown {
             self.see(figure, || format!("{case:?} {detail}"));
         }
