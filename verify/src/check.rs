@@ -204,22 +204,10 @@ impl Default for Worst {
 impl Worst {
     /// Takes one figure; `place` is asked only where it is the largest so far.
     pub fn see(&mut self, figure: f64, place: impl FnOnce() -> String) {
-        if let Some(figure) = self.larger(figure) {
-            self.measured = Measured { figure, detail: place() };
-        }
-    }
-
-    /// Counts a figure; what it is kept as, if it is the largest so far.
-    fn larger(&mut self, figure: f64) -> Option<f64> {
         let figure = if figure.is_nan() { f64::INFINITY } else { figure };
         self.cases += 1;
-        (figure > self.measured.figure).then_some(figure)
-    }
-
-    /// Takes what a case showed.
-    pub(crate) fn see_case(&mut self, case: &dyn std::fmt::Debug, shown: Option<Measured>) {
-        if let Some(Measured { figure, detail }) = shown {
-            self.see(figure, || format!("{case:?} {detail}"));
+        if figure > self.measured.figure {
+            self.measured = Measured::new(figure, place());
         }
     }
 
@@ -263,7 +251,9 @@ pub(crate) fn worst_of<C: std::fmt::Debug, F: Figure>(
 ) -> Result<Measured, String> {
     let mut worst = Worst::default();
     for case in cases {
-        worst.see_case(&case, figure(&case)?.measured());
+        if let Some(Measured { figure, detail }) = figure(&case)?.measured() {
+            worst.see(figure, || format!("{case:?} {detail}"));
+        }
     }
     worst.finish()
 }

@@ -71,18 +71,9 @@ pub fn worst_over<T: Strategy, F: Figure>(
     strategy: &T,
     mut measure: impl FnMut(&T::Value) -> Result<F, String>,
 ) -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for case in drawn(seed, cases, strategy)?.iter().enumerate() {
-        let found = measure(case.1).map_err(|error| failed(seed, &case, &error))?;
-        worst.see_case(&case, found.measured().map(|found| of_seed(seed, found)));
-    }
-    worst.finish()
-}
-
-fn failed(seed: u8, case: &dyn std::fmt::Debug, error: &str) -> String {
-    format!("case {case:?} of seed {seed}: {error}")
-}
-
-fn of_seed(seed: u8, Measured { figure, detail }: Measured) -> Measured {
-    Measured::new(figure, format!("of seed {seed} {detail}"))
+    worst_of(drawn(seed, cases, strategy)?.iter().enumerate(), |(case, value)| {
+        let found = measure(value).map_err(|error| format!("case {case} of seed {seed}, {value:?}: {error}"))?;
+        let of_seed = |Measured { figure, detail }| Measured::new(figure, format!("of seed {seed} {detail}"));
+        Ok(found.measured().map(of_seed))
+    })
 }

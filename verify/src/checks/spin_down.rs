@@ -73,7 +73,8 @@ checks! {
 }
 
 const WOBBLE: f64 = 0.3;
-const CHI: f64 = 1.2;
+/// Angle between the magnetic axis and the symmetry axis.
+pub(super) const CHI: f64 = 1.2;
 
 /// A star with a wobble about Z.
 pub(super) fn problem(oblateness: f64, wobble: f64, s: Matrix3<f64>) -> Result<Problem<f64>, String> {

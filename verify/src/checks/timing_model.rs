@@ -7,7 +7,7 @@ use twofold::observables::pulsar::timing_model::{TimingModel, Turns};
 use twofold::propagation::PhasedMotion;
 use twofold::spin_down::Braking;
 
-use super::spin_down::{LongDipole, beam, long_dipole, problem, sight};
+use super::spin_down::{CHI, LongDipole, beam, long_dipole, problem, sight};
 use crate::coverage::{Case, Coverage};
 use crate::prelude::*;
 use crate::timing_simulation::{YEAR, arrivals_of, widths_of};
@@ -43,8 +43,6 @@ checks! {
     AtMost(1e-3) "largest |best / true wobble - 1|, by geometry and torque, wobbles of 3e-5 rad, 400 arrivals";
     because "what is left out is of relative size theta = 3e-5, times tan chi of up to 10";
 }
-
-const CHI: f64 = 1.2;
 
 /// A clock of a pulsar with frequency (Hz), wobble and rate of the free precession, in seconds.
 fn clock(frequency: f64, wobble: f64, rate: f64, braking: &Braking) -> Result<PulsarClock, String> {

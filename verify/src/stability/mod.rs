@@ -107,15 +107,6 @@ pub struct Case {
 impl Case {
     /// A function that is its own oracle on double-double numbers: it has no constant, threshold or iteration meant for doubles.
     pub fn new<K: Function>(name: &'static str, limit: &'static str, inputs: &[Input]) -> Self {
-        Self::of_functions((name, limit, inputs), K::of, Some(K::of), (K::of, K::of))
-    }
-
-    fn of_functions(
-        (name, limit, inputs): (&'static str, &'static str, &[Input]),
-        kernel: Evaluate<f64>,
-        derivative: Option<Evaluate<Dual64>>,
-        (oracle, oracle_slope): (Evaluate<Wide>, Evaluate<WideDual>),
-    ) -> Self {
         Self {
             name,
             limit,
@@ -126,10 +117,10 @@ impl Case {
             points: measure::POINTS,
             natural_derivatives: false,
             naive_formula: "",
-            kernel,
-            derivative,
-            oracle,
-            oracle_slope,
+            kernel: K::of::<f64>,
+            derivative: Some(K::of::<Dual64>),
+            oracle: K::of::<Wide>,
+            oracle_slope: K::of::<WideDual>,
             naive: None,
         }
     }
