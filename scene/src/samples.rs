@@ -116,7 +116,7 @@ fn sample_segments<X: SegmentState, E: From<Error>>(
             let (state, angles) = (X::sampled(&motion, parts)?, angles(t));
             take(time, &Sample { since_start: t, state, angles, error_estimate })?;
         }
-        if counts_turns && !is_last {
+        if !is_last {
             start_angles = angles(to).unwrap_or(start_angles);
         }
         drop(angles);
@@ -425,5 +425,27 @@ mod tests {
             let expected: f64 = errors.map(|(time, error)| error * (1.0 + 1.5 * (8.0 - time))).iter().sum();
             assert!((earlier.at(sense * 8.0, 1.5) / expected - 1.0).abs() < 1e-14);
         }
+    }
+
+    /// A span of no length has all of the tolerance, that of a segment of no length.
+    #[test]
+    fn a_span_of_no_length_has_all_of_the_tolerance() {
+        let (scene, plan) = scene("tp-2", "taylor", &["e_z"], &[0.0]);
+        let segments = Segments::<BodyState<f64>>::new(&scene, &plan).unwrap();
+        assert_eq!(segments.share_of_tolerance(0.0), scene.tolerance);
+    }
+
+    /// The time of a sample has two parts, and is that of the end where it lies beyond it by rounding.
+    #[test]
+    fn samples_are_kept_within_their_segment() {
+        let mut scene = Scene::named("tp-2").unwrap();
+        scene.times = crate::scene_file::Times::Even { start: 1.0, end: 4.0, samples: 2 };
+        let within = |time, from, to| since_start_within(&scene, time, from, to);
+        // 0.3 is not a double: what the difference to 1 has lost is in the second part.
+        assert_eq!(within(1.3, 0.0, 3.0), scene.since_start_in_parts(1.3));
+        assert_eq!(within(1.3, 3.0, 0.0), scene.since_start_in_parts(1.3));
+        assert_eq!(within(4.0, 0.0, 3.0_f64.next_down()), [3.0_f64.next_down(), 0.0]);
+        assert_eq!(within(4.0, 3.0_f64.next_up(), 3.5), [3.0_f64.next_up(), 0.0]);
+        assert_eq!(within(4.0, 3.5, 3.0_f64.next_up()), [3.0_f64.next_up(), 0.0]);
     }
 }

@@ -206,8 +206,9 @@ mod tests {
             let mut uniform = random.clone();
             let (left, turns) = (uniform.within(0.0, 1.0), uniform.within(0.0, 1.0));
             let point = nalgebra::Rotation2::new(TAU * turns) * nalgebra::Vector2::x();
-            let density = (-0.5 * (unit.draw(&mut random) / point.x).powi(2)).exp();
-            assert!((density - (1.0 - left)).abs() < 1e-13, "{density}");
+            let radius = unit.draw(&mut random) / point.x;
+            let density = (-0.5 * radius * radius).exp();
+            assert!(radius > 0.0 && (density - (1.0 - left)).abs() < 1e-13, "{radius} {density}");
             assert_eq!(random.word(), uniform.word());
         }
     }

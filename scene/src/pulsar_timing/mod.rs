@@ -99,9 +99,9 @@ impl PulsarScene {
     /// by its order, the series on the torus by its length), the rounding of directions, and that of an arrival time to 1e-16 d.
     pub fn residual_error(&self, t: f64) -> f64 {
         let motion = self.clock.motion();
-        let per_radian = self.clock.period().abs() / TAU;
+        let per_radian = self.clock.period() / TAU;
         // The rounding of rates is linear in time, but for the slow ones, whose share is 1e-15 of a residual.
-        ARRIVAL_ROUNDING.max(self.clock.truncation(t).abs() + motion.rounding(0.0) * per_radian)
+        ARRIVAL_ROUNDING.max(self.clock.truncation(t) + motion.rounding(0.0) * per_radian)
     }
 
     /// Estimated error (s) of an arrival time at the time `t` (s, from the epoch) for the numbers that the scene states. Beside that of a residual
@@ -111,7 +111,7 @@ impl PulsarScene {
     /// products of it, four of the rate about the axis and of the axis, a sum, the moment of inertia, the unit of time.
     pub fn arrival_error(&self, t: f64) -> f64 {
         const ROUNDINGS: f64 = 10.0;
-        let per_radian = self.clock.period().abs() / TAU;
+        let per_radian = self.clock.period() / TAU;
         let of_motion = self.clock.motion().error_estimate(t) * per_radian;
         self.residual_error(t).max(of_motion) + ROUNDINGS * f64::EPSILON / 2.0 * t.abs()
     }
@@ -230,11 +230,21 @@ mod tests {
             near(free.residual_error(t), 8.64e-12);
             near(free.arrival_error(t), 8.64e-12 + 1.110_223_024_625_156_5e-11);
         }
-        let mut scene = scene("[1e-5, 0.0, -3e-5]");
-        scene.times = Times::Listed { start: 0.0, times: vec![0.0] };
-        let late = PulsarScene::new(&scene).unwrap();
-        let per_turn = TAU / late.clock.period();
-        near(late.arrival_error(1e9), late.clock.motion().error_estimate(1e9) / per_turn + 1.110_223_024_625_156_5e-6);
+        let scene = |frequency: &str, eigenvalues: &str| {
+            let text = text_of("isolated-pulsar").unwrap().replace("[0.0, 0.0, 0.0]", eigenvalues);
+            let mut scene = Scene::from_toml("scene", &text.replace("frequency = 2.5", frequency)).unwrap();
+            (scene.times, scene.spin_down) = (Times::Listed { start: 0.0, times: vec![0.0] }, None);
+            scene
+        };
+        // Of a star that turns once in four months 1e-16 rad are longer than the rounding of an arrival.
+        for frequency in ["frequency = 1e-7", "frequency = -1e-7"] {
+            let late = PulsarScene::new(&scene(frequency, "[1e-20, 0.0, -3e-20]")).unwrap();
+            let (motion, per_turn) = (late.clock.motion(), TAU / late.clock.period());
+            assert!(motion.rounding(0.0) / per_turn > 8.64e-12);
+            near(late.residual_error(1e9), motion.truncation(1e9) / per_turn + motion.rounding(0.0) / per_turn);
+            near(late.arrival_error(1e9), motion.error_estimate(1e9) / per_turn + 1.110_223_024_625_156_5e-6);
+        }
+        let mut scene = scene("frequency = 2.5", "[1e-5, 0.0, -3e-5]");
         scene.spin_down = crate::scene_file::SpinDown {
             f1: -1e-13,
             index: crate::scene_file::IndexOrSecond::Index(3.0),
@@ -243,6 +253,7 @@ mod tests {
         }
         .into();
         let braked = PulsarScene::new(&scene).unwrap();
+        let per_turn = TAU / braked.clock.period();
         let left_out = braked.clock.truncation(1e8) + braked.clock.motion().rounding(0.0) / per_turn;
         near(braked.residual_error(1e8), left_out);
         near(braked.arrival_error(1e8), left_out + 1.110_223_024_625_156_5e-7);

@@ -496,3 +496,94 @@ impl From<SceneError> for String {
         error.to_string()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SHEET: FileFormat = FileFormat { name: "a sheet", built_in: None };
+
+    /// What `read` makes of a document, or the message of its refusal.
+    fn read<T>(text: &str, read: impl FnOnce(&Section<'_>) -> Result<T, Fault>) -> Result<T, String> {
+        SHEET.parse("sheet.toml", text, read).map_err(String::from)
+    }
+
+    /// The message of a refusal of the bytes `span` of a text, whose fault is `why`.
+    fn message(text: &str, span: Range<usize>) -> String {
+        SceneError::in_text("sheet.toml", text, Fault::at(span, "why")).to_string()
+    }
+
+    /// Under the line stand as many marks as there are characters, at least one, and none beyond the end of the line.
+    #[test]
+    fn what_is_refused_is_marked_in_its_line() {
+        assert_eq!(message("a = 1\nbc = 23\n", 11..13), "sheet.toml:2:6: why\n  |\n2 | bc = 23\n  |      ^^");
+        // A value of two lines is marked in its first.
+        assert_eq!(message("a = [1,\n2]\n", 4..10), "sheet.toml:1:5: why\n  |\n1 | a = [1,\n  |     ^^^");
+        // Nothing at all, as where a value lacks at the end of the line, and beyond the end of the text.
+        assert_eq!(message("a =", 3..3), "sheet.toml:1:4: why\n  |\n1 | a =\n  |    ^");
+        assert_eq!(message("a =", 7..9), "sheet.toml:1:4: why\n  |\n1 | a =\n  |    ^");
+        assert_eq!(message("abc", 1..2), "sheet.toml:1:2: why\n  |\n1 | abc\n  |  ^");
+        // Within a character of two bytes: at its beginning.
+        assert_eq!(message("\u{e9}\u{e9}x", 3..4), "sheet.toml:1:2: why\n  |\n1 | \u{e9}\u{e9}x\n  |  ^");
+        // Of the two characters that a mark would cover the line has one.
+        assert_eq!(message("a\r\nb", 0..2), "sheet.toml:1:1: why\n  |\n1 | a\n  | ^");
+    }
+
+    #[test]
+    fn lines_are_shown_up_to_a_hundred_characters() {
+        for (length, shown) in [(100, true), (101, false)] {
+            let text = "x".repeat(length);
+            assert_eq!(message(&text, 0..1).contains(&text), shown, "{length}");
+        }
+    }
+
+    #[test]
+    fn values_are_cut_after_forty_characters() {
+        assert_eq!(shortened(&"x".repeat(40)), "x".repeat(40));
+        assert_eq!(shortened(&"x".repeat(41)), format!("{}...", "x".repeat(37)));
+        assert_eq!(shortened(" a\n\t b\u{7} "), "a b\u{fffd}");
+    }
+
+    /// Two letters may be wrong, and of a short name no more than half.
+    #[test]
+    fn a_name_is_guessed_from_one_with_two_letters_wrong() {
+        let near = |word| nearest(word, &["momentum", "rho", "w"]);
+        assert_eq!(near("momemtun"), Some("momentum"));
+        assert_eq!(near("nonemtun"), None);
+        assert_eq!([near("who"), near("wha"), near("r")], [Some("rho"), None, None]);
+        // The beginning of a name, of three letters at least, and capitals.
+        assert_eq!([near("mom"), near("mo"), near("RHO")], [Some("momentum"), None, Some("rho")]);
+    }
+
+    #[test]
+    fn angles_are_taken_up_to_a_million() {
+        let angle = |text: &str| read(&format!("a = {text}"), |document| document.required("a", "")?.angle());
+        assert_eq!(angle("1e6"), Ok(1e6));
+        assert_eq!(angle("-1e6"), Ok(-1e6));
+        assert_eq!(angle("\"90 deg\""), Ok(std::f64::consts::FRAC_PI_2));
+        for beyond in ["1.000001e6", "-1.000001e6", "\"5.8e7 deg\""] {
+            assert!(angle(beyond).is_err_and(|why| why.contains("at most 1e6 in size")), "{beyond}");
+        }
+    }
+
+    /// Numbers in tables and lists have dotted keys; a hexadecimal one is no decimal number.
+    #[test]
+    fn decimal_numbers_are_found_with_their_keys() {
+        let text = "a = 1\nb = [2.0, [3, 4e1]]\nc = 0x10\nd = \"5\"\n";
+        let keys = ["a", "b[0]", "b[1][0]", "b[1][1]"].map(String::from);
+        assert_eq!(read(text, |document| Ok(document.numbers())), Ok(keys.to_vec()));
+    }
+
+    #[test]
+    fn files_are_read_up_to_the_longest() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("sheet.toml");
+        let path = path.to_str().expect("its name is text");
+        for (bytes, taken) in [(1 << 26, true), ((1 << 26) + 1, false)] {
+            File::create(path).expect("a file").set_len(bytes).expect("so long");
+            let read = SHEET.read(path).map(|text| text.len() as u64).map_err(String::from);
+            let refused = format!("{path}: is longer than 64 MiB, the most that is read");
+            assert_eq!(read, if taken { Ok(bytes) } else { Err(refused) });
+        }
+    }
+}

@@ -9,6 +9,8 @@ mod motion;
 mod observation;
 mod rotation;
 mod spin_down;
+#[cfg(test)]
+mod tests;
 
 use twofold::dynamics::Problem;
 use twofold::epoch::Epoch;

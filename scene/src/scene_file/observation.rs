@@ -71,17 +71,19 @@ pub struct Sexagesimal {
 }
 
 impl Sexagesimal {
-    /// Of a whole number up to `most`, minutes and decimal seconds, of units of so many degrees.
-    fn read(text: &str, most: u8, degrees: f64) -> Option<Self> {
-        let (sign, size) = text.strip_prefix('-').map_or((1.0, text), |size| (-1.0, size));
-        let parts: Vec<_> = size.strip_prefix('+').unwrap_or(size).split(':').collect();
+    /// Of a whole number, minutes and decimal seconds, in all at most `most` units of so many degrees.
+    fn read(text: &str, most: f64, degrees: f64) -> Option<Self> {
+        let above = text.strip_prefix('+').unwrap_or(text);
+        let (sign, size) = text.strip_prefix('-').map_or((1.0, above), |below| (-1.0, below));
+        let parts: Vec<_> = size.split(':').collect();
         let [whole, minutes, seconds] = parts[..] else { return None };
         let plain = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
         let below = |part: &str| part.parse().ok().filter(|x: &f64| plain(part) && *x < 60.0);
-        let whole = whole.parse().ok().filter(|x: &u8| *x <= most)?;
+        let whole: u8 = whole.parse().ok().filter(|_| plain(whole))?;
         let minutes = below(minutes).filter(|_| minutes.len() == 2)?;
-        let angle = sign * (f64::from(whole) + (minutes + below(seconds)? / 60.0) / 60.0) * degrees;
-        Some(Self { text: text.to_owned(), angle: angle.to_radians() })
+        let units = f64::from(whole) + (minutes + below(seconds)? / 60.0) / 60.0;
+        let angle = sign * units * degrees;
+        (units <= most).then(|| Self { text: text.to_owned(), angle: angle.to_radians() })
     }
 }
 
@@ -166,9 +168,9 @@ pub(super) fn read_catalogued(section: &Section<'_>) -> Result<Option<Catalogued
         (None, Some(_)) => return Err(section.missing("`pulsar.right_ascension` beside `pulsar.declination`")),
         (Some(ascension), Some(declination)) => {
             let hours = Some(ascension.string()?).filter(|text| !text.starts_with(['+', '-']));
-            let right = hours.and_then(|text| Sexagesimal::read(text, 24, 15.0));
+            let right = hours.and_then(|text| Sexagesimal::read(text, 24.0, 15.0));
             let right = right.ok_or_else(|| ascension.refuse("hours, minutes and seconds as \"19:39:38.56\""))?;
-            let up = Sexagesimal::read(declination.string()?, 90, 1.0);
+            let up = Sexagesimal::read(declination.string()?, 90.0, 1.0);
             Some((right, up.ok_or_else(|| declination.refuse("degrees, minutes and seconds as \"+21:34:59.1\""))?))
         }
     };
@@ -283,7 +285,7 @@ pub fn like_julian_date(epoch: &Epoch) -> Option<String> {
         return None;
     }
     // MJD = JD - 2400000.5.
-    let meant = Epoch::new(epoch.day() - 2_400_001, epoch.fraction() + 0.5).ok()?;
+    let meant = Epoch::new(epoch.day() - 2_400_000, epoch.fraction() - 0.5).ok()?;
     let year = 1858.9 + epoch.day() as f64 / 365.2425;
     Some(format!(
         "looks like a Julian date; a modified Julian date is asked for, and this one is in the year {year:.0}. If {meant} is meant, \
@@ -314,9 +316,9 @@ fn samples(section: &Section<'_>) -> Result<usize, Fault> {
 fn even_times(section: &Section<'_>, start: f64) -> Result<Times, Fault> {
     let (end, entry) = read_end(section, start)?;
     let samples = samples(section)?;
-    // Rows must differ in time: a span that is lost in the rounding of its ends has no even spacing.
+    // Rows must differ in time: a span that is lost in the rounding of its ends, which are then near each other, has no even spacing.
     let spacing = (end - start).abs() / (samples - 1) as f64;
-    if !(spacing.is_finite() && spacing > 4.0 * f64::EPSILON * start.abs().max(end.abs())) {
+    if !(spacing.is_finite() && spacing > 4.0 * f64::EPSILON * start.abs()) {
         return Err(entry.refuse("a span whose samples differ from one another in double precision"));
     }
     Ok(Times::Even { start, end, samples })

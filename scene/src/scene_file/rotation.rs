@@ -30,6 +30,13 @@ pub(super) struct Rotation<'a> {
     pub(super) oblateness: f64,
 }
 
+/// What says how oblate the star is.
+enum Flattening<'a> {
+    /// The rate of its precession in the body over `2 pi` (Hz), with the entry that it is from.
+    Precession(f64, Entry<'a>),
+    Oblateness(f64),
+}
+
 /// From `oblateness` or `precession_period`, and `spin_frequency` or `frequency`.
 ///
 /// With the wobble `theta` and the oblateness `epsilon` the body precesses at the rate `epsilon Omega^z`, its axis goes round `L` at `(1 + epsilon) Omega^z / cos theta`, and pulses come
@@ -41,14 +48,14 @@ pub(super) fn rotation<'a>(section: &Section<'a>, angles: &WobbleAngles) -> Resu
         let wobble = angles.wobble.filter(|wobble| (0.0..FRAC_PI_2).contains(wobble));
         wobble.ok_or_else(|| entry.refuse_because("it needs `initial.wobble`, from 0 to below pi/2 [rad]"))
     };
-    let (period, given) = match section.optional("precession_period") {
+    let flattening = match section.optional("precession_period") {
         Some(entry) => {
             let days = entry.number_in("a period from 1e-9 to 1e9 [d]", 1e-9..=1e9)?;
-            (Some((1.0 / (days * DAY), entry)), None)
+            Flattening::Precession(1.0 / (days * DAY), entry)
         }
         None => {
             let entry = section.required("oblateness", "(I^zz - I^xx) / I^xx, or `star.precession_period` [d]")?;
-            (None, Some(entry.number_where(OBLATENESS, |oblateness| in_range(&oblateness))?))
+            Flattening::Oblateness(entry.number_where(OBLATENESS, |oblateness| in_range(&oblateness))?)
         }
     };
     let (entry, frequency) = match section.optional("frequency") {
@@ -60,15 +67,14 @@ pub(super) fn rotation<'a>(section: &Section<'a>, angles: &WobbleAngles) -> Resu
             let observed = entry.number_in("from -1e5 to 1e5 [Hz]", -1e5..=1e5)?;
             let cos = wobble.cos();
             let goes_round = wobble < chi && chi < PI - wobble;
-            let of_period = |(precession, _): &(f64, Entry<'_>)| {
-                let precession = precession.copysign(observed);
-                cos * if goes_round { observed + precession } else { observed } - precession
-            };
-            let of_oblateness =
-                |oblateness: f64| observed / ((1.0 + oblateness) / cos - if goes_round { oblateness } else { 0.0 });
-            let frequency = match (&period, given) {
-                (Some(period), _) => of_period(period),
-                (None, oblateness) => of_oblateness(oblateness.unwrap_or(0.0)),
+            let frequency = match &flattening {
+                Flattening::Precession(rate, _) => {
+                    let rate = rate.copysign(observed);
+                    cos * if goes_round { observed + rate } else { observed } - rate
+                }
+                Flattening::Oblateness(oblateness) => {
+                    observed / ((1.0 + oblateness) / cos - if goes_round { *oblateness } else { 0.0 })
+                }
             };
             (entry, frequency)
         }
@@ -79,9 +85,10 @@ pub(super) fn rotation<'a>(section: &Section<'a>, angles: &WobbleAngles) -> Resu
             (entry, frequency)
         }
     };
-    let oblateness = match (period, given) {
-        (Some((precession, period)), _) => {
-            let oblateness = precession / frequency.abs();
+    let oblateness = match flattening {
+        Flattening::Oblateness(oblateness) => oblateness,
+        Flattening::Precession(rate, period) => {
+            let oblateness = rate / frequency.abs();
             // I^zz = 1 + epsilon keeps four digits of the smallest.
             if !(1e-12..=0.99).contains(&oblateness) {
                 let why = format!("the oblateness is then {oblateness:e}: allowed is from 1e-12 to 0.99");
@@ -89,7 +96,6 @@ pub(super) fn rotation<'a>(section: &Section<'a>, angles: &WobbleAngles) -> Resu
             }
             oblateness
         }
-        (None, oblateness) => oblateness.unwrap_or(0.0),
     };
     Ok(Rotation { entry, frequency, oblateness })
 }

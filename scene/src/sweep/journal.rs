@@ -151,4 +151,35 @@ mod tests {
             assert_eq!(usize::from(journal.identity.is_some()) + journal.marks.len(), before, "{damaged}");
         }
     }
+
+    /// A mark lies within the scenes, and no more have failed than are done.
+    #[test]
+    fn a_mark_is_of_the_scenes_it_counts() {
+        let is_of = |next, failed| Mark { next, failed, ..Mark::default() }.is_of(&(3..9));
+        assert_eq!([2, 3, 9, 10].map(|next| is_of(next, 0)), [false, true, true, false]);
+        assert_eq!([(5, 2), (5, 3), (3, 1)].map(|(next, failed)| is_of(next, failed)), [true, false, false]);
+    }
+
+    /// The numbers of a line are counted from zero on, behind its checksum; what is no line or no number, or is no JSON then, stays.
+    #[test]
+    fn a_number_is_replaced_under_a_new_signature() {
+        let (first, second) = (line(&json!({ "a": 12, "b": [3] })), line(&json!(45)));
+        let journal = [first.clone(), second.clone(), b"\n".to_vec()].concat();
+        let forged = |line, number, digits: &[u8]| signed_again(&journal, line, number, digits);
+        assert_eq!(forged(0, 0, b"7"), [line(&json!({ "a": 7, "b": [3] })), second.clone(), b"\n".to_vec()].concat());
+        assert_eq!(forged(0, 1, b"77"), [line(&json!({ "a": 12, "b": [77] })), second, b"\n".to_vec()].concat());
+        assert_eq!(forged(1, 0, b"6"), [first, line(&json!(6)), b"\n".to_vec()].concat());
+        for (line, number, digits) in [(0, 2, b"7"), (1, 1, b"7"), (2, 0, b"7"), (3, 0, b"7"), (0, 0, b"]")] {
+            assert_eq!(forged(line, number, digits), journal, "{line} {number}");
+        }
+        // Whole: a line of nine bytes is a checksum and nothing.
+        assert_eq!(signed_again(b"01234567 ", 0, 0, b"7"), b"01234567 ");
+    }
+
+    #[test]
+    fn a_journal_ends_with_its_completion() {
+        let whole = [line(&json!({ "sweep": "text" })), line(&completion())].concat();
+        assert!(Journal::read(whole.as_slice()).expect("memory can be read").complete);
+        assert!(!Journal::read(&whole[..whole.len() - 1]).expect("memory can be read").complete);
+    }
 }

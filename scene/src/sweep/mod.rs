@@ -17,6 +17,8 @@ pub mod parquet_file;
 mod shard;
 mod spin_axis_angle;
 mod spool;
+#[cfg(test)]
+mod tests;
 
 pub use engine::{Done, compute};
 pub use file::SweepText;

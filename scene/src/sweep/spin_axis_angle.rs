@@ -36,8 +36,7 @@ pub(super) struct SpinAxisAngle {
 impl SpinAxisAngle {
     /// For the unit vector `direction` and a motion that turns at most at `turning_rate`.
     pub(super) fn new(spheroid: RigidSpheroid<f64>, direction: Vector3<f64>, turning_rate: f64) -> Self {
-        let mut nodes: Vec<_> = GaussLegendre::new(NODES).iter().copied().collect();
-        nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let nodes = GaussLegendre::new(NODES).iter().copied().collect();
         let least = f64::INFINITY;
         Self { spheroid, direction, turning_rate, nodes, least, largest: 0.0, integral: 0.0, length: 0.0 }
     }
@@ -123,4 +122,63 @@ struct Place {
     time: f64,
     angle: f64,
     rate: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+    use twofold::dynamics::AxisState;
+
+    use super::*;
+
+    /// Radians that the axis turns by in a unit of time.
+    const RATE: f64 = 2.0;
+
+    /// The angle to the direction over spans of a star whose axis goes round Z at a right angle, beginning on X.
+    fn of_a_free_star(direction: Vector3<f64>, spans: &[[f64; 2]]) -> [f64; 3] {
+        let momentum = Vector3::z() * RATE;
+        let motion = |t: f64| {
+            let (sin, cos) = (RATE * t).sin_cos();
+            Ok(AxisState { axis: Vector3::new(cos, sin, 0.0), momentum })
+        };
+        let mut angle = SpinAxisAngle::new(RigidSpheroid::in_units_of_tc(1.1), direction, RATE);
+        for [from, to] in spans {
+            angle.add(&motion, *from, *to).expect("a motion");
+        }
+        angle.least_largest_mean()
+    }
+
+    /// `cos lambda = cos a cos phi`: from `a` to `pi - a`, in the mean a right angle over whole turns, and over half a turn from X on.
+    #[test]
+    fn an_axis_at_a_right_angle_to_l_is_so_to_any_direction_in_the_mean() {
+        let a: f64 = 0.3;
+        let direction = Vector3::new(a.cos(), 0.0, a.sin());
+        let expected = [a, PI - a, PI / 2.0];
+        let (turn, half) = (TAU / RATE, PI / RATE);
+        for spans in [
+            vec![[-16.0 * turn, 16.0 * turn]],
+            vec![[-16.0 * turn, 0.0]],
+            vec![[0.0, -16.0 * turn]],
+            vec![[16.0 * turn, -16.0 * turn]],
+            vec![[5.0 * half, 6.0 * half]],
+            vec![[0.0, 0.2], [0.2, 0.9], [0.9, half]],
+            vec![[0.0, -0.2], [-0.2, -half]],
+        ] {
+            for (found, expected) in of_a_free_star(direction, &spans).into_iter().zip(expected) {
+                assert_relative_eq!(found, expected, max_relative = 1e-9);
+            }
+        }
+    }
+
+    /// Through the direction the angle is `|phi|`, with a bend: its mean is half of the sum of both squares over that of both.
+    #[test]
+    fn an_axis_through_the_direction_has_the_mean_of_both_sides() {
+        for (first, last) in [(-0.7, 2.2), (0.7, -2.2), (-0.001, 3.1)] {
+            let [least, largest, mean] = of_a_free_star(Vector3::x(), &[[first / RATE, last / RATE]]);
+            let expected: f64 = (first * first + last * last) / 2.0 / f64::abs(last - first);
+            assert!(least < 1e-12, "{least:e}");
+            assert_relative_eq!(largest, last.abs(), max_relative = 1e-14);
+            assert_relative_eq!(mean, expected, max_relative = 1e-7);
+        }
+    }
 }

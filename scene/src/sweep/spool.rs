@@ -389,4 +389,33 @@ mod tests {
         assert!(refused.contains("no journal") && !files.journal.exists(), "{refused}");
         assert_eq!(bytes(folder), before);
     }
+
+    /// A table of errors has its name where one scene has failed, and goes where none has.
+    #[test]
+    fn errors_have_a_name_where_a_scene_has_failed() {
+        for (failed, replaced) in [(1, false), (0, true), (1, true)] {
+            let folder = tempfile::tempdir().expect("a folder");
+            let out = folder.path().join("a.csv");
+            let files = SpoolFiles::of(&out);
+            let name = |extension: &str| folder.path().join(format!("a.csv{extension}"));
+            let names = [".partial", ".partial.errors", ".partial.journal"].map(name);
+            assert_eq!([&files.rows, &files.errors, &files.journal], names.each_ref());
+            let mut spool =
+                Spool::open(files.clone(), &identity("text"), [b"head\n", b"errors\n"], 0..40).expect("a table");
+            spool.append(40, [b"0,1\n", b"0,why\n"], failed).expect("a row");
+            spool.commit().expect("a mark");
+            let errors = errors_beside(&out);
+            if replaced {
+                fs::write(&errors, "of another sweep").expect("a file");
+            }
+            assert!(!files.are_complete(&identity("text")));
+            spool.completed().expect("a mark");
+            assert!(files.are_complete(&identity("text")) && !files.are_complete(&identity("other")));
+            spool.give_names(&out, replaced).expect("a table");
+            assert_eq!(fs::read(&out).expect("a table"), b"head\n0,1\n");
+            let expected = (failed == 1).then(|| b"errors\n0,why\n".to_vec());
+            assert_eq!(fs::read(&errors).ok(), expected, "{failed}");
+            assert!(names.iter().all(|path| !path.exists()));
+        }
+    }
 }

@@ -68,3 +68,18 @@ impl From<std::io::Error> for TrajectoryError {
         TrajectoryError::Write(error.into())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::io::{Error, ErrorKind};
+
+    use super::*;
+
+    #[test]
+    fn a_closed_pipe_is_no_other_fault() {
+        let write = |kind| TrajectoryError::Write(Error::from(kind).into());
+        assert!(write(ErrorKind::BrokenPipe).is_closed_pipe());
+        assert!(!write(ErrorKind::StorageFull).is_closed_pipe());
+        assert!(!TrajectoryError::Incomplete("the section [observer]".into()).is_closed_pipe());
+    }
+}

@@ -176,3 +176,72 @@ impl Unfinished {
         self.approach = self.approach.into_iter().chain(open.approach).max_by(higher);
     }
 }
+
+#[cfg(test)]
+pub(super) mod tests {
+    use std::f64::consts::{PI, TAU};
+
+    use twofold::dynamics::{Problem, RigidSpheroid};
+    use twofold::plan::Output;
+
+    use super::*;
+    use crate::samples::Segments;
+    use crate::scene_file::{Scene, Times};
+
+    pub(in super::super) const THETA_O: f64 = 0.8;
+
+    /// A free star without wobble that turns once about Z in a unit of time, by 3.25 turns, with its magnetic axis towards the observer at zero.
+    pub(in super::super) fn scene(sense: f64) -> Scene {
+        let mut scene = Scene::named("free").unwrap();
+        let axis = Vector3::z();
+        let start = BodyState { axis, momentum: axis * (1.1 * TAU), equatorial_axis: Vector3::x() };
+        scene.problem = Problem::new(RigidSpheroid::in_units_of_tc(1.1), nalgebra::Matrix3::zeros(), start).unwrap();
+        scene.times = Times::Listed { start: 0.0, times: vec![sense * 3.25] };
+        scene
+    }
+
+    /// Its motion, and one of its beams, at `chi`.
+    pub(in super::super) fn segment(chi: f64, rho: f64, sense: f64) -> (Source, Segment<BodyState<f64>>) {
+        let scene = scene(sense);
+        let plan = scene.plan(&[Output::Pulses]).unwrap();
+        let segment = Segments::new(&scene, &plan).unwrap().next().unwrap().expect("a segment");
+        let line_of_sight = Vector3::new(THETA_O.sin(), 0.0, THETA_O.cos());
+        (Source::new(1, Beam::new(chi, 0.0, rho), line_of_sight), segment)
+    }
+
+    /// `m.n = cos chi cos theta_o + sin chi sin theta_o cos phi` is `cos rho` at the edges; opposite is half a turn later.
+    #[test]
+    fn the_axis_is_clear_off_the_edges_and_off_half_a_turn() {
+        let (chi, rho) = (0.6_f64, 0.5_f64);
+        let edge = ((rho.cos() - chi.cos() * THETA_O.cos()) / (chi.sin() * THETA_O.sin())).acos() / TAU;
+        for sense in [1.0, -1.0] {
+            let (source, segment) = segment(chi, rho, sense);
+            let clear = |turns: f64| source.is_clear_at(&segment, sense * turns).unwrap();
+            for turn in [0.0, 1.0] {
+                for edge in [turn + edge, turn + 1.0 - edge] {
+                    assert_eq!(clear(edge), (false, true));
+                    // A turn has the margin 2 pi sin chi sin theta_o sin phi: some 1e-6 are beyond 1e-6.
+                    assert_eq!([clear(edge + 3e-6), clear(edge - 3e-6)], [(true, true); 2]);
+                }
+                assert_eq!([clear(turn), clear(turn + 0.25), clear(turn + 0.75)], [(true, true); 3]);
+                assert_eq!(clear(turn + 0.5), (true, false));
+                assert_eq!([clear(turn + 0.5 + 1e-6), clear(turn + 0.5 - 1e-6)], [(true, true); 2]);
+            }
+        }
+    }
+
+    /// A pulse that lasted to the end of the segment before is over where none goes on; turns are counted through.
+    #[test]
+    fn a_pulse_that_does_not_go_on_comes_first() {
+        for sense in [1.0, -1.0] {
+            let (mut source, segment) = segment(PI - THETA_O, 0.1, sense);
+            let (start, end) = if sense > 0.0 { (-0.25, -0.125) } else { (0.125, 0.25) };
+            let pulse = Pulse { start, end, cut_at_start: false, cut_at_end: false };
+            source.open = Some(Unfinished { pulse, approach: None });
+            let (found, grazings) = source.take(&segment, segment.to).unwrap();
+            assert_eq!((found.len(), grazings.len()), (1, 0));
+            assert_eq!((found[0].pulse, found[0].number, found[0].arrival), (pulse, 1, None));
+            assert_eq!(source.turns, 3 * sense as i64);
+        }
+    }
+}

@@ -169,3 +169,76 @@ fn width_at(time: f64, motions: [Option<&Counted<PlannedMotion>>; 2], beam: &Bea
         PulseWidth::AlwaysOn | PulseWidth::NeverOn => None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+    use twofold::dynamics::BodyState;
+
+    use super::super::pulse_source::tests::{THETA_O, scene, segment};
+    use super::*;
+    use crate::scene_file::{Pulsar, Viewer};
+
+    /// A third of a radian before an end at which the magnetic axis is on the edge of the beam, or opposite to the observer; at the middle of a shorter segment.
+    #[test]
+    fn a_segment_is_cut_where_every_beam_is_clear() {
+        for sense in [1.0, -1.0] {
+            let scene = scene(sense);
+            let step = 0.35 / scene.turning_rate();
+            let (source, mut segment) = segment(0.6, 0.5, sense);
+            let (chi, rho) = (0.6_f64, 0.5_f64);
+            let edge =
+                ((rho.cos() - chi.cos() * THETA_O.cos()) / (chi.sin() * THETA_O.sin())).acos() / std::f64::consts::TAU;
+            let sources = [source];
+            for (to, expected) in
+                [(2.25, 2.25), (2.5, 2.5 - step), (2.0 + edge, 2.0 + edge - step), (3.0 - edge, 3.0 - edge - step)]
+            {
+                segment.to = sense * to;
+                let found = cut(&scene, &segment, &sources).unwrap();
+                assert!((found - sense * expected).abs() < 1e-14, "{to} {found}");
+            }
+            (segment.from, segment.to) = (sense * 2.49, sense * 2.5);
+            assert!((cut(&scene, &segment, &sources).unwrap() - sense * 2.495).abs() < 1e-14);
+            // A beam along the axis of rotation is never off half a turn: the other one is off its edge.
+            let [first] = sources;
+            let sources = [first, super::super::pulse_source::tests::segment(0.0, 0.5, sense).0];
+            (segment.from, segment.to) = (0.0, sense * (2.0 + edge));
+            let found = cut(&scene, &segment, &sources).unwrap();
+            assert!((found - sense * (2.0 + edge - step)).abs() < 1e-14, "{found}");
+        }
+    }
+
+    /// The beam reaches the observer once a turn and no farther: at three quarters of each.
+    #[test]
+    fn pulses_of_no_length_are_counted_as_grazing() {
+        let mut scene = scene(1.0);
+        let start = BodyState { equatorial_axis: Vector3::y(), ..*scene.problem.initial() };
+        scene.problem = scene.problem.starting_from(start).unwrap();
+        scene.observer = Some(Viewer { theta_o: THETA_O, phi_o: 0.0, distance: None });
+        scene.pulsar = Some(Pulsar { chi: THETA_O - 0.25, delta: 0.0, rho: 0.25, second_beam: false });
+        let summary = write_pulses(&scene, Vec::new(), |_| {}).unwrap();
+        assert_eq!((summary.grazings, summary.without_turn.len()), (3, 0));
+        assert!((summary.first_grazing.unwrap() - 0.75).abs() < 1e-7, "{:?}", summary.first_grazing);
+    }
+
+    /// Four segments evaluate the motion about as often as one, and show where each of them ends.
+    #[test]
+    fn work_and_progress_are_those_of_all_segments() {
+        let mut scene = Scene::named("tp-2").unwrap();
+        scene.choose_method("taylor").unwrap();
+        let plan = scene.plan(&[Output::Pulses]).unwrap();
+        let of = |segments: f64| {
+            let mut shown = Vec::new();
+            let segments = Segments::with_rotation(&scene, &plan, 1.001 * scene.rotation() / segments).unwrap();
+            let summary = write_by_segments(&scene, segments, Vec::new(), |part| shown.push(part)).unwrap();
+            (summary.work.axis_evaluations + summary.work.orientation_evaluations, shown)
+        };
+        let (one, shown) = of(1.0);
+        assert_eq!(shown, [1.0]);
+        let (four, shown) = of(4.0);
+        assert!((0.9 * one..1.2 * one).contains(&four), "{one} {four}");
+        // Each is cut by some radians at most before its end.
+        let ends = [0.25, 0.5, 0.75, 1.0].map(|end| end - 3.0 / scene.rotation()..=end);
+        assert!(shown.len() == 4 && ends.iter().zip(&shown).all(|(range, part)| range.contains(part)), "{shown:?}");
+    }
+}

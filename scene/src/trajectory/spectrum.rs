@@ -106,3 +106,28 @@ fn value_and_size(scene: &Scene, column: &Column, state: &BodyState<f64>) -> Res
     // On a pole, or beside it by rounding.
     if value.is_finite() { Ok([value, size]) } else { Err(TrajectoryError::Undefined(column.name.clone())) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Symbols of the fundamental frequencies of a scene, with those that name the lines.
+    fn symbols(scene: &Scene) -> Vec<&'static str> {
+        let column = Column::oscillating("e_z_X", scene).unwrap();
+        let wanted = LinesWanted { least: 1e-6, most: 1, in_turns: false };
+        let summary = write_lines(scene, &column, &wanted, Vec::new()).unwrap();
+        summary.fundamental.iter().map(|frequency| frequency.symbol).collect()
+    }
+
+    /// Of a free star `L` stays. One that begins at rest goes round nothing and does not turn about its axis in the mean: the angles of the torus move.
+    #[test]
+    fn frequencies_are_told_that_are_not_zero() {
+        assert_eq!(symbols(&Scene::named("free").unwrap()), ["alpha'", "gamma'", "nu'", "psi'"]);
+        assert_eq!(symbols(&Scene::named("tp-1").unwrap()), ["alpha'", "gamma'", "l'", "nu'", "psi'"]);
+        let at_rest = "star.inertia_ratio = 1.1\nstar.spin = 0.0\nlorentz_violation.eigenvalues = [0.02, 0.01, -0.04]\n\
+                       initial.alpha = 0.3\ninitial.beta = 0.7\ninitial.alpha_rate = 0.0\ninitial.beta_rate = 0.0\n\
+                       time.span = 1.0\ntime.samples = 2\n";
+        let found = symbols(&Scene::from_toml("at-rest", at_rest).unwrap());
+        assert_eq!(found, ["theta_1'", "theta_2'", "theta_3'"]);
+    }
+}

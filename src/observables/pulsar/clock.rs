@@ -257,7 +257,7 @@ impl PulsarClock {
         &self.time
     }
 
-    /// Mean time between two pulses, of a star that slows down at the time zero.
+    /// Mean time between two pulses, of a star that slows down at the time zero. It is positive: turns are counted about `L`.
     pub fn period(&self) -> f64 {
         core::f64::consts::TAU / self.turns.rate(&self.motion)
     }
@@ -277,8 +277,8 @@ impl PulsarClock {
         let now = self.time.precession().wobble_at(t);
         let damped = if damping == 0.0 { 0.0 } else { 3.0 * (now.sin().powi(2) - wobble.sin().powi(2)) * t };
         let tilt = self.strength() * (now - wobble).abs();
-        let rigid = (precession * (slowed.abs() + damped.abs()) + tilt) / self.turns.rate(&self.motion).abs();
-        of_motion.abs() + self.time.truncation(t) + self.time.error_by_angles(self.strength()) + rigid
+        let rigid = (precession * (slowed.abs() + damped.abs()) + tilt) / self.turns.rate(&self.motion);
+        of_motion + self.time.truncation(t) + self.time.error_by_angles(self.strength()) + rigid
     }
 
     /// `C |s| I^xx / |L|^2`, by the largest torque: the relative size of what Lorentz violation adds to rates.

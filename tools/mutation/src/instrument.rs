@@ -157,7 +157,7 @@ fn is_root(path: &Path) -> bool {
     path.ends_with("src/lib.rs")
 }
 
-/// Compiles, and drops what the errors point at. Returns how many, and the errors that lie in no site.
+/// Compiles, and drops what the errors point at, or else what stands within it. Returns how many, and the errors that lie in no site.
 fn refusals(
     tree: &Path,
     package: &Package,
@@ -176,6 +176,7 @@ fn refusals(
     let mut unplaced = Vec::new();
     let mut new_variants = HashSet::new();
     let mut new_sites: HashSet<(usize, usize)> = HashSet::new();
+    let mut inside: HashSet<(usize, usize)> = HashSet::new();
     for line in String::from_utf8_lossy(&output.stdout).lines() {
         let Ok(message) = serde_json::from_str::<Value>(line) else { continue };
         let message = &message["message"];
@@ -197,7 +198,11 @@ fn refusals(
             let Some(which) = sources.iter().position(|s| s.path == file) else { continue };
             let source = &sources[which];
             let within = source.origins.iter().filter(|o| o.range.0 <= start && end <= o.range.1);
-            let Some(smallest) = within.min_by_key(|o| o.range.1 - o.range.0) else { continue };
+            let Some(smallest) = within.min_by_key(|o| o.range.1 - o.range.0) else {
+                let parts = source.origins.iter().filter(|o| start <= o.range.0 && o.range.1 <= end);
+                inside.extend(parts.map(|o| (which, o.site)));
+                continue;
+            };
             placed = true;
             match smallest.variant {
                 Some(k) => drop(new_variants.insert(source.sites[smallest.site].first + k as u32)),
@@ -218,6 +223,12 @@ fn refusals(
         let Site { first, variants, .. } = &source.sites[site];
         if !(*first..*first + variants.len() as u32).any(|number| new_variants.contains(&number)) {
             refused += usize::from(source.dropped_sites.insert(site));
+        }
+    }
+    // A constant that was borrowed for ever is a value no more, and the error stands about it.
+    if refused == 0 {
+        for (which, site) in inside {
+            refused += usize::from(sources[which].dropped_sites.insert(site));
         }
     }
     if refused == 0 {

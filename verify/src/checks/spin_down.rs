@@ -221,7 +221,7 @@ fn stated_error() -> Result<Measured, String> {
         let states = integrated(&problem, (wobble, CHI), clock.stretched_time(), &times)?;
         worst_of(times.iter().zip(&states), |(time, state)| {
             let rotation = TAU / clock.period();
-            Ok(difference(&clock, **time, state)? / (clock.truncation(**time).abs() * rotation + 1e-9))
+            Ok(difference(&clock, **time, state)? / (clock.truncation(**time) * rotation + 1e-9))
         })
     })
 }
@@ -296,7 +296,7 @@ fn damped_stated_error() -> Result<Measured, String> {
         let states = integrated(&problem, (WOBBLE, CHI), clock.stretched_time(), &times)?;
         worst_of(times.iter().zip(&states), |(time, state)| {
             let rotation = TAU / clock.period();
-            Ok(difference(&clock, **time, state)? / (clock.truncation(**time).abs() * rotation + 1e-9))
+            Ok(difference(&clock, **time, state)? / (clock.truncation(**time) * rotation + 1e-9))
         })
     })
 }
