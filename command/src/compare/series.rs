@@ -64,3 +64,33 @@ pub(super) fn by_stamps(
     }
     Ok(files)
 }
+
+#[cfg(test)]
+mod tests {
+    use twofold_verify::paper_examples::paper_examples;
+
+    use super::super::known::KNOWN;
+    use super::*;
+
+    /// Periods are some 4.4 t_c long: a stamp in the middle of two is of neither.
+    #[test]
+    fn a_row_between_two_pulses_is_of_none() {
+        let [example, ..] = paper_examples();
+        let known = KNOWN.iter().find(|file| file.name == "mntp1_pset.dat").expect("it is known");
+        let notes = |rows: &[[f64; 2]]| {
+            let table = Table { rows: rows.iter().map(|row| row.to_vec()).collect() };
+            by_stamps(known, &table, &example).unwrap().into_iter().flat_map(|file| file.notes).collect::<Vec<_>>()
+        };
+        let start = Start::of(&example).unwrap();
+        let table = Table { rows: vec![vec![0.0, 0.0], vec![30.0, 0.0]] };
+        let ours: Vec<Stamped> = recompute::train(&start, &table).unwrap().0.periods().collect();
+        let [first, second] = [&ours[0], &ours[1]].map(|stamped| [stamped.time, stamped.value]);
+        let middle = [(first[0] + second[0]) / 2.0, first[1]];
+        let alone =
+            |notes: &[String]| notes.iter().filter(|note| note.contains("nothing of ours within 1 t_c")).count();
+        assert_eq!(alone(&notes(&[first, second])), 0);
+        // Beside both starts of ours.
+        let found = notes(&[first, middle, second]);
+        assert_eq!(alone(&found), 2, "{found:?}");
+    }
+}

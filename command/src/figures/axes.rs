@@ -89,10 +89,8 @@ impl Axis {
         let range = self.high - self.low;
         let rough = range * spacing / length;
         let power = 10f64.powf(rough.log10().floor());
-        let (digit, parts) = [(1.0, 5), (2.0, 4), (5.0, 5), (10.0, 5)]
-            .into_iter()
-            .find(|(m, _)| m * power >= rough)
-            .unwrap_or((10.0, 5));
+        let digits = [(1.0, 5), (2.0, 4), (5.0, 5)];
+        let (digit, parts) = digits.into_iter().find(|(m, _)| m * power >= rough).unwrap_or((10.0, 5));
         let step = digit * power;
         let unit = 10f64.powi(self.power());
         let decimals = (-(step / unit * 1.0000001).log10().floor()).max(0.0) as usize;
@@ -289,5 +287,137 @@ pub(super) fn draw_mark(page: &mut Page, [x, y]: At, mark: Mark, size: f64, colo
     match mark {
         Mark::Disc => page.circle([x, y], size, colour, None),
         Mark::Ring => page.circle([x, y], size, "#ffffff", Some(solid(colour, 0.9))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Places of the large ticks and of the small ones, and the numbers at the large ones.
+    fn ticks(axis: &Axis, length: f64, spacing: f64) -> (Vec<f64>, Vec<f64>, Vec<String>) {
+        let (large, small) = axis.ticks(length, spacing);
+        let (places, numbers) = large.into_iter().unzip();
+        (places, small, numbers)
+    }
+
+    fn assert_near(found: &[f64], expected: &[f64]) {
+        assert_eq!(found.len(), expected.len(), "{found:?} {expected:?}");
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() <= 1e-12 * expected.abs(), "{found:e} {expected:e}");
+        }
+    }
+
+    fn multiples(step: f64, last: i32) -> Vec<f64> {
+        (0..=last).map(|i| step * f64::from(i)).collect()
+    }
+
+    /// The step of the numbers is 1, 2, 5 or 10 times a power of ten and at least the distance asked for, with five small ones in it, or four in 2.
+    #[test]
+    fn numbers_stand_at_round_steps() {
+        for (high, spacing, step, small, numbers) in [
+            (10.0, 10.0, 1.0, 0.2, "0 1 2 3 4 5 6 7 8 9 10"),
+            (10.0, 20.0, 2.0, 0.5, "0 2 4 6 8 10"),
+            (10.0, 30.0, 5.0, 1.0, "0 5 10"),
+            (10.0, 60.0, 10.0, 2.0, "0 10"),
+            (1000.0, 20.0, 200.0, 50.0, "0 200 400 600 800 1000"),
+            (1.0, 30.0, 0.5, 0.1, "0.0 0.5 1.0"),
+            (0.02, 50.0, 0.01, 0.002, "0.00 0.01 0.02"),
+        ] {
+            let (places, small_places, found) = ticks(&Axis::linear("x", 0.0, high), 100.0, spacing);
+            assert_near(&places, &multiples(step, (high / step).round() as i32));
+            assert_near(&small_places, &multiples(small, (high / small).round() as i32));
+            assert_eq!(found.join(" "), numbers);
+        }
+    }
+
+    /// Below 0.01 and from 1e4 on a power of ten is taken out, but from dates.
+    #[test]
+    fn long_numbers_are_written_by_a_power_of_ten() {
+        let axis = Axis::linear("t [s]", 0.0, 2e4);
+        assert_eq!(ticks(&axis, 100.0, 20.0).2, ["0.0", "0.5", "1.0", "1.5", "2.0"]);
+        assert_eq!(axis.full_label(), "t [10^{4} s]");
+        let small = Axis::linear("x", -2e-3, 1e-3);
+        assert_eq!(ticks(&small, 100.0, 30.0).2, ["\u{2212}2", "\u{2212}1", "0", "1"]);
+        assert_eq!(small.full_label(), "x / 10^{\u{2212}3}");
+        assert_eq!(Axis::linear("", 0.0, 2e4).full_label(), "");
+        let dates = axis.in_full();
+        assert_eq!(
+            (ticks(&dates, 100.0, 50.0).2.join(" "), dates.full_label()),
+            ("0 10000 20000".into(), "t [s]".into())
+        );
+        for (low, high, power) in
+            [(0.0, 0.01, 0), (0.0, 0.0099, -3), (0.0, 9999.0, 0), (-1e4, 0.0, 4), (0.0, 2.5e-3, -3)]
+        {
+            assert_eq!(Axis::linear("x", low, high).power(), power, "{high}");
+        }
+        assert_eq!(Axis::logarithmic("x", 1e-9, 1e9).power(), 0);
+    }
+
+    /// An end of the axis has its tick where it is one by rounding, and not beside it.
+    #[test]
+    fn ends_have_ticks_where_they_are_round() {
+        let (low, high) = (0.1 + 0.2, 0.7_f64.next_down());
+        assert_eq!(ticks(&Axis::linear("x", low, high), 100.0, 25.0).2, ["0.3", "0.4", "0.5", "0.6", "0.7"]);
+        let beside = Axis::linear("x", 0.3 + 3e-8, 0.7 - 3e-8);
+        assert_eq!(ticks(&beside, 100.0, 25.0).2, ["0.4", "0.5", "0.6"]);
+        let decades = |low: f64, high: f64| ticks(&Axis::logarithmic("x", low, high), 100.0, 10.0).0;
+        assert_near(&decades(1e-3 * (1.0 + 1e-12), 10.0 * (1.0 - 1e-12)), &[1e-3, 1e-2, 0.1, 1.0, 10.0]);
+        assert_near(&decades(1e-3 * (1.0 + 1e-7), 10.0 * (1.0 - 1e-7)), &[1e-2, 0.1, 1.0]);
+    }
+
+    /// Where not two numbers have room they stand nearer to each other, down to a letter's height.
+    #[test]
+    fn one_number_alone_gives_no_scale() {
+        assert_eq!(ticks(&Axis::linear("x", 0.1, 0.9), 10.0, 34.0).2, ["0.5"]);
+        assert_eq!(ticks(&Axis::linear("x", 0.0, 10.0), 100.0, 60.0).2, ["0", "10"]);
+        assert_eq!(ticks(&Axis::linear("x", 0.5, 3.2), 100.0, 60.0).2, ["1", "2", "3"]);
+    }
+
+    #[test]
+    fn decades_have_nine_small_steps_or_every_other_one_a_number() {
+        let axis = Axis::logarithmic("x", 2e-3, 30.0);
+        let (places, small, numbers) = ticks(&axis, 100.0, 10.0);
+        assert_near(&places, &[1e-2, 0.1, 1.0, 10.0]);
+        assert_eq!(numbers, ["10^{\u{2212}2}", "10^{\u{2212}1}", "10^{0}", "10^{1}"]);
+        let mut expected: Vec<f64> = (2..10).map(|m| f64::from(m) * 1e-3).collect();
+        expected.extend([1e-2, 0.1, 1.0].iter().flat_map(|decade| (1..10).map(move |m| f64::from(m) * decade)));
+        expected.extend([10.0, 20.0, 30.0]);
+        assert_near(&small, &expected);
+        // 4.2 decades, a number at least each 0.3 of the length: every other one; 0.2 of it: every one; exactly one decade long: its ends.
+        let (places, small, _) = ticks(&axis, 100.0, 30.0);
+        assert_near(&places, &[1e-2, 1.0]);
+        assert_near(&small, &[1e-2, 0.1, 1.0, 10.0]);
+        assert_near(&ticks(&axis, 100.0, 20.0).0, &[1e-2, 0.1, 1.0, 10.0]);
+        assert_near(&ticks(&Axis::logarithmic("x", 1.0, 10.0), 100.0, 100.0).0, &[1.0, 10.0]);
+        assert_near(&ticks(&Axis::logarithmic("x", 10.0, 1e3), 100.0, 40.0).0, &[10.0, 100.0, 1e3]);
+    }
+
+    #[test]
+    fn a_value_has_its_part_of_the_axis() {
+        assert_near(&[-1.0, 0.0, 1.0, 3.0].map(|x| Axis::linear("x", -1.0, 3.0).place(x)), &[0.0, 0.25, 0.5, 1.0]);
+        assert_near(&[0.1, 1.0, 100.0].map(|x| Axis::logarithmic("x", 0.1, 100.0).place(x)), &[0.0, 1.0 / 3.0, 1.0]);
+    }
+
+    /// Six hundredths of the range on either side; of what is constant by rounding a twentieth of it.
+    #[test]
+    fn an_axis_has_room_around_its_values() {
+        let ends = |values: &[f64]| {
+            let axis = Axis::around("x", values.iter().copied());
+            [axis.low, axis.high]
+        };
+        assert_near(&ends(&[3.0, -1.0, 2.0]), &[-1.24, 3.24]);
+        assert_near(&ends(&[-4.0, -4.0]), &[-4.2, -3.8]);
+        assert_near(&ends(&[1.0, 1.0009]), &[1.0 - 0.05 * 1.0009, 1.0009 * 1.05]);
+        assert_near(&ends(&[1.0, 1.0011]), &[1.0 - 6.6e-5, 1.0011 + 6.6e-5]);
+        assert_near(&ends(&[0.0, 0.0]), &[-1.0, 1.0]);
+    }
+
+    #[test]
+    fn a_zero_has_no_sign() {
+        assert_eq!(
+            ["-0.0", "-0", "-0.5", "-10", "2", "-0.05"].map(signed),
+            ["0.0", "0", "\u{2212}0.5", "\u{2212}10", "2", "\u{2212}0.05"]
+        );
     }
 }

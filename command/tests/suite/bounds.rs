@@ -61,3 +61,14 @@ fn eta_follows_from_what_is_known() {
     assert!((value(&given, 0, "bound_over_eta_own") / 8.815e-16 - 1.0).abs() < 1e-3);
     assert!((value(&given, 0, "limit") / value(&given, 0, "limit_over_eta_by_inputs") - 10.0).abs() < 1e-9);
 }
+
+/// Limits of others stand under a line of titles, each with its source.
+#[test]
+fn limits_of_others_are_listed() {
+    let page = String::from_utf8(ends(twofold(&["bounds"]), 0).stdout).expect("text");
+    let after = page.split("Published by others").nth(1).expect("a table");
+    let lines: Vec<_> = after.lines().skip(1).collect();
+    assert_eq!(lines[0].split_whitespace().collect::<Vec<_>>(), ["limit", "source", "seen"]);
+    assert!(lines[1].chars().all(|c| c == '─') && !lines[1].is_empty(), "{}", lines[1]);
+    assert!(lines[2].starts_with(" s^XX + s^YY - 2 s^ZZ") && lines[2].contains("4.1e-11"), "{}", lines[2]);
+}

@@ -30,11 +30,16 @@ fn arrival_times_of_a_wobbling_star_give_it_back() {
         assert!((value - expected).abs() < 1e-2 * sigma + 1e-9 * expected, "{name}: {value} for {expected}");
     }
     assert!(page.contains("Held fixed: chi = ") && page.contains("torque_share = 1"), "{page}");
-    assert!(stderr(&found).contains("400 arrivals, 0 widths, 0 priors"), "{}", stderr(&found));
+    // F0 and its epoch are those of the scene, to the error of the fit and the digits of a double-double number.
+    let notes = stderr(&found);
+    assert!(notes.contains("400 arrivals, 0 widths, 0 priors"), "{notes}");
+    assert!(notes.contains("f0 = 2.46887171") && notes.contains(" Hz at MJD 49621.0"), "{notes}");
     // A prior is one more datum, and as sharp as it is it holds.
     let prior = ["limits", "b1828-11", "b1828-11.tim", "--parameters", unknowns, "--prior", "wobble:0.0523:1e-9"];
     let with_prior = stdout(&folder.succeeds(&prior));
     assert!((row(&with_prior, "wobble")[1].parse::<f64>().expect("a number") - 0.0523).abs() < 1e-8, "{with_prior}");
+    assert!(with_prior.contains("Known beforehand: wobble = 0.0523 +- 1e-9 rad\n"), "{with_prior}");
+    assert!(!page.contains("Known beforehand"), "{page}");
 }
 
 /// Comments, times without numbers, and a table of the same times.
