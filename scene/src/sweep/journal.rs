@@ -172,6 +172,7 @@ mod tests {
         for (line, number, digits) in [(0, 2, b"7"), (1, 1, b"7"), (2, 0, b"7"), (3, 0, b"7"), (0, 0, b"]")] {
             assert_eq!(forged(line, number, digits), journal, "{line} {number}");
         }
+        assert_eq!(signed_again(b"01234567 5", 0, 0, b"7"), line(&json!(7)));
         // Whole: a line of nine bytes is a checksum and nothing.
         assert_eq!(signed_again(b"01234567 ", 0, 0, b"7"), b"01234567 ");
     }

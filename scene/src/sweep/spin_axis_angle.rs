@@ -170,6 +170,21 @@ mod tests {
         }
     }
 
+    /// Parts of a span add up to it, wherever they begin.
+    #[test]
+    fn the_mean_of_a_span_is_that_of_its_parts() {
+        let direction = Vector3::new(0.8, 0.0, 0.6);
+        let whole = of_a_free_star(direction, &[[-40.3, 0.0]]);
+        let parts = of_a_free_star(direction, &[[-40.3, -13.0], [-13.0, -1.0], [-1.0, 0.0]]);
+        for (whole, parts) in whole.into_iter().zip(parts) {
+            assert_relative_eq!(whole, parts, max_relative = 1e-9);
+        }
+        let [least, largest, mean] = of_a_free_star(Vector3::x(), &[[0.1 / RATE, 0.5 / RATE]]);
+        assert_relative_eq!(least, 0.1, max_relative = 1e-14);
+        assert_relative_eq!(largest, 0.5, max_relative = 1e-14);
+        assert_relative_eq!(mean, 0.3, max_relative = 1e-12);
+    }
+
     /// Through the direction the angle is `|phi|`, with a bend: its mean is half of the sum of both squares over that of both.
     #[test]
     fn an_axis_through_the_direction_has_the_mean_of_both_sides() {

@@ -80,6 +80,10 @@ mod tests {
         let write = |kind| TrajectoryError::Write(Error::from(kind).into());
         assert!(write(ErrorKind::BrokenPipe).is_closed_pipe());
         assert!(!write(ErrorKind::StorageFull).is_closed_pipe());
+        let mut table = csv::Writer::from_writer(Vec::new());
+        let uneven =
+            table.write_record(["a"]).and_then(|()| table.write_record(["a", "b"])).expect_err("two fields for one");
+        assert!(!TrajectoryError::Write(uneven).is_closed_pipe());
         assert!(!TrajectoryError::Incomplete("the section [observer]".into()).is_closed_pipe());
     }
 }
