@@ -128,6 +128,9 @@ class _Beyond:
     @cached_property
     def derivatives(self) -> dict[str, np.ndarray]:
         """Derivatives of the turns by the fields of the star, in their units, and by the time (`t`)."""
+        return self._derivatives()
+
+    def _derivatives(self) -> dict[str, np.ndarray]:
         star, kappa, tau = self.star, self.kappa, self.tau
         wobble, chi = star.wobble, star.chi
         (sin_w, cos_w), (sin_chi, cos_chi) = (np.sin(wobble), np.cos(wobble)), (np.sin(chi), np.cos(chi))
