@@ -153,6 +153,175 @@ def test_causes_add_up_and_small_ones_are_enlarged():
     np.testing.assert_array_equal(lengths.lines[0].get_ydata(), 1e3 * timing.table["duration"])
 
 
+def seen(points, view):
+    """Points from far away: turned about Z by the azimuth of the eye, then by its elevation. To the right and up on the page, and towards the eye."""
+    a, e = np.radians(view)
+    about_z = np.array([[np.cos(a), np.sin(a), 0.0], [-np.sin(a), np.cos(a), 0.0], [0.0, 0.0, 1.0]])
+    raised = np.array([[np.cos(e), 0.0, np.sin(e)], [0.0, 1.0, 0.0], [-np.sin(e), 0.0, np.cos(e)]])
+    towards, right, up = raised @ about_z @ np.asarray(points).T
+    return np.stack([right, up], axis=-1), towards
+
+
+def test_everything_on_the_sphere_is_seen_from_the_same_place():
+    motion, view = twofold.Scene("tp-2").motion(), (130.0, -35.0)
+    axes = plot.sphere(motion, until=20.0, samples=201, equatorial=5.0, view=view)
+    n, momentum, _ = motion.state(np.linspace(0.0, 20.0, 201))
+    paths = [motion.state(np.linspace(0.0, 5.0, 201))[2], n, momentum / np.linalg.norm(momentum, axis=1, keepdims=True)]
+    lines = [line.get_xydata() for line in axes.lines]
+    assert len(lines) == 3 * 2 + 3 + 3 * 2
+    turn = np.linspace(0.0, 2.0 * np.pi, len(lines[0]))
+    zero = np.zeros_like(turn)
+    circles = [np.stack(plane, axis=-1) for plane in ((np.cos(turn), np.sin(turn), zero), (np.cos(turn), zero, np.sin(turn)), (zero, np.cos(turn), np.sin(turn)))]
+    for points, back, front in zip([*circles, *paths], [*lines[0:6:2], *lines[9::2]], [*lines[1:6:2], *lines[10::2]], strict=True):
+        expected, towards = seen(points, view)
+        for line, here in ((front, towards >= 0.0), (back, towards < 0.0)):
+            # With the first point of the next piece.
+            drawn_here = here | np.append(False, here[:-1])
+            assert (np.isfinite(line).all(axis=1) == drawn_here)[np.abs(towards) > 1e-12].all()
+            np.testing.assert_allclose(line[drawn_here & np.isfinite(line[:, 0])], expected[drawn_here & np.isfinite(line[:, 0])], atol=1e-12)
+    disc = axes.patches[0]
+    assert (disc.center, disc.radius) == ((0.0, 0.0), 1.0)
+    tips, _ = seen(np.eye(3), view)
+    arrows = [text for text in axes.texts if text.get_text() == ""]
+    names = {text.get_text(): text for text in axes.texts}
+    for k, name in enumerate("XYZ"):
+        np.testing.assert_allclose(lines[6 + k], [[0.0, 0.0], tips[k]], atol=1e-12)
+        np.testing.assert_allclose([arrows[k].get_position(), arrows[k].xy], [tips[k], 1.22 * tips[k]], atol=1e-12)
+        np.testing.assert_allclose(names[f"${name}$"].xy, 1.22 * tips[k], atol=1e-12)
+        # The name stands beyond the head.
+        np.testing.assert_allclose(names[f"${name}$"].get_position(), 7.0 * tips[k] / np.linalg.norm(tips[k]), atol=1e-12)
+    heads = [seen(path[0], view)[0] for path in paths]
+    for arrow, head, name in zip(arrows[3:], heads, (r"$\mathbf{e}_x$", r"$\mathbf{n}$", r"$\mathbf{L}$"), strict=True):
+        np.testing.assert_allclose([arrow.get_position(), arrow.xy, names[name].xy], [(0.0, 0.0), head, head], atol=1e-12)
+    # All of it lies within the limits, and the sphere fills most of them.
+    for limits, part in ((axes.get_xlim(), tips[:, 0]), (axes.get_ylim(), tips[:, 1])):
+        assert -1.5 < limits[0] < min(-1.0, 1.22 * part.min()) and max(1.0, 1.22 * part.max()) < limits[1] < 1.5
+    assert axes.get_aspect() == 1.0 and not axes.axison
+
+
+@pytest.mark.parametrize("view", [(0.0, 90.0), (90.0, 0.0), (-45.0, 10.0), (200.0, 60.0)])
+def test_limits_of_the_sphere_hold_every_view(view):
+    axes = plot.sphere(twofold.Scene("tp-2").motion(), until=5.0, samples=2, view=view)
+    tips, _ = seen(1.22 * np.eye(3), view)
+    for limits, part in ((axes.get_xlim(), tips[:, 0]), (axes.get_ylim(), tips[:, 1])):
+        np.testing.assert_allclose(limits, [min(-1.03, part.min() - 0.12), max(1.03, part.max() + 0.12)], atol=1e-12)
+    # An axis that points to the eye has its name beside it.
+    assert all(np.hypot(*text.get_position()) > 5.0 for text in axes.texts if text.get_text() in ("$X$", "$Y$", "$Z$"))
+
+
+def test_a_whole_motion_on_axes_that_are_given():
+    motion = twofold.Scene("tp-1", time={"span": 30.0}).motion()
+    _, mine = plt.subplots()
+    axes = plot.sphere(motion, axes=mine)
+    assert axes is mine
+    x, y = (line.get_xydata() for line in axes.lines[-4:-2])
+    whole = np.where(np.isnan(x), y, x)
+    np.testing.assert_allclose(whole, seen(motion.axis(np.linspace(0.0, 30.0, len(whole))), (35.0, 25.0))[0], atol=1e-12)
+    with pytest.raises(twofold.Error, match="samples = 1: allowed is a whole number above one"):
+        plot.sphere(motion, samples=1)
+    still = twofold.Scene("free", star={"spin": 0.0}, initial={"alpha_rate": 0.0, "beta_rate": 0.0})
+    with pytest.raises(twofold.Error, match="motion: a star at rest"):
+        plot.sphere(still.motion())
+
+
+def test_lines_around_a_frequency_and_within_a_span():
+    scene = twofold.Scene("tp-1")
+    lines = scene.lines("m.n", least=1e-3, most=200)
+    around = lines["frequency"][1]
+    axes = plot.spectrum(scene, "m.n", least=1e-3, around=around, named=0)
+    segments = np.array(axes.collections[0].get_segments())
+    np.testing.assert_allclose(segments[:, 0, 0], lines["frequency"] - around, atol=1e-15)
+    np.testing.assert_array_equal(segments[:, :, 0], segments[:, ::-1, 0])
+    assert axes.get_xlabel() == rf"angular frequency less {around:.10g} $\times$ $t_\mathrm{{c}}$" and len(axes.texts) == 0
+    x = segments[:, 0, 0]
+    room = 0.06 * np.ptp(x)
+    assert axes.get_xlim() == pytest.approx((x.min() - room, x.max() + room))
+    # The feet are a power of ten not above the least height; a third of the height is room for names.
+    foot, least = segments[0, 0, 1], 1e-3 * lines["amplitude"][0]
+    assert foot <= least < 10 * foot and np.log10(foot) == pytest.approx(round(np.log10(foot)))
+    bottom, top = axes.get_ylim()
+    assert bottom == foot and np.log(top / foot) == pytest.approx(1.45 * np.log(lines["amplitude"][0] / foot))
+    # The ends of a span belong to it.
+    low, high = np.sort(lines["frequency"])[[1, 3]]
+    axes = plot.spectrum(scene, "m.n", least=1e-3, span=(low, high))
+    assert axes.get_xlim() == (low, high) and len(axes.collections[0].get_segments()) == 3
+    with pytest.raises(twofold.Error, match="span = .*: allowed is the lower frequency, then the higher one"):
+        plot.spectrum(scene, "m.n", span=(1.0, 1.0))
+
+
+def test_a_spectrum_from_zero_and_its_words():
+    axes = plot.spectrum(twofold.Scene("tp-2"), "m.n")
+    assert len(axes.collections[0].get_segments()) == len(twofold.Scene("tp-2").lines("m.n", least=1e-5, most=200)) > 50
+    low, high = axes.get_xlim()
+    last = max(segment[0][0] for segment in axes.collections[0].get_segments())
+    assert (low, high) == pytest.approx((-0.02 * last, 1.06 * last))
+    assert axes.get_xlabel() == r"angular frequency $\times$ $t_\mathrm{c}$" and axes.get_ylabel() == r"amplitude of $\mathbf{m} \cdot \mathbf{n}$"
+    assert axes.get_yscale() == "log"
+    _, mine = plt.subplots()
+    physical = twofold.Scene("b1828-11", star={"bulge": None}, lorentz_violation={"alpha_2": None, "w": None, "eigenvalues": [0.0, 0.0, 0.0]}, spin_down=None)
+    axes = plot.spectrum(physical, "cos_lambda_rate", axes=mine)
+    assert axes is mine and axes.get_xlabel() == "angular frequency [rad/s]" and axes.get_ylabel() == "amplitude of cos_lambda_rate"
+    with pytest.raises(twofold.Error, match="column = 'cos_lambda': it is constant in scene"):
+        plot.spectrum(twofold.Scene("free", initial={"beta": 0.0, "alpha_rate": 0.0, "beta_rate": 0.0}), "cos_lambda")
+
+
+def test_names_have_room_beside_stronger_ones():
+    figure = plt.figure(figsize=(4.0, 2.0), dpi=100)
+    axes = plot.spectrum(twofold.Scene("tp-2"), "m.n", axes=figure.add_axes((0.1, 0.1, 0.8, 0.8)))
+    table = twofold.Scene("tp-2").lines("m.n", least=1e-5, most=200)
+    low, high = axes.get_xlim()
+    inches = (table["frequency"][:8] - low) / (high - low) * 0.8 * 4.0
+    # Eight points: 0.11 inches.
+    roomy = [k for k in range(8) if all(abs(inches[k] - inches[other]) > 0.11 for other in range(k))]
+    assert 1 < len(roomy) < 8
+    np.testing.assert_array_equal([text.xy for text in axes.texts], [(table["frequency"][k], table["amplitude"][k]) for k in roomy])
+    assert [text.get_text() for text in axes.texts] == [plot._combination(table["combination"][k]) for k in roomy]
+    assert all(text.get_rotation() == 90.0 for text in axes.texts)
+
+
+@pytest.mark.parametrize(("torque", "names"), [("vacuum", {"torque", "geometry"}), ("constant", {"geometry", "violation"})])
+def test_causes_of_residuals_are_enlarged_as_they_say(torque, names):
+    scene = twofold.Scene("b1828-11", lorentz_violation={"alpha_2": 1e-3}, spin_down={"torque": torque})
+    timing = scene.pulsar().arrivals(np.linspace(49621.0, 53271.0, 80), causes=True)
+    table, size = timing.table, np.abs(timing.table["residual"]).max()
+    mine = plt.subplots(2, 1)[1]
+    panels = plot.arrivals(timing, axes=mine)
+    assert list(panels) == list(mine)
+    date = table["arrival_day"] + table["arrival_fraction"]
+    for line in panels[0].lines[1:]:
+        name, _, by = line.get_label().partition(r" $\times$ ")
+        enlarged = float(by or 1.0)
+        np.testing.assert_array_equal(line.get_xdata(), date)
+        scale = {"[ms]": 1e3, "[\u03bcs]": 1e6}[panels[0].get_ylabel().split()[1]]
+        np.testing.assert_allclose(line.get_ydata(), enlarged * scale * table[name], rtol=1e-12)
+        part = np.abs(table[name]).max() / size
+        assert part >= 1e-3 and (enlarged == 1.0 if part > 0.1 else enlarged * part <= 0.3 < 2.51 * enlarged * part)
+    shown = {line.get_label().split()[0] for line in panels[0].lines[1:]}
+    assert shown == {"residual"} | names == {"residual"} | {name for name in ("torque", "geometry", "violation") if np.abs(table[name]).max() >= 1e-3 * size}
+    assert panels[0].get_legend() is not None and panels[1].get_legend() is None
+    np.testing.assert_array_equal(panels[0].lines[0].get_ydata(), [0.0, 0.0])
+    np.testing.assert_array_equal(panels[1].lines[0].get_xdata(), date)
+    assert [panel.get_xlim() for panel in panels] == [(date.min(), date.max())] * 2
+    assert [panel.get_xlabel() for panel in panels] == ["", "date [MJD]"] and panels[1].get_ylabel() == "pulse length [ms]"
+
+
+def test_residuals_alone_need_no_legend():
+    residuals, _ = plot.arrivals(twofold.Scene("b1828-11").pulsar().arrivals(np.linspace(49621.0, 53271.0, 20)))
+    assert residuals.get_legend() is None and [line.get_label() for line in residuals.lines][1:] == ["residual"]
+
+
+def test_parts_of_figures():
+    assert plot._with_room(np.array([1.0, 3.0])) == pytest.approx((0.88, 3.12)) and plot._with_room(np.array([2.0])) == (1.0, 3.0)
+    assert [plot._scaled(size) for size in (0.5, 0.49, 5e-4, 4.9e-4, 5e-7, 4.9e-7, 5e-10, 4.9e-10)] == [
+        (1.0, "[s]"), (1e3, "[ms]"), (1e3, "[ms]"), (1e6, "[\u03bcs]"), (1e6, "[\u03bcs]"), (1e9, "[ns]"), (1e9, "[ns]"), (1e12, "[ps]"),
+    ]  # fmt: skip
+    assert [plot._round_factor(factor) for factor in (1.0, 1.99, 2.0, 4.9, 5.0, 9.9, 10.0, 0.03, 300.0)] == pytest.approx([1, 1, 2, 2, 5, 5, 10, 0.02, 200])
+    assert plot._combination("2 alpha' - 3 l' + gamma' - nu'") == r"$2 \alpha - 3 l + \gamma - \nu$"
+    assert (plot._unit("t_c"), plot._unit("s")) == (r"/ $t_\mathrm{c}$", "[s]")
+    x, y = plot._broken(np.array([1.0, 2.0, 3.0]), np.array([4.0, 5.0, 6.0]), np.array([False, True]))
+    np.testing.assert_array_equal([x, y], [[1.0, 2.0, np.nan, 3.0], [4.0, 5.0, np.nan, 6.0]])
+
+
 def test_fonts_come_from_one_family():
     fonts = plot.style()
     family = fonts["mathtext.rm"]

@@ -1,5 +1,8 @@
 """Harmonics against the whole wave, counted turns, series."""
 
+import sys
+import types
+
 import numpy as np
 import pytest
 import twofold
@@ -141,9 +144,60 @@ def test_series_in_equal_steps():
     assert plus.shape == cross.shape == (512,)
     whole = pulsar.wave(3.0 + np.arange(512) / 1024)
     assert np.array_equal(plus, whole[0]) and np.array_equal(cross, whole[1])
-    for arguments in ((np.nan, 1.0, 16.0), (0.0, -1.0, 16.0), (0.0, 1.0, 0.0), (0.0, 1e9, 1e9)):
-        with pytest.raises(twofold.Error):
-            strain(pulsar, *arguments)
+    assert strain(pulsar, 3.0, 1.0, 1.0, gwpy=False)[0] == pulsar.wave(3.0)[0]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ((np.nan, 1.0, 16.0), "start = nan s: allowed is a finite number"),
+        ((0.0, -1.0, 16.0), "duration = -1.0 s: allowed is a finite number above zero"),
+        ((0.0, 0.0, 16.0), "duration = 0.0 s: allowed"),
+        ((0.0, np.inf, 16.0), "duration = inf s: allowed"),
+        ((0.0, 1.0, 0.0), "rate = 0.0 Hz: allowed is a finite number above zero"),
+        ((0.0, 0.4, 1.0), "duration = 0.4 s at rate = 1.0 Hz: allowed are 1 to 1e9 samples"),
+        ((0.0, 1e9 + 1, 1.0), "duration = 1000000001.0 s at rate = 1.0 Hz: allowed are 1 to 1e9 samples"),
+    ],
+)
+def test_series_that_cannot_be(arguments, words):
+    with pytest.raises(twofold.Error, match=words):
+        strain(source(), *arguments)
+
+
+def test_the_largest_series_is_allowed(monkeypatch):
+    """A thousand million samples: seen as they are asked for, not made."""
+    monkeypatch.setattr(np, "arange", lambda count: pytest.fail("made") if count > 10**9 else np.float64(count))
+    plus, _ = strain(source(), -1e9, 1e9, 1.0, gwpy=False)
+    assert plus == source().wave(0.0)[0]
+
+
+def test_what_is_handed_to_gwpy(monkeypatch):
+    """Times of GPS: MJD 58000 TDB is 51.184 s before 1188518400 s of GPS counted in days of 86400 s from 1980 January 6."""
+    module = types.ModuleType("gwpy.timeseries")
+    module.TimeSeries = lambda values, **options: (values, options)
+    monkeypatch.setitem(sys.modules, "gwpy", types.ModuleType("gwpy"))
+    monkeypatch.setitem(sys.modules, "gwpy.timeseries", module)
+    pulsar = source()
+    whole = strain(pulsar, 3.0, 0.5, 16.0, gwpy=False)
+    begin = (58000 - 44244) * 86400 - 51.184 + 3.0
+    for given in (None, True):
+        for (values, options), expected, name in zip(strain(pulsar, 3.0, 0.5, 16.0, gwpy=given), whole, ("h_plus", "h_cross"), strict=True):
+            assert np.array_equal(values, expected)
+            assert options == {"t0": pytest.approx(begin, abs=1e-6), "sample_rate": 16.0, "unit": "strain", "name": name}
+
+
+def test_without_gwpy_arrays_are_given(monkeypatch):
+    monkeypatch.setitem(sys.modules, "gwpy", None)
+    pulsar = source()
+    assert np.array_equal(strain(pulsar, 3.0, 0.5, 16.0), strain(pulsar, 3.0, 0.5, 16.0, gwpy=False))
+    with pytest.raises(ImportError):
+        strain(pulsar, 3.0, 0.5, 16.0, gwpy=True)
+
+
+def test_what_a_waveform_says_of_itself():
+    pulsar = source()
+    assert repr(Waveform(pulsar, "once", reference=2)) == f"Waveform({pulsar!r}, 'once', reference=2.0)"
+    assert repr(Waveform(pulsar, "twice", hand="left")) == f"Waveform({pulsar!r}, 'twice', reference=0.0, hand='left')"
 
 
 def test_series_of_gwpy():
