@@ -153,6 +153,166 @@ def test_causes_add_up_and_small_ones_are_enlarged():
     np.testing.assert_array_equal(lengths.lines[0].get_ydata(), 1e3 * timing.table["duration"])
 
 
+def test_pulses_of_the_second_beam_alone():
+    """From the other side: the magnetic axis is nearer to the opposite of the line of sight."""
+    scene = twofold.Scene("tp-1", pulsar={"second_beam": True, "chi": np.pi - 0.5})
+    table, mine = scene.pulses(), plt.subplots(2, 1)[1]
+    period, length = plot.pulses(scene, axes=mine)
+    assert [period, length] == list(mine)
+    (line,) = [line for line in period.lines if line.get_label() == "beam 2"]
+    assert (line.get_linestyle(), line.get_marker(), line.get_markerfacecolor()) == ("None", "o", "#ffffff")
+    whole = np.array(table["cut"]) == ""
+    np.testing.assert_array_equal(drawn(length, "beam 2"), (table["midpoint"][whole], table["duration"][whole]))
+    shown = drawn(period, "beam 2")[1]
+    assert np.isnan(shown[0])
+    np.testing.assert_allclose(shown[1:], np.diff(table["midpoint"][whole]), rtol=1e-12)
+    np.testing.assert_array_equal(length.lines[0].get_data(), drawn(length, "beam 2"))
+    assert period.get_ylabel() == r"period / $t_\mathrm{c}$" and length.get_ylabel() == r"length / $t_\mathrm{c}$"
+    assert length.get_xlabel() == r"$t$ / $t_\mathrm{c}$" and period.get_xlim() == (0.0, 400.0)
+    assert period.get_legend() is not None and length.get_legend() is None
+
+
+def test_one_beam_needs_no_legend_and_no_pulse_is_refused():
+    period, _ = plot.pulses(twofold.Scene("tp-1"))
+    assert period.get_legend() is None
+    with pytest.raises(twofold.Error, match="scene tp-1: it has no whole pulse in its span"):
+        plot.pulses(twofold.Scene("tp-1", pulsar={"chi": 0.0, "rho": 0.01}))
+
+
+def test_turns_are_those_of_the_first_beam():
+    scene = twofold.Scene("tp-1", pulsar={"second_beam": True, "rho": 1.2}, time={"start": 50.0})
+    table = scene.pulses()
+    ours = (table["beam"] == 1) & np.isfinite(table["turn"])
+    first, period, count = plot._turns(scene)
+    design = np.stack([np.ones(ours.sum()), table["turn"][ours]], axis=1)
+    assert (first, period) == pytest.approx(np.linalg.lstsq(design, table["closest_approach"][ours], rcond=None)[0], rel=1e-12)
+    assert first + count * period <= scene.span[1] < first + (count + 1) * period
+    two = twofold.Scene("tp-1", time={"span": 12.5})
+    assert np.isfinite(two.pulses()["turn"]).sum() == 2
+    assert plot._turns(two)[1] == pytest.approx(two.pulses()["closest_approach"][2] - two.pulses()["closest_approach"][1])
+    with pytest.raises(twofold.Error, match="scene tp-1: it has 1 whole pulses in its span; allowed are two or more"):
+        plot._turns(twofold.Scene("tp-1", time={"span": 8.0}))
+
+
+def test_shades_are_of_the_angle_to_the_line_of_sight():
+    """Row by row and column by column, with an intensity that is the angle itself."""
+    scene = twofold.Scene("tp-2", time={"start": 10.0})
+    mine = plt.subplots()[1]
+    axes = plot.waterfall(scene, rows=5, window=(-1.0, 2.0), samples=7, intensity=lambda angle: angle, axes=mine)
+    assert axes is mine
+    mesh = axes.collections[0]
+    light = np.asarray(mesh.get_array()).reshape(5, 7)
+    first, period, _ = plot._turns(scene)
+    times = first + period * np.arange(5.0)[:, None] + np.linspace(-1.0, 2.0, 7)
+    along = twofold.Scene(toml=scene.toml, time={"start": 10.0, "span": None, "samples": None, "times": times[times >= 10.0].tolist()}).table(["m.n"])["m.n"]
+    np.testing.assert_allclose(light[times >= 10.0], np.arccos(along) / 0.6, rtol=1e-9)
+    corners = mesh.get_coordinates()
+    np.testing.assert_allclose((corners[0, 1:, 0] + corners[0, :-1, 0]) / 2.0, np.linspace(-1.0, 2.0, 7), atol=1e-12)
+    np.testing.assert_allclose((corners[1:, 0, 1] + corners[:-1, 0, 1]) / 2.0, np.arange(5.0), atol=1e-12)
+    assert axes.get_xlabel() == r"$t$ from the mean turn / $t_\mathrm{c}$" and axes.get_ylabel() == "turn"
+    assert axes.figure.axes[-1].get_ylabel() == "intensity"
+
+
+def test_a_turn_is_the_window_of_a_short_scene():
+    scene = twofold.Scene("tp-1")
+    mesh = plot.waterfall(scene).collections[0]
+    corners = mesh.get_coordinates()
+    middles = (corners[0, 1:, 0] + corners[0, :-1, 0]) / 2.0
+    _, period, count = plot._turns(scene)
+    assert (middles[0], middles[-1]) == pytest.approx((-period / 2.0, period / 2.0)) and len(corners) - 1 == count
+    # The brightest is the axis of the beam, and a tenth its edge.
+    light = np.asarray(mesh.get_array())
+    assert 0.99 < light.max() <= 1.0 and mesh.get_clim()[0] == 0.0
+
+
+def test_shapes_over_years_are_centred_on_what_is_foretold():
+    scene = twofold.Scene("b1828-11", pulsar={"rho": "6 deg"})
+    table = scene.pulsar().arrivals().table
+    axes = plot.waterfall(scene, rows=2, samples=2)
+    corners = axes.collections[0].get_coordinates()
+    date = table["arrival_day"] + table["arrival_fraction"]
+    np.testing.assert_allclose((corners[1:, 0, 1] + corners[:-1, 0, 1]) / 2.0, date[[0, -1]], rtol=1e-14)
+    middles = (corners[0, 1:, 0] + corners[0, :-1, 0]) / 2.0
+    half = 1.5 * (np.abs(table["residual"][[0, -1]]).max() + table["duration"].max() / 2.0)
+    assert tuple(middles) == pytest.approx((-1e3 * half, 1e3 * half))
+    assert axes.get_xlabel() == "time from the foretold pulse [ms]" and axes.get_ylabel() == "date [MJD]"
+    axes = plot.waterfall(scene, rows=2, samples=3, window=(-0.01, 0.02))
+    corners = axes.collections[0].get_coordinates()
+    assert (corners[0, 1, 0] + corners[0, 0, 0]) / 2.0 == pytest.approx(-10.0)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"samples": 1}, "samples = 1: allowed is a whole number from 2 on"),
+        ({"rows": 1}, "rows = 1: allowed is a whole number from 2 on"),
+        ({"window": (1.0, 1.0)}, r"window = \(1.0, 1.0\): allowed is the earlier time, then the later one"),
+        ({"window": (2.0, 1.0)}, "window = .*: allowed"),
+        ({"intensity": lambda angle: angle[:1]}, r"intensity: an array of shape \(1, 301\) for one of \(95, 301\): allowed is the same shape"),
+    ],
+)
+def test_shades_that_cannot_be(options, words):
+    with pytest.raises(twofold.Error, match=words):
+        plot.waterfall(twofold.Scene("tp-1"), **options)
+
+
+def test_the_edge_of_the_beam_in_degrees_and_in_rad():
+    assert plot._beam_edge(twofold.Scene("tp-1")) == 0.6
+    assert plot._beam_edge(twofold.Scene("tp-1", pulsar={"rho": "9 deg"})) == pytest.approx(np.pi / 20)
+
+
+def test_the_line_of_sight_before_and_after_the_start():
+    scene = twofold.Scene("tp-2", time={"start": 5.0})
+    times = np.array([1.0, 4.0, 5.0, 5.0, 9.0, 30.0])
+    found = plot._along_line_of_sight(scene, times)
+    later = twofold.Scene("tp-2", time={"times": [0.0, 4.0, 25.0], "span": None, "samples": None}).table(["m.n"])["m.n"]
+    earlier = twofold.Scene("tp-2", time={"times": [0.0, -1.0, -4.0], "span": None, "samples": None}).table(["m.n"])["m.n"]
+    np.testing.assert_allclose(found, [earlier[2], earlier[1], later[0], later[0], later[1], later[2]], rtol=1e-9)
+    np.testing.assert_allclose(plot._along_line_of_sight(scene, times[2:]), found[2:], rtol=1e-12)
+
+
+def test_angles_over_any_span():
+    scene = twofold.Scene("tp-2", time={"start": 5.0})
+    mine = plt.subplots(3, 1)[1]
+    panels = plot.angles(scene, names=("alpha", "beta", "gamma"), axes=mine)
+    assert list(panels) == list(mine)
+    angles = scene.motion().angles(np.linspace(5.0, 405.0, 1001))
+    for k, (panel, name) in enumerate(zip(panels, ("alpha", "beta", "gamma"), strict=True)):
+        t, shown = drawn(panel, "motion")
+        np.testing.assert_allclose(t, np.linspace(5.0, 405.0, 1001), rtol=1e-12)
+        np.testing.assert_allclose(shown, angles[:, k], atol=1e-9)
+        assert panel.get_ylabel() == rf"$\{name}$ [rad]" and panel.get_xlim() == (5.0, 405.0)
+        assert panel.get_xlabel() == (r"$t$ / $t_\mathrm{c}$" if k == 2 else "")
+        assert panel.xaxis.get_tick_params().get("labelbottom", True) == (k == 2)
+    assert panels[0].get_legend() is not None and panels[1].get_legend() is None
+    alone = plot.angles(scene, perturbation=False)
+    assert [len(panel.lines) for panel in alone] == [1, 1]
+    both = plot.angles(scene, perturbation=True, samples=2)
+    assert [len(panel.lines) for panel in both] == [2, 2] and drawn(both[0], "motion")[0].size == 2
+    backwards = plot.angles(scene, until=-5.0)[0]
+    assert backwards.get_xlim() == (-5.0, 5.0)
+    with pytest.raises(twofold.Error):
+        plot.angles(twofold.Scene("free"), perturbation=True)
+    with pytest.raises(twofold.Error, match="samples = 1: allowed is a whole number above one"):
+        plot.angles(scene, samples=1)
+    with pytest.raises(twofold.Error, match="until = 5.0: allowed is another time than the start of the scene"):
+        plot.angles(scene, until=5.0)
+
+
+def test_frames_have_ticks_on_all_sides():
+    for minor in (True, False):
+        _, axes = plt.subplots()
+        plot.frame(axes, minor=minor)
+        assert isinstance(axes.xaxis.get_minor_locator(), matplotlib.ticker.AutoMinorLocator) == minor
+        axes.figure.canvas.draw()
+        for axis, sides in ((axes.xaxis, ("tick1line", "tick2line")), (axes.yaxis, ("tick1line", "tick2line"))):
+            assert all(getattr(tick, side).get_visible() for tick in axis.get_major_ticks() for side in sides)
+    _, axes = plt.subplots()
+    axes.set_yscale("log")
+    plot.frame(axes)
+    assert not isinstance(axes.yaxis.get_minor_locator(), matplotlib.ticker.AutoMinorLocator)
+
+
 def seen(points, view):
     """Points from far away: turned about Z by the azimuth of the eye, then by its elevation. To the right and up on the page, and towards the eye."""
     a, e = np.radians(view)
