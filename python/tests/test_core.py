@@ -12,6 +12,10 @@ import twofold
 from twofold import kernels
 
 
+def test_names_that_are_offered():
+    assert "Scene" in twofold.__all__ and all(hasattr(twofold, name) for name in twofold.__all__)
+
+
 @pytest.fixture(scope="module")
 def scene():
     return twofold.Scene("tp-2")

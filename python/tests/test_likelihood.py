@@ -42,6 +42,10 @@ def fit(model, data):
     return twofold.fit_timing(model, data, UNKNOWNS)
 
 
+def test_names_that_are_offered():
+    assert all(hasattr(twofold.likelihood, name) for name in twofold.likelihood.__all__)
+
+
 def of_fit(fit, model):
     """The parameters of a fit as a sampler has them."""
     offset = sum(a - b for a, b in zip(fit.model.frequency, model.frequency, strict=True))

@@ -126,6 +126,10 @@ def drawn(random):
         return _Star(f0, f1, wobble, chi, rate, phase, torque), with_wobble, with_wobble.moved(wobble=-wobble)
 
 
+def test_names_that_are_offered():
+    assert all(hasattr(twofold.pint, name) for name in twofold.pint.__all__)
+
+
 def test_turns_and_derivatives_are_those_of_the_timing_model():
     """The Rust library has the phase in two doubles, so that its differences are right to 1e-16 of a turn; psi of thousands of rad is right to 1e-12."""
     random = np.random.default_rng(1)

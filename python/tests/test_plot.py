@@ -21,6 +21,10 @@ def closed_figures():
     plt.close("all")
 
 
+def test_names_that_are_offered():
+    assert all(hasattr(twofold.plot, name) for name in twofold.plot.__all__)
+
+
 def drawn(axes, label):
     """The data of the line with a label."""
     found = [line for line in axes.lines if line.get_label() == label]

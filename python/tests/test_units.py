@@ -15,6 +15,10 @@ import twofold
 from twofold import units
 
 
+def test_names_that_are_offered():
+    assert all(hasattr(twofold.units, name) for name in twofold.units.__all__)
+
+
 def test_units_of_every_group_of_columns_are_read():
     paper = units.table(twofold.Scene("tp-2").table(["rates", "L", "integrals", "m.n"]))
     assert paper["t"].unit == units.t_c

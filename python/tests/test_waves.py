@@ -21,6 +21,10 @@ def source(eigenvalues=(0.0, 0.0, 0.0), momentum=(0.5, 0.3, 0.8), spin=100.0, **
     ).pulsar()
 
 
+def test_names_that_are_offered():
+    assert all(hasattr(twofold.waves, name) for name in twofold.waves.__all__)
+
+
 def added(pulsar, reference, dt, hands, knot_distance=None):
     """Both harmonics together along north and east."""
     total = np.zeros((2, *np.shape(dt)))
