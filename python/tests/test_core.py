@@ -258,7 +258,7 @@ class TestTable:
         arrow = pyarrow.table(table)
         assert arrow.column_names == table.keys()
         assert np.array_equal(arrow["h_plus"].to_numpy(), table["h_plus"])
-        assert arrow.schema.field("t").metadata == {b"unit": b"t_c"}
+        assert arrow.schema.field("t").metadata == {b"unit": b"t_c"} and not arrow.schema.field("t").nullable
         assert pyarrow.table(scene.pulses())["cut"].to_pylist() == scene.pulses()["cut"]
 
     def test_progress(self, scene):
@@ -350,6 +350,14 @@ class TestPulsar:
         assert np.abs(found - [49621.25, 50000.75, 51000.5]).max() < 0.41 / 86400
         with pytest.raises(twofold.Error, match="epoch"):
             pulsar.arrivals([1e7])
+
+    def test_times_of_the_scene_are_counted_from_its_start(self, pulsar):
+        later = twofold.Scene("b1828-11", time={"start": 12.0}).pulsar()
+        assert later.epoch == pulsar.epoch
+        found, expected = later.arrivals().table, pulsar.arrivals().table
+        assert np.array_equal(found["pulse"], expected["pulse"]) and np.array_equal(found["arrival_day"], expected["arrival_day"])
+        # The first is the pulse nearest to the epoch.
+        assert expected["arrival_day"][0] == 49621.0 and abs(expected["arrival_fraction"][0]) < pulsar.period / 2 / 86400
 
     def test_derivatives_that_are_fitted(self, pulsar):
         dates = [49621.0, 50000.0, 50500.0, 51000.0, 52000.0]
@@ -463,6 +471,7 @@ class TestTimingModel:
             (lambda: twofold.TimingData(width_times=[1.0], widths=[1.0], width_sigmas=[]), ["1 width_times, 1 widths and 0 width_sigmas"]),
             (lambda: twofold.TimingData.read([], None), ["epoch", "modified Julian date"]),
             (lambda: twofold.TimingData.read([], -1.0), ["epoch", "-1", "0 to 1e7"]),
+            (lambda: twofold.TimingData.read([], 1e7), ["epoch", "10000000", "0 to 1e7"]),
             (lambda: twofold.Scene("b1828-11").pulsar().arrivals().tim(0.0), ["uncertainty", "0", "above zero"]),
             (lambda: twofold.Scene("b1828-11").pulsar().arrivals().tim(np.inf), ["uncertainty", "inf"]),
             (lambda: twofold.TimingModel(1.0).phase([0.0], [np.nan]), ["rest (s)", "finite"]),
@@ -541,6 +550,7 @@ class TestFits:
         assert np.allclose(csv.widths, np.stack([expected, table["duration"], np.full(4, 1e-5)], axis=-1), rtol=1e-12)
         both = twofold.TimingData.read([tmp_path / "a.tim", tmp_path / "a.csv"], 49621.0, observe="arrivals:1e-6")
         assert np.array_equal(both.sigmas, [2e-6] * 4 + [1e-6] * 4)
+        assert repr(twofold.TimingData.read([], 0.5)) == "<TimingData: 0 arrivals, 0 widths>"
         # Half a day from midnight, in a double and in a text.
         assert twofold.TimingData.read([tmp_path / "a.tim"], 49620.5) == twofold.TimingData.read([tmp_path / "a.tim"], "49620.5")
 
@@ -577,6 +587,8 @@ class TestFits:
         # The median of the posterior is near the best value, which is ten standard deviations from zero.
         assert found["limit"][0] == pytest.approx(wobble, rel=0.02)
         assert twofold.wobble_limits(twofold.TimingModel(100.0, chi=chi), data, ["phase", "f0"], [period])["limit"][0] > found["limit"][0]
+        # Any period above zero.
+        assert twofold.wobble_limits(twofold.TimingModel(100.0, chi=chi), data, ["phase", "f0"], [0.5])["limit"][0] > 0.0
 
     def test_the_limit_of_a_wobble(self):
         """Of arrivals that are exact the posterior is half a normal distribution, whose 95 % are at 1.96 standard deviations for both quadratures alike."""
