@@ -199,6 +199,59 @@ def test_never_more_parts_at_once_than_allowed(sweep, one_core):
     assert lazy.most == 4 and lazy.pending == 0
 
 
+class Waits(Executor):
+    """Parts that are done when they are waited for; which were cancelled."""
+
+    def __init__(self):
+        self.cancelled, self.pending, self.most = [], 0, 0
+
+    def submit(self, function, *arguments):
+        owner = self
+        self.pending += 1
+        self.most = max(self.most, self.pending)
+
+        class Later(Future):
+            def result(self, timeout=None):
+                owner.pending -= 1
+                return function(*arguments)
+
+            def cancel(self):
+                owner.cancelled.append(arguments[-2:])
+
+        return Later()
+
+
+def test_sixty_four_parts_at_once(sweep, tmp_path):
+    for run in (sweep.map, lambda executor, **options: sweep.write(tmp_path / "table.csv", executor, **options)):
+        executor, told = Waits(), []
+        run(executor, scenes_at_once=1, progress=told.append)
+        # The file's executor has been woken up beside.
+        assert executor.most == 64 + (run != sweep.map) and executor.cancelled == []
+        assert told == [k / 100 for k in range(1, 101)]
+
+
+def test_what_waits_is_cancelled_after_an_error(sweep):
+    executor = Waits()
+
+    def stop(done):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        sweep.map(executor, scenes_at_once=10, parts_at_once=3, progress=stop)
+    assert executor.cancelled == [(10, 20), (20, 30)]
+
+
+class Late(twofold.Sweep):
+    def rows(self, start, stop):
+        raise TimeoutError("by the worker")
+
+
+@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
+def test_a_time_out_of_a_worker_is_its_own():
+    with processes("fork") as executor, pytest.raises(TimeoutError, match="by the worker"):
+        Late(toml=GRID).map(executor)
+
+
 @pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
 @pytest.mark.parametrize("method", ["spawn", "fork"])
 def test_a_killed_worker(one_core, method, tmp_path):

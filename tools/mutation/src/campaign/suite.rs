@@ -78,7 +78,8 @@ impl Suite {
         Ok(Self { binaries })
     }
 
-    /// Compiles the module for Python into the package beside it; its tests are those of pytest, by the Python of `scripts/python`.
+    /// Compiles the module for Python into the package beside it, for pytest by the Python of `scripts/python`. Left out are tests of the Python around the module, and
+    /// slow ones of what arguments do at its border.
     fn of_python(tree: &Path, package: &Package) -> Result<Self, String> {
         let mut command = Command::new("cargo");
         command.args(["build", "--lib", "-p", package.name, "--profile", "mutants", "--message-format", "json"]);
@@ -90,7 +91,8 @@ impl Suite {
         std::fs::copy(module, tree.join("python/twofold/_twofold.abi3.so")).map_err(|e| format!("{module}: {e}"))?;
         let path = std::path::absolute("target/python/bin/python").map_err(|e| e.to_string())?;
         let run = &["-m", "pytest", "-q", "-x", "--tb=no", "-p", "no:cacheprovider"];
-        let list = &["-m", "pytest", "-q", "--collect-only"];
+        let list =
+            &["-m", "pytest", "-q", "--collect-only", "test_core.py", "test_sweep.py", "test_worked_pulsar.py"];
         Ok(Self { binaries: vec![Binary { path, folder: tree.join("python/tests"), run, list }] })
     }
 
