@@ -102,6 +102,21 @@ def test_phases_are_counted_alike_one_by_one_and_at_once():
     assert abs(twice[0] - 2 * phase).max() <= 1e-9
 
 
+def test_hands_are_circular_and_the_right_one_is_seen_from_the_pole():
+    """By `h_+ = a cos(dphi)` and `h_x = a sin(dphi)`. Seen along L, the wave of twice a turn is all of one hand, and seen against it of the other."""
+    dt = np.arange(6.0).reshape(2, 3)
+    for inclination, strong, weak in (("1e-6 deg", "right", "left"), ("179.999999 deg", "left", "right")):
+        pulsar = source(inclination=inclination, azimuth="40 deg")
+        sizes = {}
+        for hand, sign in (("right", 1.0), ("left", -1.0)):
+            phase, plus, cross = Waveform(pulsar, "twice", hand=hand)(dt)
+            assert phase.shape == plus.shape == cross.shape == (2, 3)
+            assert np.array_equal(cross, sign * plus)
+            sizes[hand] = abs(plus).max()
+        assert sizes[weak] < 1e-12 * sizes[strong]
+        assert sizes[strong] == pytest.approx(pulsar.wave_harmonics(0.0)[1], rel=1e-9)
+
+
 def test_a_star_that_slows_down():
     sections = {"time": {"epoch": "58000.0"}, "pulsar": {"chi": 1.0, "rho": 0.3}, "spin_down": {"f1": -1e-9, "torque": "constant"}}
     pulsar = twofold.Scene("wave-source", **sections).pulsar()
@@ -124,6 +139,12 @@ def test_what_is_refused():
         Waveform(pulsar, "once", reference=np.nan)
     with pytest.raises(twofold.Error, match="knot_distance = 0"):
         Waveform(pulsar, "once", knot_distance=0.0)
+    with pytest.raises(twofold.Error, match="knot_distance = inf"):
+        Waveform(pulsar, "once", knot_distance=np.inf)
+    upright = twofold.Scene("wave-source", time={"epoch": "58000.0"}, pulsar={"chi": 1.0, "rho": 0.3}, initial={"wobble": 0.0}).pulsar()
+    with pytest.raises(twofold.Error, match="the wobble is zero: allowed is a star with a wave"):
+        Waveform(upright, "once")
+    assert Waveform(pulsar, "once").knot_distance == 16384 * pulsar.period
     with pytest.raises(twofold.Error, match="dt: allowed are finite numbers"):
         Waveform(pulsar, "once")(np.inf)
     with pytest.raises(twofold.Error, match="a million knots"):

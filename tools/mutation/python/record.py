@@ -1,4 +1,4 @@
-"""What mutmut found, by file: `record.py TREE`, by scripts/mutation-python.
+"""What mutmut found, by file: `record.py TREE`, by scripts/mutation-python. `record.py TREE again` has what was not caught run again.
 
 Left out is what changes no value: the words of an error (a test that looks at them may catch it all the same) and the looks of a figure. What is proved equivalent stands in
 equivalent.tsv: file, function, the line as it was, as it is in the mutant (`*`: any), proof.
@@ -16,6 +16,7 @@ from mutmut.stats import status_by_exit_code
 
 import libcst
 
+CAUGHT = ("killed", "timeout", "segfault")
 HERE = Path(__file__).parent.resolve()
 
 #: Arguments and keys by which figures look as they do.
@@ -51,17 +52,27 @@ def of_values(function):
     return ast.dump(Values().visit(ast.parse(libcst.Module([function]).code.strip())))
 
 
+def again(tree):
+    os.chdir(tree)
+    for path in Path("twofold").glob("*.py"):
+        data = SourceFileMutationData(path=path)
+        data.load()
+        data.exit_code_by_key = {name: code if status_by_exit_code[code] in CAUGHT else None for name, code in data.exit_code_by_key.items()}
+        if data.exit_code_by_key:
+            data.save()
+
+
 def main(tree):
     listed = [line.split("\t") for line in (HERE / "equivalent.tsv").read_text().splitlines()]
     os.chdir(tree)
-    counts, left, names, used = {}, [], [], set()
+    counts, left, used = {}, [], set()
     for path in sorted(Path("twofold").glob("*.py")):
         data = SourceFileMutationData(path=path)
         data.load()
         counts[path.name] = Counter()
         for name, code in data.exit_code_by_key.items():
             status = status_by_exit_code[code]
-            if status in ("killed", "timeout", "segfault"):
+            if status in CAUGHT:
                 counts[path.name]["caught"] += 1
                 continue
             before, after = read_functions_from_index(name, path)
@@ -72,16 +83,14 @@ def main(tree):
             kind = "equivalent" if proved else "no value" if of_values(before) == of_values(after) else "left"
             counts[path.name][kind] += 1
             if kind == "left":
-                names.append(name)
                 left.append(f"{path.name}\t{before.name.value}\t{was}\t{now}\t{status}\n")
     kinds = ("caught", "equivalent", "no value", "left")
     rows = [",".join(["file", "mutants", *kinds]), *(",".join(map(str, [name, count.total(), *(count[kind] for kind in kinds)])) for name, count in counts.items())]
     print("\n".join(rows))
     for k in set(range(len(listed))) - used:
         print(f"listed, but caught or no mutant: {listed[k]}")
-    Path("left.txt").write_text("\n".join(names))
     (HERE / "record.csv").write_text("\n".join(rows) + "\n")
     (HERE / "not_caught.tsv").write_text("".join(left))
 
 
-main(sys.argv[1])
+again(sys.argv[1]) if sys.argv[2:] else main(sys.argv[1])
