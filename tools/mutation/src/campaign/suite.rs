@@ -91,9 +91,16 @@ impl Suite {
         std::fs::copy(module, tree.join("python/twofold/_twofold.abi3.so")).map_err(|e| format!("{module}: {e}"))?;
         let path = std::path::absolute("target/python/bin/python").map_err(|e| e.to_string())?;
         let run = &["-m", "pytest", "-q", "-x", "--tb=no", "-p", "no:cacheprovider"];
-        let list =
-            &["-m", "pytest", "-q", "--collect-only", "test_core.py", "test_sweep.py", "test_worked_pulsar.py"];
-        Ok(Self { binaries: vec![Binary { path, folder: tree.join("python/tests"), run, list }] })
+        let list = &[
+            "-m",
+            "pytest",
+            "-q",
+            "--collect-only",
+            "tests/test_core.py",
+            "tests/test_sweep.py",
+            "tests/test_worked_pulsar.py",
+        ];
+        Ok(Self { binaries: vec![Binary { path, folder: tree.join("python"), run, list }] })
     }
 
     /// Names of the tests of a binary.
