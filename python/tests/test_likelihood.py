@@ -158,9 +158,26 @@ def test_numbers_that_are_known_in_part(model, arrivals, noise):
         TimingLikelihood(model, data, numbers=numbers[:, None])
 
 
+def test_times_in_two_parts_of_any_size(model, arrivals, noise):
+    """The sum is what counts: a third of a second, most of a turn, moved from one part to the other."""
+    _, times, rest = arrivals
+    whole = TimingLikelihood(model, twofold.TimingData(times, SIGMA, rest=rest + noise))
+    cut = np.floor(times * 8.0) / 8.0 - 0.375
+    split = TimingLikelihood(model, twofold.TimingData(cut, SIGMA, rest=(times - cut) + (rest + noise)))
+    assert np.array_equal(split.numbers, whole.numbers)
+    assert split.log_likelihood({}) == pytest.approx(whole.log_likelihood({}), abs=1e-4)
+
+
+def test_residuals_that_are_no_numbers_are_not_probable(model, data, monkeypatch):
+    likelihood = TimingLikelihood(model, data)
+    monkeypatch.setattr(likelihood, "residuals", lambda parameters: np.array([1.0, np.nan]))
+    assert likelihood.log_likelihood({}) == -np.inf
+
+
 def test_parameters_of_a_sampler(model, data):
     likelihood = TimingLikelihood(model, data)
     assert likelihood.log_likelihood() == likelihood.log_likelihood({}) == likelihood.log_likelihood_ratio({})
+    assert likelihood.log_likelihood_ratio({"wobble": 0.0525}) == likelihood.log_likelihood({"wobble": 0.0525})
     likelihood.parameters = {"wobble": 0.0524}
     assert likelihood.log_likelihood() == likelihood.log_likelihood_ratio() == likelihood.log_likelihood({"wobble": 0.0524}) != likelihood.log_likelihood({})
     assert repr(likelihood) == f"<TimingLikelihood: 300 arrivals, {model!r}>"

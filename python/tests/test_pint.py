@@ -439,11 +439,11 @@ def test_limits_with_white_noise_are_those_of_the_library(tmp_path):
     data = twofold.TimingData(times, np.full(150, sigma), rest=rest + noise, numbers=numbers)
     unknowns = ["phase", "f0", "f1"]
     periods = np.array([40.0, 180.0, 700.0, 3000.0])
-    for share in (0.0, 1.0):
+    for share, confidence in ((0.0, 0.95), (1.0, 0.5)):
         start = twofold.TimingModel(f0, f1=f1, chi=np.pi / 4, torque_share=share)
         fit = twofold.fit_timing(start, data, unknowns)
-        theirs = twofold.wobble_limits(fit.model, data, unknowns, periods * DAY, confidence=0.95)
-        ours = wobble_limits(model, toas, periods * u.day, chi=45 * u.deg, torque=share)
+        theirs = twofold.wobble_limits(fit.model, data, unknowns, periods * DAY, confidence=confidence)
+        ours = wobble_limits(model, toas, periods * u.day, chi=45 * u.deg, torque=share, probability=confidence)
         # Times in PINT are rounded to 1e-9 s, a thousandth of an error.
         assert ours["limit"].to_value(u.rad) == pytest.approx(theirs["limit"], rel=5e-3)
         assert ours["best"].to_value(u.rad) == pytest.approx(theirs["best"], rel=5e-3)
@@ -555,6 +555,8 @@ def test_limits_as_they_are_by_default(exact):
     for name, value in found.items():
         assert value.value == pytest.approx(again[name].value, rel=1e-12)
     assert np.array_equal(found["period"].value, periods.value)
+    half = wobble_limits(model, toas, [300 / 365.25, 0.5 / 365.25] * u.yr, probability=0.5)
+    assert half["best"][0].value == pytest.approx(found["best"][1].value, rel=1e-9)
     # One period as a number.
     assert wobble_limits(model, toas, 100 * u.day)["best"] == found["best"][:1]
 

@@ -102,6 +102,34 @@ def test_phases_are_counted_alike_one_by_one_and_at_once():
     assert abs(twice[0] - 2 * phase).max() <= 1e-9
 
 
+def test_turns_between_knots_far_apart():
+    """A star that slows down: between knots 1e5 s apart the phase is 8 rad beside a straight line, and on the cubic."""
+    sections = {"time": {"epoch": "58000.0"}, "pulsar": {"chi": 1.0, "rho": 0.3}, "spin_down": {"f1": -1e-9, "torque": "constant"}}
+    pulsar = twofold.Scene("wave-source", **sections).pulsar()
+    dt = np.linspace(-2e6, 2e6, 2001)
+    near, far = (Waveform(pulsar, "once", reference=1e5, knot_distance=distance)(dt)[0] for distance in (None, 1e5))
+    assert abs(near - far).max() <= 2e-7
+
+
+def test_knots_are_added_as_they_are_needed():
+    """One time after another, farther and farther to both sides, or all at once."""
+    pulsar = source()
+    times = np.array([10.0, -10.0, 1e3, -2e3, 3e4, -5e4, 2e5, -1e5])
+    whole, _, _ = Waveform(pulsar, "once", reference=50.0)(times)
+    grown = Waveform(pulsar, "once", reference=50.0)
+    assert [grown(t)[0] for t in times] == list(whole)
+
+
+def test_how_far_a_phase_may_be_beside_the_smooth_one():
+    waveform = Waveform(source(), "once")
+    assert np.array_equal(waveform._missed(np.array([0.499, 2 * np.pi - 0.499])).round(9), [0.499, -0.499])
+    for off in (0.501, 1.4, -0.501, np.nan):
+        with pytest.raises(twofold.Error, match="take a smaller distance"):
+            waveform._missed(np.array([0.0, off]))
+    with pytest.raises(twofold.Error, match=r"dt = 2.000e\+03 s in size: allowed are a million knots, up to 1.000e\+03 s; take a reference nearby"):
+        Waveform(source(), "once", reference=500.0, knot_distance=1e-3)(2000.0)
+
+
 def test_hands_are_circular_and_the_right_one_is_seen_from_the_pole():
     """By `h_+ = a cos(dphi)` and `h_x = a sin(dphi)`. Seen along L, the wave of twice a turn is all of one hand, and seen against it of the other."""
     dt = np.arange(6.0).reshape(2, 3)
