@@ -557,6 +557,8 @@ def test_limits_as_they_are_by_default(exact):
     assert np.array_equal(found["period"].value, periods.value)
     half = wobble_limits(model, toas, [300 / 365.25, 0.5 / 365.25] * u.yr, probability=0.5)
     assert half["best"][0].value == pytest.approx(found["best"][1].value, rel=1e-9)
+    phases = wobble_limits(model, toas, [100.0, 150.0, 200.0, 300.0, 500.0, 900.0] * u.day)["phase"].value
+    assert (phases >= 0.0).all() and np.pi < phases.max() < 2.0 * np.pi
     # One period as a number.
     assert wobble_limits(model, toas, 100 * u.day)["best"] == found["best"][:1]
 
