@@ -33,6 +33,8 @@ pub struct Binary {
 /// All binaries.
 pub struct Suite {
     pub binaries: Vec<Binary>,
+    /// Tests of one process together take about this long without a mutant (s). Most of it is the start, for Python.
+    pub batch: f64,
 }
 
 /// How a run ended; of one that failed, its output.
@@ -75,7 +77,7 @@ impl Suite {
                 binaries.push(Binary { path: path.into(), folder, run, list: &["--list", "--format", "terse"] });
             }
         }
-        Ok(Self { binaries })
+        Ok(Self { binaries, batch: 0.4 })
     }
 
     /// Compiles the module for Python into the package beside it, for pytest by the Python of `scripts/python`. Left out are tests of the Python around the module, and
@@ -100,7 +102,7 @@ impl Suite {
             "tests/test_sweep.py",
             "tests/test_worked_pulsar.py",
         ];
-        Ok(Self { binaries: vec![Binary { path, folder: tree.join("python"), run, list }] })
+        Ok(Self { binaries: vec![Binary { path, folder: tree.join("python"), run, list }], batch: 20.0 })
     }
 
     /// Names of the tests of a binary.
