@@ -43,16 +43,17 @@ class TestScene:
         assert again == changed and hash(again) == hash(changed)
         assert changed != twofold.Scene("tp-1")
 
-    def test_a_scene_of_sections_alone(self):
+    @pytest.mark.parametrize("spin", [1.0, 20.0])
+    def test_a_scene_of_sections_alone(self, spin):
         free = twofold.Scene(
-            star={"inertia_ratio": 1.1, "spin": 1.0},
+            star={"inertia_ratio": 1.1, "spin": spin},
             lorentz_violation={"eigenvalues": [0.0, 0.0, 0.0]},
-            initial={"alpha": 0.0, "beta": 0.4, "alpha_rate": 1.1 / np.cos(0.4), "beta_rate": 0.0},
+            initial={"alpha": 0.0, "beta": 0.4, "alpha_rate": 1.1 * spin / np.cos(0.4), "beta_rate": 0.0},
             time={"span": 10.0, "samples": 11},
         )
         # Free precession about Z, Eq. (48).
         angles = free.motion().angles(np.arange(11.0))
-        assert np.allclose(angles[:, 0], 1.1 / np.cos(0.4) * np.arange(11.0), atol=1e-12)
+        assert np.allclose(angles[:, 0], 1.1 * spin / np.cos(0.4) * np.arange(11.0), atol=1e-12 * spin)
         assert np.allclose(angles[:, 1], 0.4, atol=1e-13)
 
     def test_a_span_that_only_arrival_times_are_of(self):
