@@ -532,11 +532,36 @@ def test_chi_squared_of_stars_is_that_of_their_residuals(exact):
     assert data.chi_squared(stars) == pytest.approx(expected, rel=1e-9, abs=1e-6)
     # The star itself leaves what its frequency changes by, 2e-5, of residuals of some hundreds.
     assert expected[1] < 0.2 < 1e4 < expected[2]
-    # What the model can take up is gone.
+    # What the model can take up is gone, also of arrivals with errors of their own.
+    toas = copy.deepcopy(toas)
+    toas.table["error"][:] = 100.0 * (1.0 + np.arange(len(toas)) % 3)
+    data = _Projected(model, toas)
     columns = model.designmatrix(toas)[0]
     for k in range(columns.shape[1]):
         column = np.asarray(columns[:, k], float)
         assert np.linalg.norm(data.project(column)) < 1e-10 * np.linalg.norm(column / data.sigma)
+
+
+def test_starts_of_any_star(exact):
+    model, toas = exact
+    data = _Projected(model, toas)
+    # Small wobbles of any phase are found by linear least squares.
+    for phase in (1.0, 4.0):
+        data.residuals = -data.project(_Beyond(data.star(400.0, 0.9, 0.3, 1e-3, phase), data.t).turns / data.f0)
+        assert twofold.pint._start(data, 400.0, 0.9, 0.3, None, None) == pytest.approx((1e-3, phase), rel=1e-2)
+    # The magnetic axis beyond the equator of the body.
+    assert 0.0 < twofold.pint._start(data, 400.0, 2.2, 0.3, None, 1.0)[0] < np.pi - 2.2
+    made = copy.deepcopy(model)
+    component = add_wobble(made, toas, period=0.5 / 365.25 * u.yr, chi=0.9 * u.rad, wobble=np.degrees(0.2) * u.deg)
+    assert component.WOBPERIOD.value == pytest.approx(0.5) and component.WOBTORQUE.value == 0.0
+    assert component.WOBBLE.quantity.to_value(u.rad) == pytest.approx(0.2)
+    days, years = (add_wobble(copy.deepcopy(model), toas, period=period, chi=0.9 * u.rad) for period in (400 * u.day, 400 / 365.25 * u.yr))
+    assert years.WOBPHASE.value == pytest.approx(days.WOBPHASE.value, rel=1e-6)
+    with pytest.raises(InvalidModelParameters, match="WOBPERIOD = 0.0 d: allowed is above 0"):
+        add_wobble(copy.deepcopy(model), toas, period=0 * u.day, chi=0.9 * u.rad)
+    falling = model_of(f"F0 2.5 1\nF1 {-2.5 * 0.2 / 1.29e8} 1\n")
+    with pytest.raises(InvalidModelParameters, match="F1 t / F0"):
+        wobble_limits(falling, toas, 100 * u.day)
 
 
 def test_derivatives_of_a_small_wobble(exact):
