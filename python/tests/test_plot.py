@@ -303,6 +303,36 @@ def test_angles_over_any_span():
         plot.angles(scene, until=5.0)
 
 
+def test_spans_that_are_written_in_other_ways():
+    """`end` and `times` of a scene in the paper's units, `years` of a physical star: `until` takes their place."""
+    for time in ({"span": None, "end": 20.0}, {"span": None, "samples": None, "times": [0.0, 1.0, 20.0]}):
+        scene = twofold.Scene("tp-2", time=time)
+        t, shown = drawn(plot.angles(scene, until=10.0, samples=11, perturbation=False)[1], "motion")
+        np.testing.assert_allclose(t, np.arange(11.0), atol=1e-12)
+        np.testing.assert_allclose(shown, twofold.Scene("tp-2").motion().angles(t)[:, 1], atol=1e-11)
+        values = plot._along_line_of_sight(scene, np.array([2.0, 3.0]))
+        np.testing.assert_allclose(values, twofold.Scene("tp-2", time={"span": None, "samples": None, "times": [2.0, 3.0], "start": 0.0}).table(["m.n"])["m.n"], rtol=1e-9)
+    years = twofold.Scene("b1828-11", star={"bulge": None}, lorentz_violation={"alpha_2": None, "w": None, "eigenvalues": [0.0, 0.0, 0.0]}, spin_down=None)
+    assert plot._sampled(years, 10.0, 3).span == (0.0, 10.0)
+    assert len(plot.angles(scene, until=10.0)[0].figure.axes) == 2
+    printed = drawn(plot.angles(twofold.Scene("tp-2"), until=10.0)[1], "perturbation, printed")
+    np.testing.assert_allclose(printed[0], np.linspace(0.0, 10.0, 1001), atol=1e-12)
+    assert len(plot.angles(twofold.Scene("free"), until=10.0)[0].lines) == 1
+
+
+def test_a_beam_is_a_gaussian_that_falls_to_a_tenth():
+    scene = twofold.Scene("tp-1")
+    light, angle = (np.asarray(plot.waterfall(scene, rows=3, samples=41, intensity=given).collections[0].get_array()) for given in (None, lambda angle: angle))
+    np.testing.assert_allclose(light, 0.1 ** (angle * angle), rtol=1e-12)
+
+
+def test_shapes_over_years_of_a_scene_that_starts_later():
+    first, later = (
+        np.asarray(plot.waterfall(twofold.Scene("b1828-11", time=time), rows=5, samples=21).collections[0].get_array()) for time in ({}, {"start": 12.0})
+    )
+    np.testing.assert_allclose(later, first, atol=1e-6)
+
+
 def test_frames_have_ticks_on_all_sides():
     for minor in (True, False):
         _, axes = plt.subplots()
