@@ -13,6 +13,16 @@ mod table;
 mod timing_model;
 mod writing;
 
+/// Python's memory is aligned to 16 bytes and no more: what vector instructions want wider is boxed.
+const _: () = {
+    assert!(
+        align_of::<scene::Scene>() <= 16 && align_of::<motion::Motion>() <= 16 && align_of::<pulsar::Pulsar>() <= 16
+    );
+    assert!(align_of::<pulsar::Timing>() <= 16 && align_of::<timing_model::TimingModel>() <= 16);
+    assert!(align_of::<fit::Fit>() <= 16 && align_of::<fit::TimingData>() <= 16 && align_of::<table::Table>() <= 16);
+    assert!(align_of::<sweep::Sweep>() <= 16 && align_of::<sweep::SweepFile>() <= 16);
+};
+
 /// The compiled part of the package.
 #[pyo3::pymodule(name = "_twofold")]
 mod module {

@@ -26,7 +26,7 @@ pub struct Motion {
     /// As it was asked for.
     method: Option<String>,
     by: &'static str,
-    motion: PlannedMotion<BodyState<f64>>,
+    motion: Box<PlannedMotion<BodyState<f64>>>,
 }
 
 impl Motion {
@@ -34,7 +34,7 @@ impl Motion {
         let span = (0.0, scene.since_start(end));
         let request = Request::new(&[Output::EquatorialAxis], span, SAMPLES, scene.tolerance);
         let plan = scene.problem.plan(&Request { method: scene.method, ..request }).map_err(raised)?;
-        let motion = plan.motion(&scene.problem).map_err(raised)?;
+        let motion = Box::new(plan.motion(&scene.problem).map_err(raised)?);
         let by = plan.method.map_or("none", |method| method.name());
         Ok(Self { of, scene, end, method, by, motion })
     }
@@ -64,7 +64,7 @@ impl Motion {
 
     /// The Euler angles alpha, beta and gamma (rad), which count their turns from the start: an array of shape (..., 3). NaN where the symmetry axis is on a pole.
     fn angles<'py>(&self, py: Python<'py>, t: Numbers) -> PyResult<Array<'py>> {
-        let angles = ContinuousAngles::new(&self.motion, 0.0, &self.scene.initial_angles).map_err(raised)?;
+        let angles = ContinuousAngles::new(&*self.motion, 0.0, &self.scene.initial_angles).map_err(raised)?;
         let angles = Mutex::new(angles);
         let found = t.map(py, |_, t| {
             let t = self.scene.since_start(t);

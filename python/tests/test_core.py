@@ -12,6 +12,10 @@ import twofold
 from twofold import kernels
 
 
+def test_names_that_are_offered():
+    assert "Scene" in twofold.__all__ and all(hasattr(twofold, name) for name in twofold.__all__)
+
+
 @pytest.fixture(scope="module")
 def scene():
     return twofold.Scene("tp-2")
@@ -39,16 +43,17 @@ class TestScene:
         assert again == changed and hash(again) == hash(changed)
         assert changed != twofold.Scene("tp-1")
 
-    def test_a_scene_of_sections_alone(self):
+    @pytest.mark.parametrize("spin", [1.0, 20.0])
+    def test_a_scene_of_sections_alone(self, spin):
         free = twofold.Scene(
-            star={"inertia_ratio": 1.1, "spin": 1.0},
+            star={"inertia_ratio": 1.1, "spin": spin},
             lorentz_violation={"eigenvalues": [0.0, 0.0, 0.0]},
-            initial={"alpha": 0.0, "beta": 0.4, "alpha_rate": 1.1 / np.cos(0.4), "beta_rate": 0.0},
+            initial={"alpha": 0.0, "beta": 0.4, "alpha_rate": 1.1 * spin / np.cos(0.4), "beta_rate": 0.0},
             time={"span": 10.0, "samples": 11},
         )
         # Free precession about Z, Eq. (48).
         angles = free.motion().angles(np.arange(11.0))
-        assert np.allclose(angles[:, 0], 1.1 / np.cos(0.4) * np.arange(11.0), atol=1e-12)
+        assert np.allclose(angles[:, 0], 1.1 * spin / np.cos(0.4) * np.arange(11.0), atol=1e-12 * spin)
         assert np.allclose(angles[:, 1], 0.4, atol=1e-13)
 
     def test_a_span_that_only_arrival_times_are_of(self):
@@ -62,6 +67,47 @@ class TestScene:
     def test_what_a_scene_has(self, scene):
         assert scene.epoch is None and scene.beam is not None and scene.beam[2] == 0.6
         assert twofold.Scene("wave-source").beam is None and twofold.Scene("b1828-11").epoch == "49621.0"
+
+    def test_what_it_says_of_itself(self, scene):
+        written = twofold.Scene("tp-2", about="A star")
+        assert written.about == "A star" and repr(written) == "<Scene tp-2: A star>" and written.cautions == []
+        (caution,) = twofold.Scene("b1828-11", time={"epoch": "2449621.0"}).cautions
+        assert "2449621" in caution and "Julian date" in caution
+        assert (scene.time_unit, scene.span) == ("t_c", (0.0, 400.0))
+        assert twofold.Scene("b1828-11").span == (0.0, 10 * 365.25 * 86400.0)
+
+    def test_sections_that_are_there_are_taken_away(self):
+        assert "[pulsar]" in twofold.Scene("tp-1").toml
+        assert twofold.Scene("tp-1", nothing=None, star={"nothing": None}).toml == twofold.Scene("tp-1", star={}).toml
+        lists = twofold.Scene("tp-1", lorentz_violation={"eigenvalues": [np.float64(0.02), np.float64(0.01), -0.03]})
+        assert "eigenvalues = [\n    0.02,\n    0.01,\n    -0.03,\n]" in lists.toml
+        assert twofold.Scene("tp-1", lorentz_violation={"eigenvalues": np.array([0.02, 0.01, -0.03])}) == lists
+
+    def test_a_plan_names_the_method_and_the_stretch(self, scene):
+        assert "method       torus" in scene.plan(method="torus", tolerance=1e-9)
+        text = scene.plan(["angles"])
+        assert "state        n, L, e_x" in text and "0.0 to 400.0 t_c" in text and "predicted error is at most 1e-13" in text
+        assert "predicted error is at most 1e-10" in scene.plan(tolerance=1e-10)
+
+    @pytest.mark.parametrize("allowed", [1e-14, 1e-2])
+    def test_ends_of_what_is_allowed(self, scene, allowed):
+        assert len(scene.table(["e_z"], tolerance=allowed)) == 4001
+
+    def test_lines_are_the_strongest(self):
+        """Eq. (48) of free precession: m.n has the turns, the precession, and sums of both."""
+        scene = twofold.Scene("free")
+        table = scene.lines("m.n", least=1e-3)
+        assert np.all(np.diff(table["amplitude"]) <= 0) and table["amplitude"].min() >= 1e-3 * table["amplitude"][0]
+        assert len(scene.lines("m.n", least=1e-12, most=2)) == 2
+        series = scene.table(["m.n"])
+        total = sum(a * np.cos(f * series["t"] + phase) for f, a, phase in zip(table["frequency"], table["amplitude"], table["phase"], strict=True))
+        # What is left is no line: a constant.
+        assert np.ptp(series["m.n"] - total) < 10 * 1e-3 * table["amplitude"][0]
+        with pytest.raises(twofold.Error, match="least = 1.1"):
+            scene.lines("m.n", least=1.1)
+        assert len(scene.lines("m.n", least=1.0)) == 1
+        assert len(twofold.Scene("tp-2").lines("m.n")) == 50
+        assert twofold.Scene("tp-2").lines("m.n", most=200)["amplitude"][-1] >= 1e-6 * twofold.Scene("tp-2").lines("m.n")["amplitude"][0]
 
     def test_a_file(self, tmp_path, scene):
         path = tmp_path / "star.toml"
@@ -148,6 +194,34 @@ class TestMotion:
         with pytest.raises(twofold.Error, match="span"):
             motion.state(given)
 
+    def test_until_a_time(self, scene):
+        short = scene.motion(end=50.0, method="torus", tolerance=1e-9)
+        assert short.span == (0.0, 50.0) and short.scene == scene and short.method == "torus"
+        assert repr(short) == f"<Motion of {scene!r} from 0.0 to 50.0 by torus>"
+        again = pickle.loads(pickle.dumps(short))
+        assert (again.span, again.method, again.error(40.0)) == (short.span, short.method, short.error(40.0))
+        with pytest.raises(twofold.Error, match="span"):
+            short.axis(50.1)
+
+    def test_angles_on_a_pole_are_no_numbers(self):
+        upright = twofold.Scene(
+            star={"inertia_ratio": 1.1, "spin": 1.0},
+            lorentz_violation={"eigenvalues": [0.0, 0.0, 0.0]},
+            initial={"alpha": 0.0, "beta": 0.0, "alpha_rate": 0.0, "beta_rate": 0.0},
+            time={"span": 10.0, "samples": 11},
+        ).motion()
+        assert np.isnan(upright.angles([0.0, 5.0])).all() and np.array_equal(upright.axis(5.0), [0.0, 0.0, 1.0])
+
+    def test_times_are_counted_from_the_start(self):
+        """The same motion, begun at another reading of the clock."""
+        later = twofold.Scene("tp-2", time={"start": 100.0}).motion()
+        times = np.array([0.0, 7.5, 300.0])
+        motion = twofold.Scene("tp-2").motion()
+        assert later.span == (100.0, 500.0)
+        for name in ("axis", "angles", "error"):
+            assert np.allclose(getattr(later, name)(100.0 + times), getattr(motion, name)(times), rtol=1e-9, atol=1e-12)
+        assert np.allclose(later.state(100.0 + times), motion.state(times), rtol=1e-9, atol=1e-12)
+
     def test_pickled(self, motion):
         again = pickle.loads(pickle.dumps(motion))
         assert np.array_equal(again.axis([1.0, 399.0]), motion.axis([1.0, 399.0]))
@@ -185,13 +259,20 @@ class TestTable:
         arrow = pyarrow.table(table)
         assert arrow.column_names == table.keys()
         assert np.array_equal(arrow["h_plus"].to_numpy(), table["h_plus"])
-        assert arrow.schema.field("t").metadata == {b"unit": b"t_c"}
+        assert arrow.schema.field("t").metadata == {b"unit": b"t_c"} and not arrow.schema.field("t").nullable
         assert pyarrow.table(scene.pulses())["cut"].to_pylist() == scene.pulses()["cut"]
 
     def test_progress(self, scene):
         parts = []
         scene.table(progress=parts.append)
         assert parts == sorted(parts) and parts[-1] == 1.0
+        # A call for each hundredth at most, and one at the end.
+        assert parts[0] == 0.0 and 50 < len(parts) <= 102 and np.diff(parts[:-1]).min() > 0.0099
+
+    def test_the_whole_is_told_once(self):
+        parts = []
+        twofold.Scene("tp-2", time={"samples": 2}).table(["e_z"], progress=parts.append)
+        assert parts.count(1.0) == 1 and parts[-1] == 1.0
 
     def test_an_error_of_progress_comes_out(self, scene):
         calls = []
@@ -255,6 +336,50 @@ class TestPulsar:
         assert np.abs(turned.imag - found[1]).max() < 1e-6 * size
 
 
+    def test_what_a_pulsar_has(self):
+        scene = twofold.Scene("b1937+21")
+        pulsar = scene.pulsar()
+        # F0 of the scene file, 641.9282 Hz.
+        assert pulsar.scene == scene and pulsar.epoch == scene.epoch and 1 / pulsar.period == pytest.approx(641.928, rel=1e-6)
+        assert repr(pulsar) == f"<Pulsar of {scene!r}, period {pulsar.period!r} s>"
+        assert pickle.loads(pickle.dumps(pulsar)).period == pulsar.period
+
+    def test_dates_with_fractions(self, pulsar):
+        table = pulsar.arrivals([49621.25, 50000.75, 51000.5], derivatives=0).table
+        found = table["arrival_day"] + table["arrival_fraction"]
+        # The nearest pulse is less than a period away.
+        assert np.abs(found - [49621.25, 50000.75, 51000.5]).max() < 0.41 / 86400
+        with pytest.raises(twofold.Error, match="epoch"):
+            pulsar.arrivals([1e7])
+
+    def test_times_of_the_scene_are_counted_from_its_start(self, pulsar):
+        later = twofold.Scene("b1828-11", time={"start": 12.0}).pulsar()
+        assert later.epoch == pulsar.epoch
+        found, expected = later.arrivals().table, pulsar.arrivals().table
+        assert np.array_equal(found["pulse"], expected["pulse"]) and np.array_equal(found["arrival_day"], expected["arrival_day"])
+        # The first is the pulse nearest to the epoch.
+        assert expected["arrival_day"][0] == 49621.0 and abs(expected["arrival_fraction"][0]) < pulsar.period / 2 / 86400
+
+    def test_derivatives_that_are_fitted(self, pulsar):
+        dates = [49621.0, 50000.0, 50500.0, 51000.0, 52000.0]
+        assert len(pulsar.arrivals(dates).derivatives) == 2 and len(pulsar.arrivals(dates, derivatives=1).derivatives) == 1
+        steady = twofold.Scene("b1828-11", spin_down=None).pulsar().arrivals(dates)
+        assert steady.derivatives == [] and "causes" not in steady.table and "torque" not in steady.table
+        assert "torque" in pulsar.arrivals(dates, causes=True).table
+
+    def test_epochs_without_a_pulse(self):
+        # The beam of 0.1 rad meets the line of sight in some phases of a wobble of 20 deg alone.
+        timing = twofold.Scene("b1828-11", initial={"wobble": "20 deg"}).pulsar().arrivals(np.arange(49621.0, 50121.0, 10.0))
+        assert 0 < timing.dark < 50 and len(timing.table) == 50 - timing.dark
+
+    def test_a_wave_needs_a_distance(self):
+        nowhere = twofold.Scene("b1828-11", observer={"distance": None}, output=None).pulsar()
+        with pytest.raises(twofold.Error, match="observer.distance"):
+            nowhere.wave(0.0)
+        once, twice, *others = nowhere.wave_harmonics(0.0)
+        assert np.isnan([once, twice]).all() and others[-1] == pytest.approx(np.radians(3.0))
+
+
 class TestTimingModel:
     def test_without_a_wobble_it_is_a_taylor_series(self):
         f0, f1 = 641.9, -4.3e-14
@@ -289,6 +414,38 @@ class TestTimingModel:
             # Rounding of 1e-13 turn over the step, and the third derivative.
             assert np.allclose(column, difference, rtol=1e-5, atol=1e-12 / step), name
 
+    def test_widths_without_a_wobble_are_those_of_a_cone(self):
+        model = twofold.TimingModel(2.5, chi=1.2, inclination=1.0, rho=0.4)
+        expected = kernels.pulse_width(0.4, 1.2, 1.0) / (2 * np.pi * 2.5)
+        assert model.width([[0.0, 3e7]]) == pytest.approx(np.full((1, 2), expected), rel=1e-12)
+        assert model.width(1.0) == pytest.approx(expected, rel=1e-12)
+
+    def test_rests_of_times_beyond_a_block(self):
+        """More numbers than are computed at once, each with its own rest."""
+        model = twofold.TimingModel(300.0, f1=-1e-12)
+        times, rest = np.arange(40_000.0), np.arange(40_000.0) * 1e-9
+        whole, fraction = model.phase(times, rest)
+        derivatives = model.phase_and_derivatives(times, rest)
+        for k in (0, 1, 16_383, 16_384, 39_999):
+            assert (whole[k], fraction[k]) == model.phase(times[k], rest[k])
+            assert np.array_equal(derivatives[2][k], model.phase_and_derivatives(times[k], rest[k])[2])
+        assert np.array_equal(derivatives[0], whole) and np.array_equal(derivatives[1], fraction)
+        # One rest for all.
+        assert np.array_equal(model.phase(times[:3], 1e-9), model.phase(times[:3], np.full(3, 1e-9)))
+
+    def test_models_that_differ_in_one_number(self):
+        given = {"f1": -1e-15, "chi": 1.0, "precession_rate": 1e-7, "damping": 1e-12}
+        model = twofold.TimingModel(300.0, **given)
+        assert model == twofold.TimingModel(300.0, **given) != twofold.TimingModel(300.0, 1e-16, **given)
+        assert model != model.moved(damping=1e-13) and model != model.moved(f1=1e-16)
+        assert repr(twofold.TimingModel(300.0)) == "TimingModel(300.0, 0.0)"
+        assert repr(model) == "TimingModel(300.0, 0.0, f1=-1e-15, chi=1.0, precession_rate=1e-7, damping=1e-12)"
+
+    def test_units_are_those_of_derivatives_of_turns(self):
+        units = twofold.TimingModel.units
+        assert tuple(units) == twofold.TimingModel.names
+        assert [units[name] for name in ("phase", "f0", "f1", "f2", "chi", "precession_rate", "damping")] == ["1", "Hz", "Hz/s", "Hz/s^2", "rad", "rad/s", "1/s"]
+
     @pytest.mark.parametrize("inclination", [0.0, 1.0, np.pi / 2])
     def test_pickled_and_printed(self, inclination):
         model = twofold.TimingModel(300.0, 1e-15, f1=-1e-15, wobble=0.1, chi=1.0, inclination=inclination)
@@ -307,6 +464,22 @@ class TestTimingModel:
             (lambda: twofold.TimingModel(1.0).arrival(0.5), ["number", "whole"]),
             (lambda: twofold.TimingData([1.0, 2.0], [1.0]), ["sigmas", "1", "2"]),
             (lambda: twofold.TimingData([1.0]), ["sigmas"]),
+            (lambda: twofold.TimingData([1.0], [np.inf]), ["standard deviation", "inf"]),
+            (lambda: twofold.TimingData([[1.0]], 1.0), ["times", "one dimension"]),
+            (lambda: twofold.TimingData(1.0, 1.0), ["times", "one dimension"]),
+            (lambda: twofold.TimingData([1.0], 1.0, numbers=[0.5]), ["number", "0.5", "whole"]),
+            (lambda: twofold.TimingData(width_times=[1.0], widths=[1.0, 2.0], width_sigmas=[1.0]), ["1 width_times, 2 widths and 1 width_sigmas"]),
+            (lambda: twofold.TimingData(width_times=[1.0], widths=[1.0], width_sigmas=[]), ["1 width_times, 1 widths and 0 width_sigmas"]),
+            (lambda: twofold.TimingData.read([], None), ["epoch", "modified Julian date"]),
+            (lambda: twofold.TimingData.read([], -1.0), ["epoch", "-1", "0 to 1e7"]),
+            (lambda: twofold.TimingData.read([], 1e7), ["epoch", "10000000", "0 to 1e7"]),
+            (lambda: twofold.Scene("b1828-11").pulsar().arrivals().tim(0.0), ["uncertainty", "0", "above zero"]),
+            (lambda: twofold.Scene("b1828-11").pulsar().arrivals().tim(np.inf), ["uncertainty", "inf"]),
+            (lambda: twofold.TimingModel(1.0).phase([0.0], [np.nan]), ["rest (s)", "finite"]),
+            (lambda: twofold.wobble_limits(twofold.TimingModel(2.5, chi=1.4), twofold.TimingData([1.0], 1.0), ["phase"], [np.inf]), ["period", "inf"]),
+            (lambda: twofold.wobble_posterior([1.0, 2.0], [1.0], [1.0, 2.0]), ["across", "1 numbers", "2"]),
+            (lambda: twofold.fit_timing(twofold.TimingModel(1.0), twofold.TimingData([1.0], 1.0), ["phase"], priors={"phase": 1.0}), ["priors", "phase", "pair"]),
+            (lambda: twofold.fit_timing(twofold.TimingModel(1.0), twofold.TimingData([1.0], 1.0), ["phase"], priors={"phase": (np.nan, 1.0)}), ["mean of a prior"]),
             (lambda: twofold.TimingData([1.0], [-1.0]), ["standard deviation", "-1"]),
             (lambda: twofold.TimingModel(1.0).phase(1e19), ["phase", "9e15"]),
             (lambda: twofold.TimingModel(1.0).phase([0.0, np.nan]), ["t (s)", "finite"]),
@@ -362,6 +535,61 @@ class TestFits:
         assert np.array_equal(again.times, [[1.0, 1e-9], [2.0, 0.0]]) and np.array_equal(again.widths, [[1.0, 0.1, 0.01]])
         with pytest.raises(twofold.Error, match="number = 0.5"):
             twofold.TimingData([1.0], 1e-6, numbers=[0.5])
+
+    def test_data_from_files(self, tmp_path):
+        timing = twofold.Scene("b1828-11").pulsar().arrivals([49700.0, 50000.0, 52000.0, 52500.0], derivatives=1)
+        (tmp_path / "a.tim").write_text(timing.tim(2e-6))
+        (tmp_path / "a.csv").write_bytes(timing.table.csv)
+        tim = twofold.TimingData.read([tmp_path / "a.tim"], "49621.0")
+        csv = twofold.TimingData.read([tmp_path / "a.csv"], 49621.0, observe="arrivals:1e-6,widths:1e-5")
+        table = timing.table
+        expected = (table["arrival_day"] - 49621.0) * 86400.0 + table["arrival_fraction"] * 86400.0
+        for data, sigma in ((tim, 2e-6), (csv, 1e-6)):
+            assert np.allclose(data.times.sum(axis=1), expected, rtol=1e-15) and np.array_equal(data.sigmas, np.full(4, sigma))
+            assert np.array_equal(np.diff(data.numbers), np.diff(table["pulse"]))
+        assert tim.widths.shape == (0, 3) and repr(tim) == "<TimingData: 4 arrivals, 0 widths>"
+        assert np.allclose(csv.widths, np.stack([expected, table["duration"], np.full(4, 1e-5)], axis=-1), rtol=1e-12)
+        both = twofold.TimingData.read([tmp_path / "a.tim", tmp_path / "a.csv"], 49621.0, observe="arrivals:1e-6")
+        assert np.array_equal(both.sigmas, [2e-6] * 4 + [1e-6] * 4)
+        assert repr(twofold.TimingData.read([], 0.5)) == "<TimingData: 0 arrivals, 0 widths>"
+        # Half a day from midnight, in a double and in a text.
+        assert twofold.TimingData.read([tmp_path / "a.tim"], 49620.5) == twofold.TimingData.read([tmp_path / "a.tim"], "49620.5")
+
+    def test_one_number_for_all_arrivals(self):
+        assert twofold.TimingData([1.0, 2.0], 1e-6, rest=1e-9, numbers=3.0) == twofold.TimingData([1.0, 2.0], [1e-6, 1e-6], rest=[1e-9, 1e-9], numbers=[3.0, 3.0])
+        assert np.array_equal(twofold.TimingData([1.0, 2.0], 1e-6).times, [[1.0, 0.0], [2.0, 0.0]])
+        assert np.isnan(twofold.TimingData([1.0, 2.0], 1e-6).numbers).all()
+
+    @pytest.mark.parametrize(("part", "judged"), [(0.1, "smaller"), (1.0, "as stated"), (10.0, "larger")])
+    def test_residuals_are_judged(self, part, judged):
+        numbers = np.arange(100) * 1e6
+        times, rest = twofold.TimingModel(10.0).arrival(numbers)
+        noise = 1e-5 * np.random.default_rng(2).standard_normal(100)
+        data = twofold.TimingData(times, 1e-5, rest=rest + part * noise, numbers=numbers)
+        found = twofold.fit_timing(twofold.TimingModel(10.0), data, ["phase", "f0"])
+        assert found.judged == judged and found.chi_squared == pytest.approx(part**2 * 98, rel=0.4)
+        # Linear in both: chi^2 is its parabola.
+        assert abs(found.nonlinearity) < 1e-6
+        assert f"; chi^2 = {found.chi_squared:.1f} of 98>" in repr(found)
+
+    def test_a_wobble_that_is_there(self):
+        """Two quadratures at the period of a small wobble: what least squares of numpy find in the residuals."""
+        wobble, period, chi = 2e-3, 7.1e6, 0.8
+        truth = twofold.TimingModel(100.0, chi=chi, wobble=wobble, precession_rate=2 * np.pi / period, precession_phase=1.0)
+        numbers = np.arange(2000) * 1e7
+        times, rest = truth.arrival(numbers)
+        data = twofold.TimingData(times, 1e-5, rest=rest, numbers=numbers)
+        found = twofold.wobble_limits(twofold.TimingModel(100.0, chi=chi), data, ["phase", "f0"], [period, 1e9], confidence=0.5)
+        assert list(found) == ["period", "best", "gain", "limit"] and np.array_equal(found["period"], [period, 1e9])
+        assert found["best"][0] == pytest.approx(wobble, rel=1e-3)
+        # Amplitude cot(chi) theta / (2 pi F0) of a sine over many turns, in standard deviations.
+        size = wobble / np.tan(chi) / (2 * np.pi * 100.0) / 1e-5
+        assert found["gain"][0] == pytest.approx(2000 * size**2 / 2, rel=0.02)
+        # The median of the posterior is near the best value, which is ten standard deviations from zero.
+        assert found["limit"][0] == pytest.approx(wobble, rel=0.02)
+        assert twofold.wobble_limits(twofold.TimingModel(100.0, chi=chi), data, ["phase", "f0"], [period])["limit"][0] > found["limit"][0]
+        # Any period above zero.
+        assert twofold.wobble_limits(twofold.TimingModel(100.0, chi=chi), data, ["phase", "f0"], [0.5])["limit"][0] > 0.0
 
     def test_the_limit_of_a_wobble(self):
         """Of arrivals that are exact the posterior is half a normal distribution, whose 95 % are at 1.96 standard deviations for both quadratures alike."""
@@ -423,6 +651,29 @@ class TestKernels:
         found = kernels.constant_c(2.8e30, 1.2e4, 1e-6)
         assert found == pytest.approx(2 / 25 * 6.6743e-11 * 2.8e30**2 / 1.2e4 * 1e-6, rel=1e-5)
         assert kernels.constant_c(2.8e30, 1.2e4, 2e-6) == pytest.approx(2 * found, rel=1e-5)
+
+    def test_the_angle_to_the_line_of_sight(self):
+        """Eq. (42) with cotangents, as printed."""
+        angle, chi, width = np.array([0.5, 1.9]), 1.0, 0.3
+        expected = 0.5 * np.sin(width / 2) / (np.cos(width / 2) / np.tan(angle) + 1 / np.tan(chi)) * 1e-3
+        assert kernels.lambda_change(angle, chi, width, 1e-3) == pytest.approx(expected, rel=1e-13)
+
+    def test_eta_on_average(self):
+        """An average over directions of the observer and azimuths of the axis, of the rate by the torque of the self-energy."""
+        r, beta = 0.3, 0.7
+        alpha = np.arange(360) * 2 * np.pi / 360
+        n = np.stack([np.sin(beta) * np.sin(alpha), -np.sin(beta) * np.cos(alpha), np.full(360, np.cos(beta))], axis=-1)
+        # s^XX, s^YY, s^ZZ with 2 s^ZZ - s^XX - s^YY = 1 and s^XX - s^YY = r, without a trace.
+        s = np.array([-1 / 6 + r / 2, -1 / 6 - r / 2, 1 / 3])
+        speed_squared = np.mean(np.sum(np.cross(n, s * n) ** 2, axis=1))
+        # One component of three; eta = 1 is a rate of half the combination.
+        assert kernels.root_mean_square_eta(r, beta) == pytest.approx(0.5 / np.sqrt(speed_squared / 3), rel=1e-12)
+
+    def test_broadcast_beyond_a_block(self):
+        theta = np.linspace(0.4, 1.2, 20_000)
+        found = kernels.pulse_width(0.6, theta, 0.8)
+        assert [found[k] for k in (0, 16_383, 16_384, 19_999)] == [kernels.pulse_width(0.6, theta[k], 0.8) for k in (0, 16_383, 16_384, 19_999)]
+        assert np.array_equal(kernels.pulse_width([[0.6], [0.7]], theta[None, :3], 0.8), [kernels.pulse_width(rho, theta[:3], 0.8) for rho in (0.6, 0.7)])
 
     def test_fluid_star(self):
         assert kernels.fluid_inertia_over_c(2.0) == 1.0

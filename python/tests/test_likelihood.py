@@ -42,6 +42,10 @@ def fit(model, data):
     return twofold.fit_timing(model, data, UNKNOWNS)
 
 
+def test_names_that_are_offered():
+    assert all(hasattr(twofold.likelihood, name) for name in twofold.likelihood.__all__)
+
+
 def of_fit(fit, model):
     """The parameters of a fit as a sampler has them."""
     offset = sum(a - b for a, b in zip(fit.model.frequency, model.frequency, strict=True))
@@ -137,6 +141,82 @@ def test_numbers_of_pulses(model, arrivals, noise):
         TimingLikelihood(model, data, numbers=[1, 2])
     with pytest.raises(twofold.Error, match="numbers"):
         TimingLikelihood(model, data, numbers=numbers + 0.5)
+
+
+def test_numbers_that_are_known_in_part(model, arrivals, noise):
+    """Those that are known count from any one; the others are the nearest turns."""
+    numbers, times, rest = arrivals
+    data = twofold.TimingData(times, np.full(300, SIGMA), rest=rest + noise)
+    given = np.where(np.arange(300) % 3 == 1, numbers - 777, np.nan)
+    likelihood = TimingLikelihood(model, data, numbers=given)
+    assert np.array_equal(likelihood.numbers, numbers)
+    # Of a model that is off by 1.6 turns at the end, right to half a turn at the first with a number.
+    off = model.moved(f0=1.6 / times[-1])
+    found = TimingLikelihood(off, data, numbers=given).numbers
+    assert np.array_equal(found[1::3], numbers[1::3]) and found[-1] == numbers[-1] + 2
+    with pytest.raises(twofold.Error, match=r"numbers: an array of shape \(300, 1\): allowed are 300 whole numbers, NaN"):
+        TimingLikelihood(model, data, numbers=numbers[:, None])
+
+
+def test_times_in_two_parts_of_any_size(model, arrivals, noise):
+    """The sum is what counts: a third of a second, most of a turn, moved from one part to the other."""
+    _, times, rest = arrivals
+    whole = TimingLikelihood(model, twofold.TimingData(times, SIGMA, rest=rest + noise))
+    cut = np.floor(times * 8.0) / 8.0 - 0.375
+    split = TimingLikelihood(model, twofold.TimingData(cut, SIGMA, rest=(times - cut) + (rest + noise)))
+    assert np.array_equal(split.numbers, whole.numbers)
+    assert split.log_likelihood({}) == pytest.approx(whole.log_likelihood({}), abs=1e-4)
+
+
+def test_residuals_that_are_no_numbers_are_not_probable(model, data, monkeypatch):
+    likelihood = TimingLikelihood(model, data)
+    monkeypatch.setattr(likelihood, "residuals", lambda parameters: np.array([1.0, np.nan]))
+    assert likelihood.log_likelihood({}) == -np.inf
+
+
+def test_parameters_of_a_sampler(model, data):
+    likelihood = TimingLikelihood(model, data)
+    assert likelihood.log_likelihood() == likelihood.log_likelihood({}) == likelihood.log_likelihood_ratio({})
+    assert likelihood.log_likelihood_ratio({"wobble": 0.0525}) == likelihood.log_likelihood({"wobble": 0.0525})
+    likelihood.parameters = {"wobble": 0.0524}
+    assert likelihood.log_likelihood() == likelihood.log_likelihood_ratio() == likelihood.log_likelihood({"wobble": 0.0524}) != likelihood.log_likelihood({})
+    assert repr(likelihood) == f"<TimingLikelihood: 300 arrivals, {model!r}>"
+
+
+def test_all_that_can_be_marginalised_is_a_normal_integral(model, data, fit):
+    """By the covariance of a fit of the four that numpy has the determinant of, beside the other parameters held."""
+    names = ["phase", "f0", "f1", "f2"]
+    others = {name: fit.model[name] for name in UNKNOWNS if name not in names}
+    held = model.moved(**{name: value - model[name] for name, value in others.items()})
+    four = twofold.fit_timing(held, data, names)
+    best = {"f0_offset": sum(a - b for a, b in zip(four.model.frequency, model.frequency, strict=True))} | {name: four.model[name] for name in ("phase", "f1", "f2")}
+    top = TimingLikelihood(model, data).log_likelihood(others | best)
+    scales = np.outer(four.sigmas, four.sigmas)
+    integral = top + 2 * np.log(2 * np.pi) + np.log(np.linalg.det(four.covariance / scales)) / 2 + np.log(four.sigmas).sum()
+    # Turns and times of pulses differ by 5e-5 of themselves.
+    assert TimingLikelihood(model, data, marginalised=names).log_likelihood(others) == pytest.approx(integral, abs=2e-3)
+
+
+@pytest.mark.parametrize("times", [[1e6], [1e6, 1e6]])
+def test_too_few_times_to_marginalise(model, times):
+    """The integral over phase and F0 is infinite with one time, or one time twice."""
+    with pytest.raises(twofold.Error, match="marginalised: phase, f0: allowed are parameters that the arrival times determine"):
+        TimingLikelihood(model, twofold.TimingData(times, 1e-4), marginalised=["phase", "f0"])
+    assert np.isfinite(TimingLikelihood(model, twofold.TimingData(times, 1e-4), marginalised=["phase"]).log_likelihood({}))
+
+
+def test_what_is_marginalised_is_no_parameter(model, data):
+    likelihood = TimingLikelihood(model, data, marginalised=("phase", "f1"))
+    assert likelihood.marginalised == ("phase", "f1") and likelihood.model == model
+    for name in ("phase", "f1"):
+        with pytest.raises(twofold.Error, match=f"^{name} = 0.0: it is marginalised; allowed are other parameters"):
+            likelihood.log_likelihood({name: 0.0})
+    allowed = [name for name in twofold.TimingModel.names if name not in ("phase", "f1", "inclination", "inclination_rate", "rho")]
+    allowed[allowed.index("f0")] = "f0_offset"
+    for name, reason in (("nothing", ""), ("rho", "arrival times do not depend on it; ")):
+        with pytest.raises(twofold.Error) as error:
+            likelihood.log_likelihood({name: 1.0})
+        assert str(error.value) == f"{name} = 1.0: {reason}allowed are {', '.join(allowed)}"
 
 
 def test_it_goes_to_other_processes(model, data):

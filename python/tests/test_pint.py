@@ -26,7 +26,7 @@ from pint.residuals import Residuals  # noqa: E402
 from pint.toa import get_TOAs  # noqa: E402
 
 import twofold.pint  # noqa: E402
-from twofold.pint import _Beyond, _Star, add_wobble, wobble_limits  # noqa: E402
+from twofold.pint import _Beyond, _Projected, _Star, add_wobble, wobble_limits  # noqa: E402
 
 pint.logging.setup("ERROR")
 iers.conf.auto_download = False
@@ -124,6 +124,10 @@ def drawn(random):
         except twofold.Error:
             continue
         return _Star(f0, f1, wobble, chi, rate, phase, torque), with_wobble, with_wobble.moved(wobble=-wobble)
+
+
+def test_names_that_are_offered():
+    assert all(hasattr(twofold.pint, name) for name in twofold.pint.__all__)
 
 
 def test_turns_and_derivatives_are_those_of_the_timing_model():
@@ -435,11 +439,11 @@ def test_limits_with_white_noise_are_those_of_the_library(tmp_path):
     data = twofold.TimingData(times, np.full(150, sigma), rest=rest + noise, numbers=numbers)
     unknowns = ["phase", "f0", "f1"]
     periods = np.array([40.0, 180.0, 700.0, 3000.0])
-    for share in (0.0, 1.0):
+    for share, confidence in ((0.0, 0.95), (1.0, 0.5)):
         start = twofold.TimingModel(f0, f1=f1, chi=np.pi / 4, torque_share=share)
         fit = twofold.fit_timing(start, data, unknowns)
-        theirs = twofold.wobble_limits(fit.model, data, unknowns, periods * DAY, confidence=0.95)
-        ours = wobble_limits(model, toas, periods * u.day, chi=45 * u.deg, torque=share)
+        theirs = twofold.wobble_limits(fit.model, data, unknowns, periods * DAY, confidence=confidence)
+        ours = wobble_limits(model, toas, periods * u.day, chi=45 * u.deg, torque=share, probability=confidence)
         # Times in PINT are rounded to 1e-9 s, a thousandth of an error.
         assert ours["limit"].to_value(u.rad) == pytest.approx(theirs["limit"], rel=5e-3)
         assert ours["best"].to_value(u.rad) == pytest.approx(theirs["best"], rel=5e-3)
@@ -484,9 +488,170 @@ def test_the_gain_is_what_a_fit_finds(tmp_path):
     assert wobble < found["limit"].value[0]
 
 
+@pytest.fixture(scope="module")
+def exact(tmp_path_factory):
+    """Arrival times without noise of a star with a large wobble, and a model without one."""
+    random = np.random.default_rng(9)
+    star = twofold.TimingModel(
+        2.5, f1=-3.7e-13, wobble=0.2, chi=0.9, precession_rate=2 * np.pi / (400 * DAY), precession_phase=2.5, torque_share=0.3
+    )
+    times, rest = star.arrival(star.phase(np.sort(random.uniform(-1500, 1500, 120)) * DAY)[0])
+    days = (np.asarray(times, np.longdouble) + rest) / np.longdouble(DAY)
+    model = model_of("F0 2.5 1\nF1 -3.7e-13 1\n")
+    toas = toas_of(tmp_path_factory.mktemp("exact"), EPOCH + np.floor(days), days - np.floor(days), 1e-4, model, star.phase(times, rest)[0])
+    return model, toas
+
+
+GIVEN = {"period": 400 * u.day, "chi": 0.9 * u.rad, "torque": 0.3}
+
+
+def test_a_start_is_the_nearest_of_its_grid(exact):
+    """Of a wobble of 0.2 rad with the phase 2.5: phases a sixteenth of pi apart, wobbles of 14 to the power of a ratio of 90."""
+    model, toas = exact
+    for given in ({}, {"wobble": 0.2 * u.rad}, {"phase": 2.5 * u.rad}):
+        made = copy.deepcopy(model)
+        component = add_wobble(made, toas, **GIVEN, **given)
+        wobble, phase = component.WOBBLE.quantity.to_value(u.rad), component.WOBPHASE.quantity.to_value(u.rad)
+        assert (wobble == pytest.approx(0.2, rel=1e-12)) if "wobble" in given else 0.2 / 1.19 < wobble < 0.2 * 1.19
+        assert (phase == pytest.approx(2.5, rel=1e-12)) if "phase" in given else abs(phase - 2.5) < np.pi / 32
+        assert component.free_params_component == ["WOBBLE", "WOBPERIOD", "WOBPHASE"]
+        assert component.WOBTORQUE.value == 0.3 and component.WOBCHI.quantity == 0.9 * u.rad
+        # A multiple of a sixteenth of pi, and a place of the geometric row up to nine tenths of chi.
+        if "wobble" in given:
+            assert phase / (np.pi / 16) == pytest.approx(round(phase / (np.pi / 16)), abs=1e-9)
+        if "phase" in given:
+            place = np.log(wobble / (0.01 * 0.9)) / np.log(90.0) * 13
+            assert place == pytest.approx(round(place), abs=1e-9)
+
+
+def test_chi_squared_of_stars_is_that_of_their_residuals(exact):
+    model, toas = exact
+    data = _Projected(model, toas)
+    stars = [data.star(400.0, 0.9, 0.3, wobble, phase) for wobble, phase in ((0.1, 0.0), (0.2, 2.5), (0.01, 4.0))]
+    expected = [np.sum((data.residuals + data.project(_Beyond(star, data.t).turns / data.f0)) ** 2) for star in stars]
+    assert data.chi_squared(stars) == pytest.approx(expected, rel=1e-9, abs=1e-6)
+    # The star itself leaves what its frequency changes by, 2e-5, of residuals of some hundreds.
+    assert expected[1] < 0.2 < 1e4 < expected[2]
+    # What the model can take up is gone, also of arrivals with errors of their own.
+    toas = copy.deepcopy(toas)
+    toas.table["error"][:] = 100.0 * (1.0 + np.arange(len(toas)) % 3)
+    data = _Projected(model, toas)
+    columns = model.designmatrix(toas)[0]
+    for k in range(columns.shape[1]):
+        column = np.asarray(columns[:, k], float)
+        assert np.linalg.norm(data.project(column)) < 1e-10 * np.linalg.norm(column / data.sigma)
+
+
+def test_starts_of_any_star(exact):
+    model, toas = exact
+    data = _Projected(model, toas)
+    # Small wobbles of any phase are found by linear least squares.
+    for phase in (1.0, 4.0):
+        data.residuals = -data.project(_Beyond(data.star(400.0, 0.9, 0.3, 1e-3, phase), data.t).turns / data.f0)
+        assert twofold.pint._start(data, 400.0, 0.9, 0.3, None, None) == pytest.approx((1e-3, phase), rel=1e-2)
+    # The magnetic axis beyond the equator of the body.
+    assert 0.0 < twofold.pint._start(data, 400.0, 2.2, 0.3, None, 1.0)[0] < np.pi - 2.2
+    made = copy.deepcopy(model)
+    component = add_wobble(made, toas, period=0.5 / 365.25 * u.yr, chi=0.9 * u.rad, wobble=np.degrees(0.2) * u.deg)
+    assert component.WOBPERIOD.value == pytest.approx(0.5) and component.WOBTORQUE.value == 0.0
+    assert component.WOBBLE.quantity.to_value(u.rad) == pytest.approx(0.2)
+    days, years = (add_wobble(copy.deepcopy(model), toas, period=period, chi=0.9 * u.rad) for period in (400 * u.day, 400 / 365.25 * u.yr))
+    assert years.WOBPHASE.value == pytest.approx(days.WOBPHASE.value, rel=1e-6)
+    with pytest.raises(InvalidModelParameters, match="WOBPERIOD = 0.0 d: allowed is above 0"):
+        add_wobble(copy.deepcopy(model), toas, period=0 * u.day, chi=0.9 * u.rad)
+    falling = model_of(f"F0 2.5 1\nF1 {-2.5 * 0.2 / 1.29e8} 1\n")
+    with pytest.raises(InvalidModelParameters, match="F1 t / F0"):
+        wobble_limits(falling, toas, 100 * u.day)
+
+
+def test_derivatives_of_a_small_wobble(exact):
+    model, toas = exact
+    data = _Projected(model, toas)
+    for row, phase in zip(data.small(400.0, 0.9, 0.3), (0.0, np.pi / 2), strict=True):
+        turns = _Beyond(data.star(400.0, 0.9, 0.3, 1e-6, phase), data.t).turns
+        assert np.max(np.abs(row - data.project(turns / data.f0) / 1e-6)) < 1e-4 * np.max(np.abs(row))
+
+
+def test_limits_as_they_are_by_default(exact):
+    model, toas = exact
+    periods = [100.0, 300.0] * u.day
+    found, again = wobble_limits(model, toas, periods), wobble_limits(model, toas, periods, chi=np.pi / 4 * u.rad, torque=0.0, probability=0.95)
+    assert {name: value.unit for name, value in found.items()} == {"period": u.day, "best": u.rad, "phase": u.rad, "gain": u.one, "limit": u.rad}
+    for name, value in found.items():
+        assert value.value == pytest.approx(again[name].value, rel=1e-12)
+    assert np.array_equal(found["period"].value, periods.value)
+    half = wobble_limits(model, toas, [300 / 365.25, 0.5 / 365.25] * u.yr, probability=0.5)
+    assert half["best"][0].value == pytest.approx(found["best"][1].value, rel=1e-9)
+    phases = wobble_limits(model, toas, [100.0, 150.0, 200.0, 300.0, 500.0, 900.0] * u.day)["phase"].value
+    assert (phases >= 0.0).all() and np.pi < phases.max() < 2.0 * np.pi
+    # One period as a number.
+    assert wobble_limits(model, toas, 100 * u.day)["best"] == found["best"][:1]
+
+
+def test_limits_without_f1(exact):
+    _, toas = exact
+    data = _Projected(model_of("F0 2.5 1\n"), toas)
+    assert data.f1 == 0.0 and data.f0 == 2.5 and np.isfinite(data.residuals).all()
+
+
+def test_errors_of_arrivals_must_be_above_zero(exact):
+    model, toas = exact
+    toas = copy.deepcopy(toas)
+    toas.table["error"][3] = 0.0
+    with pytest.raises(ValueError, match="toas: allowed are arrival times with errors above zero"):
+        wobble_limits(model, toas, 100 * u.day)
+
+
+@pytest.mark.parametrize(
+    ("given", "expected"),
+    [((-2.0, 10.0), (2.0, 190.0)), ((-2.0, 350.0), (2.0, 170.0)), ((2.0, 370.0), (2.0, 10.0)), ((2.0, -30.0), (2.0, 330.0)), ((0.0, 30.0), (0.0, 30.0))],
+)
+def test_phases_of_a_positive_wobble(given, expected):
+    component = wobbling().components["Wobble"]
+    component.WOBBLE.value, component.WOBPHASE.value = given
+    component.positive()
+    assert (component.WOBBLE.value, component.WOBPHASE.value) == expected
+
+
+def test_stars_that_a_fit_may_try(spread):
+    for name, value, words in (
+        ("WOBPERIOD", 0.0, "WOBPERIOD = 0 d: allowed is above 0"),
+        ("WOBPERIOD", -3.0, "WOBPERIOD = -3 d: allowed is above 0"),
+        ("WOBTORQUE", -0.1, "WOBTORQUE = -0.1: allowed is from 0 to 1"),
+        ("WOBBLE", -71.0, "WOBBLE = -71 deg: allowed is below 70 deg"),
+    ):
+        model = wobbling()
+        getattr(model, name).value = value
+        with pytest.raises(InvalidModelParameters, match=words):
+            Residuals(spread, model)
+    # A tenth of the rotation, and no more.
+    star = _Star(1.0, -1e-9, 0.01, 1.0, 1e-7, 0.0, 0.0)
+    star.check(np.array([1.0, -1e8, 5.0]))
+    star.check(np.array([]))
+    with pytest.raises(InvalidModelParameters, match=r"F1 t / F0 = 0.101 at an arrival time: allowed is at most 0.1 in size: PEPOCH nearer"):
+        star.check(np.array([1.0, -1.01e8]))
+    assert _Beyond(star, np.array([])).turns.shape == (0,)
+
+
+def test_parameters_that_are_no_numbers_or_unknown(spread):
+    model = wobbling()
+    component = model.components["Wobble"]
+    with pytest.raises(ValueError, match="DM: allowed is one of WOBBLE, WOBCHI, WOBPERIOD, WOBPHASE, WOBTORQUE, F0, F1"):
+        component.d_wobble_phase_d_param(spread, "DM", model.delay(spread))
+    model.WOBTORQUE._quantity = None
+    with pytest.raises(MissingParameter, match="WOBTORQUE has no value: allowed is a number, in 1") as error:
+        model.validate()
+    assert (error.value.module, error.value.param) == ("Wobble", "WOBTORQUE")
+    fresh = twofold.pint.Wobble()
+    assert {name: getattr(fresh, name).value for name in fresh.params} == {"WOBBLE": 0.0, "WOBCHI": None, "WOBPERIOD": None, "WOBPHASE": 0.0, "WOBTORQUE": 0.0}
+    assert all(getattr(fresh, name).frozen for name in fresh.params) and fresh.category == "wobble"
+
+
 @pytest.mark.parametrize(
     ("given", "error"),
     [
+        ({"probability": 0.0}, "probability = 0.0: allowed is above 0 and below 1"),
+        ({"periods": [1.0, 0.0] * u.day}, "periods: 0.0 d: allowed is above 0"),
         ({"probability": 1.0}, "probability = 1.0: allowed is"),
         ({"periods": [-1.0, 2.0] * u.day}, "periods: -1.0 d: allowed"),
     ],

@@ -110,6 +110,74 @@ def test_shards_are_the_whole(sweep, one_core):
     assert pickle.loads(pickle.dumps(sweep)).run(0, 5).csv == sweep.run(0, 5).csv
 
 
+def test_more_scenes_than_are_computed_at_once():
+    """Some of 601 fail: the rows and their number are those of the parts."""
+    sweep = twofold.Sweep(toml=GRID.replace("draws = 4", "draws = 1").replace("from = 1.01, to = 2.02, points = 25", "from = -0.5, to = 2.0, points = 601"))
+    rows, errors, failed = sweep.rows(0, 601)
+    assert len(sweep) == 601 and rows.count(b"\n") == 601 and rows.count(b",failed,") == errors.count(b"\n") == failed > 120
+    parts = [sweep.rows(start, min(start + 100, 601)) for start in range(0, 601, 100)]
+    assert rows == b"".join(part[0] for part in parts) and errors == b"".join(part[1] for part in parts)
+    assert failed == sum(part[2] for part in parts)
+    assert sweep.rows(601, 601) == sweep.rows(7, 7) == (b"", b"", 0)
+
+
+def test_what_a_sweep_is(sweep, tmp_path):
+    assert repr(sweep) == f"<Sweep of 100 scenes, {sweep.header.count(b',') + 1} columns>" and sweep.toml == GRID
+    (tmp_path / "star.toml").write_text(twofold.Scene("tp-2").toml)
+    (tmp_path / "grid.toml").write_text(GRID.replace('"tp-2"', '"star.toml"'))
+    of_file = twofold.Sweep(tmp_path / "grid.toml")
+    again = pickle.loads(pickle.dumps(of_file))
+    assert again == of_file and again.run(0, 3).csv == of_file.run(0, 3).csv
+    assert of_file.run(2, 5).csv == sweep.run(2, 5).csv and len(of_file.run(2, 5)) == 3
+    assert sweep == twofold.Sweep(toml=GRID) and sweep != twofold.Sweep(toml=GRID.replace("seed = 1", "seed = 2"))
+    before = again
+    (tmp_path / "star.toml").write_text(twofold.Scene("tp-2", star={"spin": 1.1}).toml)
+    assert twofold.Sweep(tmp_path / "grid.toml") != before
+    for make in (twofold.Sweep, lambda: twofold.Sweep("grid.toml", toml=GRID)):
+        with pytest.raises(twofold.Error, match="one source"):
+            make()
+
+
+@pytest.mark.parametrize(("scenes", "expected"), [(1, 8), (2047, 8), (2560, 10), (65_536, 256), (10**6, 256)])
+def test_sizes_of_parts(scenes, expected):
+    """A 256th of the sweep, from 8 to 256."""
+
+    class Long(twofold.Sweep):
+        def __len__(self):
+            return scenes
+
+    parts = []
+
+    class Asked(Executor):
+        def submit(self, function, *arguments):
+            parts.append(arguments[-2:])
+            raise StopIteration
+
+    with pytest.raises((StopIteration, RuntimeError)):
+        Long(toml=GRID).map(Asked())
+    assert parts == [(0, min(expected, scenes))]
+
+
+def test_a_file_that_is_replaced_or_not(sweep, tmp_path):
+    """Rows handed over one part at a time; the errors of scenes that failed have a file of their own."""
+    path, failing = tmp_path / "table.csv", twofold.Sweep(toml=GRID.replace("from = 1.01", "from = -0.5"))
+    file = twofold._twofold.SweepFile(failing, path)
+    assert file.next == 0
+    for start in (0, 40):
+        file.append(min(start + 40, 100), *failing.rows(start, start + 40))
+        assert file.next == start + 40
+    file.append(100, *failing.rows(80, 100))
+    file.complete()
+    del file
+    assert path.read_bytes() == failing.header + failing.rows(0, 100)[0] and (tmp_path / "table.csv.errors.csv").exists()
+    for taken in (path, tmp_path / "table.csv.errors.csv"):
+        if taken.name == "table.csv.errors.csv":
+            path.unlink()
+        with pytest.raises(twofold.Error, match=f"{taken.name} exists: allowed is replace=True"):
+            twofold._twofold.SweepFile(sweep, path)
+    assert twofold._twofold.SweepFile(sweep, path, replace=True).next == 0
+
+
 def test_never_more_parts_at_once_than_allowed(sweep, one_core):
     class Lazy(Executor):
         most = pending = 0
@@ -129,6 +197,59 @@ def test_never_more_parts_at_once_than_allowed(sweep, one_core):
     lazy = Lazy()
     assert sweep.map(lazy, scenes_at_once=5, parts_at_once=4).csv == one_core
     assert lazy.most == 4 and lazy.pending == 0
+
+
+class Waits(Executor):
+    """Parts that are done when they are waited for; which were cancelled."""
+
+    def __init__(self):
+        self.cancelled, self.pending, self.most = [], 0, 0
+
+    def submit(self, function, *arguments):
+        owner = self
+        self.pending += 1
+        self.most = max(self.most, self.pending)
+
+        class Later(Future):
+            def result(self, timeout=None):
+                owner.pending -= 1
+                return function(*arguments)
+
+            def cancel(self):
+                owner.cancelled.append(arguments[-2:])
+
+        return Later()
+
+
+def test_sixty_four_parts_at_once(sweep, tmp_path):
+    for run in (sweep.map, lambda executor, **options: sweep.write(tmp_path / "table.csv", executor, **options)):
+        executor, told = Waits(), []
+        run(executor, scenes_at_once=1, progress=told.append)
+        # The file's executor has been woken up beside.
+        assert executor.most == 64 + (run != sweep.map) and executor.cancelled == []
+        assert told == [k / 100 for k in range(1, 101)]
+
+
+def test_what_waits_is_cancelled_after_an_error(sweep):
+    executor = Waits()
+
+    def stop(done):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        sweep.map(executor, scenes_at_once=10, parts_at_once=3, progress=stop)
+    assert executor.cancelled == [(10, 20), (20, 30)]
+
+
+class Late(twofold.Sweep):
+    def rows(self, start, stop):
+        raise TimeoutError("by the worker")
+
+
+@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
+def test_a_time_out_of_a_worker_is_its_own():
+    with processes("fork") as executor, pytest.raises(TimeoutError, match="by the worker"):
+        Late(toml=GRID).map(executor)
 
 
 @pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")

@@ -15,6 +15,10 @@ import twofold
 from twofold import units
 
 
+def test_names_that_are_offered():
+    assert all(hasattr(twofold.units, name) for name in twofold.units.__all__)
+
+
 def test_units_of_every_group_of_columns_are_read():
     paper = units.table(twofold.Scene("tp-2").table(["rates", "L", "integrals", "m.n"]))
     assert paper["t"].unit == units.t_c
@@ -124,6 +128,113 @@ def test_arrival_times_keep_both_of_their_parts():
     assert found.meta["F0"].to_value(u.Hz) == plain.frequency[0]
     assert found.meta["F1"].unit == u.Hz / u.s
     assert found.meta["PEPOCH"].mjd == float(plain.epoch)
+
+
+#: Of docs/scenes.md, with a quantity in another unit and the number that a scene file would have.
+KEYS = [
+    ("star", "inertia_ratio", 110 * u.percent, 1.1),
+    ("star", "oblateness", 0.1 * u.percent, 1e-3),
+    ("star", "bulge", 2 * u.percent, 0.02),
+    ("star", "spin", 90 * u.deg / units.t_c, np.pi / 2),
+    ("star", "mass", 1.98840987e30 * u.kg, 1.0),
+    ("star", "radius", 1.2e6 * u.cm, 12.0),
+    ("star", "density", 4e17 * u.kg / u.m**3, 4e14),
+    ("star", "precession_period", 12 * u.h, 0.5),
+    ("star", "spin_frequency", -2 * np.pi * u.rad / u.s, -1.0),
+    ("star", "frequency", 2 * u.kHz, 2000.0),
+    ("spin_down", "f1", -2e-13 * np.pi * u.rad / u.s**2, -1e-13),
+    ("spin_down", "f2", 2e-25 * np.pi * u.rad / u.s**3, 1e-25),
+    ("spin_down", "index", 300 * u.percent, 3.0),
+    ("lorentz_violation", "eigenvalues", [2, 1, -3] * u.percent, [0.02, 0.01, -0.03]),
+    ("lorentz_violation", "tensor", np.diag([2, 1, -3]) * u.percent, [[0.02, 0.0, 0.0], [0.0, 0.01, 0.0], [0.0, 0.0, -0.03]]),
+    ("lorentz_violation", "alpha_2", 1e-7 * u.percent, 1e-9),
+    ("lorentz_violation", "w", [299.792458, 0.0, -2997.92458] * u.km / u.s, [1e-3, 0.0, -1e-2]),
+    ("lorentz_violation", "w", [0.1, 0.0, -1.0] * u.percent, [1e-3, 0.0, -1e-2]),
+    *(("initial", key, 90 * u.deg, np.pi / 2) for key in "alpha beta gamma alpha_0 beta_0 phase wobble azimuth precession_phase".split()),
+    *(("initial", key, 90 * u.deg / units.t_c, np.pi / 2) for key in ("alpha_rate", "beta_rate", "amplitude")),
+    *(("initial", key, 90 * u.deg / u.ms, 500 * np.pi) for key in ("alpha_rate", "beta_rate", "amplitude")),
+    *(("observer", key, 90 * u.deg, np.pi / 2) for key in ("theta_o", "phi_o", "inclination", "azimuth")),
+    ("observer", "distance", 2 * u.Mpc, 2000.0),
+    *(("pulsar", key, 90 * u.deg, np.pi / 2) for key in ("chi", "delta", "rho")),
+    *(("time", key, 2 * u.min, 120.0) for key in ("start", "span", "end")),
+    *(("time", key, 2 * units.t_c, 2.0) for key in ("start", "span", "end")),
+    ("time", "times", [1, 2] * u.h, [3600.0, 7200.0]),
+    ("time", "years", 730.5 * u.d, 2.0),
+]
+
+
+@pytest.mark.parametrize(("section", "key", "quantity", "number"), KEYS)
+def test_every_key_has_its_unit(section, key, quantity, number):
+    found = units._plain(section, key, quantity, [], [])
+    assert np.ravel(found) == pytest.approx(np.ravel(number), rel=1e-9)
+    assert np.shape(found) == np.shape(number) and isinstance(found, type(number))
+    with pytest.raises(twofold.Error, match=f"^{section}.{key} = .*: allowed is a quantity in "):
+        units._plain(section, key, 1 * u.ampere, [], [])
+
+
+def test_every_key_is_in_the_list():
+    assert {(section, key) for section, key, _, _ in KEYS} == set(units._KEYS)
+
+
+def test_sections_and_texts_without_quantities():
+    assert units.scene("tp-1", about="A star", pulsar=None) == twofold.Scene("tp-1", about="A star", pulsar=None)
+    text = twofold.Scene("tp-2").toml
+    assert units.scene(toml=text, time={"span": 30 * units.t_c}) == twofold.Scene(toml=text, time={"span": 30.0})
+    with pytest.raises(twofold.Error, match=r"time.span = 3.0 t_c: allowed is a quantity in s"):
+        units.scene("b1828-11", time={"span": 3 * units.t_c, "years": None})
+    with pytest.raises(twofold.Error, match="time.span = .*: allowed is a date for time.epoch alone"):
+        units.scene("b1828-11", time={"span": Time(50000.0, format="mjd", scale="tdb")})
+
+
+def test_rates_of_a_physical_star():
+    pulsar = {"mass": 1.35, "radius": 11.5, "oblateness": 1.2e-3, "spin_frequency": -23.4}
+    start = {"alpha": 0.4, "beta": 0.9, "alpha_rate": 8.0, "beta_rate": 3.0}
+    others = {"star": pulsar, "lorentz_violation": {"eigenvalues": [0.0, 0.0, 0.0]}, "time": {"span": 1.0, "samples": 2}}
+    by_hand = twofold.Scene(initial=start, **others)
+    made = units.scene(initial={**start, "alpha_rate": np.degrees(8.0) * u.deg / u.s}, **others)
+    np.testing.assert_allclose(made.motion().axis(1.0), by_hand.motion().axis(1.0), atol=1e-9)
+    momentum = units.state(made.motion(), 0 * u.s)[1]
+    # A sphere of 1.42e45 g cm^2 but for a part in a thousand, at 147 rad/s and a little more.
+    assert np.linalg.norm(momentum.to_value(u.kg * u.m**2 / u.s)) == pytest.approx(1.42e38 * 147.3, rel=5e-3)
+    assert momentum.unit == u.g * u.cm**2 / u.s
+
+
+def test_an_epoch_keeps_its_digits():
+    made = units.scene("b1828-11", time={"epoch": Time(55321.0, 0.1234567890123, format="mjd", scale="tdb")})
+    assert made.epoch == "55321.1234567890123"
+    terrestrial = Time(55321.0, 0.5, format="mjd", scale="tai")
+    assert float(units.scene("b1828-11", time={"epoch": terrestrial}).epoch) == pytest.approx(55321.5 + 32.184 / 86400, abs=1e-7)
+
+
+def test_angles_of_any_unit_and_words():
+    turned = units.scene("b1828-11", pulsar={"right_ascension": Angle(277.5 * u.deg), "declination": Angle(np.radians(10.5) * u.rad)})
+    assert '"18:30:00.00000000"' in turned.toml and '"+10:30:00.0000000"' in turned.toml
+    words = {"right_ascension": "18:30:47.567", "declination": "-10:59:27.92"}
+    assert units.scene("b1828-11", pulsar=words) == twofold.Scene("b1828-11", pulsar=words)
+    assert units.scene("b1828-11", pulsar={"rho": Angle(6 * u.deg)}) == twofold.Scene("b1828-11", pulsar={"rho": (6 * u.deg).to_value(u.rad)})
+
+
+def test_dates_are_counted_from_the_start():
+    """Where the epoch is that of another time than zero."""
+    star = twofold.Scene("b1828-11", time={"start": 12.0})
+    assert units.times(star, Time(49621.5, format="mjd", scale="tdb")) == pytest.approx(43212.0, abs=1e-6)
+
+
+def test_what_a_fit_to_arrivals_leaves_in_the_table():
+    pulsar = twofold.Scene("b1828-11").pulsar()
+    dates = Time([50000.0, 50300.0, 50700.0, 51000.0, 52000.0], format="mjd", scale="tdb")
+    whole, first = units.arrivals(pulsar, dates), units.arrivals(pulsar, dates, derivatives=1)
+    assert whole.meta["F2"].unit == u.Hz / u.s**2 and "F2" not in first.meta and first.meta["F1"].unit == u.Hz / u.s
+    assert whole.meta["F0_REST"].to_value(u.Hz) == pulsar.arrivals(dates.mjd).frequency[1]
+    assert whole.meta["PEPOCH"].scale == whole["arrival"].scale == "tdb"
+    assert "arrival_fraction" not in whole.colnames and "torque" not in whole.colnames
+    assert len(units.arrivals(pulsar)) == len(pulsar.arrivals().table) == 1000
+
+
+def test_units_of_numbers_and_powers():
+    assert units.unit("") is None and units.unit("1") == u.dimensionless_unscaled
+    assert units.unit("1/s") == u.Hz and units.unit("(g cm^2/s)^2") == (u.g * u.cm**2 / u.s) ** 2
+    assert [units.unit(text) for text in ("d", "MJD", "yr", "kpc", "km", "erg", "Hz/s", "deg")] == [u.d, u.d, u.yr, u.kpc, u.km, u.erg, u.Hz / u.s, u.deg]
 
 
 def test_a_missing_package_is_named():

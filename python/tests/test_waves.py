@@ -1,5 +1,8 @@
 """Harmonics against the whole wave, counted turns, series."""
 
+import sys
+import types
+
 import numpy as np
 import pytest
 import twofold
@@ -16,6 +19,10 @@ def source(eigenvalues=(0.0, 0.0, 0.0), momentum=(0.5, 0.3, 0.8), spin=100.0, **
         initial={"momentum": list(momentum)},
         observer=observer,
     ).pulsar()
+
+
+def test_names_that_are_offered():
+    assert all(hasattr(twofold.waves, name) for name in twofold.waves.__all__)
 
 
 def added(pulsar, reference, dt, hands, knot_distance=None):
@@ -95,6 +102,49 @@ def test_phases_are_counted_alike_one_by_one_and_at_once():
     assert abs(twice[0] - 2 * phase).max() <= 1e-9
 
 
+def test_turns_between_knots_far_apart():
+    """A star that slows down: between knots 1e5 s apart the phase is 8 rad beside a straight line, and on the cubic."""
+    sections = {"time": {"epoch": "58000.0"}, "pulsar": {"chi": 1.0, "rho": 0.3}, "spin_down": {"f1": -1e-9, "torque": "constant"}}
+    pulsar = twofold.Scene("wave-source", **sections).pulsar()
+    dt = np.linspace(-2e6, 2e6, 2001)
+    near, far = (Waveform(pulsar, "once", reference=1e5, knot_distance=distance)(dt)[0] for distance in (None, 1e5))
+    assert abs(near - far).max() <= 2e-7
+
+
+def test_knots_are_added_as_they_are_needed():
+    """One time after another, farther and farther to both sides, or all at once."""
+    pulsar = source()
+    times = np.array([10.0, -10.0, 1e3, -2e3, 3e4, -5e4, 2e5, -1e5])
+    whole, _, _ = Waveform(pulsar, "once", reference=50.0)(times)
+    grown = Waveform(pulsar, "once", reference=50.0)
+    assert [grown(t)[0] for t in times] == list(whole)
+
+
+def test_how_far_a_phase_may_be_beside_the_smooth_one():
+    waveform = Waveform(source(), "once")
+    assert np.array_equal(waveform._missed(np.array([0.499, 2 * np.pi - 0.499])).round(9), [0.499, -0.499])
+    for off in (0.501, 1.4, -0.501, np.nan):
+        with pytest.raises(twofold.Error, match="take a smaller distance"):
+            waveform._missed(np.array([0.0, off]))
+    with pytest.raises(twofold.Error, match=r"dt = 2.000e\+03 s in size: allowed are a million knots, up to 1.000e\+03 s; take a reference nearby"):
+        Waveform(source(), "once", reference=500.0, knot_distance=1e-3)(2000.0)
+
+
+def test_hands_are_circular_and_the_right_one_is_seen_from_the_pole():
+    """By `h_+ = a cos(dphi)` and `h_x = a sin(dphi)`. Seen along L, the wave of twice a turn is all of one hand, and seen against it of the other."""
+    dt = np.arange(6.0).reshape(2, 3)
+    for inclination, strong, weak in (("1e-6 deg", "right", "left"), ("179.999999 deg", "left", "right")):
+        pulsar = source(inclination=inclination, azimuth="40 deg")
+        sizes = {}
+        for hand, sign in (("right", 1.0), ("left", -1.0)):
+            phase, plus, cross = Waveform(pulsar, "twice", hand=hand)(dt)
+            assert phase.shape == plus.shape == cross.shape == (2, 3)
+            assert np.array_equal(cross, sign * plus)
+            sizes[hand] = abs(plus).max()
+        assert sizes[weak] < 1e-12 * sizes[strong]
+        assert sizes[strong] == pytest.approx(pulsar.wave_harmonics(0.0)[1], rel=1e-9)
+
+
 def test_a_star_that_slows_down():
     sections = {"time": {"epoch": "58000.0"}, "pulsar": {"chi": 1.0, "rho": 0.3}, "spin_down": {"f1": -1e-9, "torque": "constant"}}
     pulsar = twofold.Scene("wave-source", **sections).pulsar()
@@ -117,6 +167,12 @@ def test_what_is_refused():
         Waveform(pulsar, "once", reference=np.nan)
     with pytest.raises(twofold.Error, match="knot_distance = 0"):
         Waveform(pulsar, "once", knot_distance=0.0)
+    with pytest.raises(twofold.Error, match="knot_distance = inf"):
+        Waveform(pulsar, "once", knot_distance=np.inf)
+    upright = twofold.Scene("wave-source", time={"epoch": "58000.0"}, pulsar={"chi": 1.0, "rho": 0.3}, initial={"wobble": 0.0}).pulsar()
+    with pytest.raises(twofold.Error, match="the wobble is zero: allowed is a star with a wave"):
+        Waveform(upright, "once")
+    assert Waveform(pulsar, "once").knot_distance == 16384 * pulsar.period
     with pytest.raises(twofold.Error, match="dt: allowed are finite numbers"):
         Waveform(pulsar, "once")(np.inf)
     with pytest.raises(twofold.Error, match="a million knots"):
@@ -141,9 +197,60 @@ def test_series_in_equal_steps():
     assert plus.shape == cross.shape == (512,)
     whole = pulsar.wave(3.0 + np.arange(512) / 1024)
     assert np.array_equal(plus, whole[0]) and np.array_equal(cross, whole[1])
-    for arguments in ((np.nan, 1.0, 16.0), (0.0, -1.0, 16.0), (0.0, 1.0, 0.0), (0.0, 1e9, 1e9)):
-        with pytest.raises(twofold.Error):
-            strain(pulsar, *arguments)
+    assert strain(pulsar, 3.0, 1.0, 1.0, gwpy=False)[0] == pulsar.wave(3.0)[0]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ((np.nan, 1.0, 16.0), "start = nan s: allowed is a finite number"),
+        ((0.0, -1.0, 16.0), "duration = -1.0 s: allowed is a finite number above zero"),
+        ((0.0, 0.0, 16.0), "duration = 0.0 s: allowed"),
+        ((0.0, np.inf, 16.0), "duration = inf s: allowed"),
+        ((0.0, 1.0, 0.0), "rate = 0.0 Hz: allowed is a finite number above zero"),
+        ((0.0, 0.4, 1.0), "duration = 0.4 s at rate = 1.0 Hz: allowed are 1 to 1e9 samples"),
+        ((0.0, 1e9 + 1, 1.0), "duration = 1000000001.0 s at rate = 1.0 Hz: allowed are 1 to 1e9 samples"),
+    ],
+)
+def test_series_that_cannot_be(arguments, words):
+    with pytest.raises(twofold.Error, match=words):
+        strain(source(), *arguments)
+
+
+def test_the_largest_series_is_allowed(monkeypatch):
+    """A thousand million samples: seen as they are asked for, not made."""
+    monkeypatch.setattr(np, "arange", lambda count: pytest.fail("made") if count > 10**9 else np.float64(count))
+    plus, _ = strain(source(), -1e9, 1e9, 1.0, gwpy=False)
+    assert plus == source().wave(0.0)[0]
+
+
+def test_what_is_handed_to_gwpy(monkeypatch):
+    """Times of GPS: MJD 58000 TDB is 51.184 s before 1188518400 s of GPS counted in days of 86400 s from 1980 January 6."""
+    module = types.ModuleType("gwpy.timeseries")
+    module.TimeSeries = lambda values, **options: (values, options)
+    monkeypatch.setitem(sys.modules, "gwpy", types.ModuleType("gwpy"))
+    monkeypatch.setitem(sys.modules, "gwpy.timeseries", module)
+    pulsar = source()
+    whole = strain(pulsar, 3.0, 0.5, 16.0, gwpy=False)
+    begin = (58000 - 44244) * 86400 - 51.184 + 3.0
+    for given in (None, True):
+        for (values, options), expected, name in zip(strain(pulsar, 3.0, 0.5, 16.0, gwpy=given), whole, ("h_plus", "h_cross"), strict=True):
+            assert np.array_equal(values, expected)
+            assert options == {"t0": pytest.approx(begin, abs=1e-6), "sample_rate": 16.0, "unit": "strain", "name": name}
+
+
+def test_without_gwpy_arrays_are_given(monkeypatch):
+    monkeypatch.setitem(sys.modules, "gwpy", None)
+    pulsar = source()
+    assert np.array_equal(strain(pulsar, 3.0, 0.5, 16.0), strain(pulsar, 3.0, 0.5, 16.0, gwpy=False))
+    with pytest.raises(ImportError):
+        strain(pulsar, 3.0, 0.5, 16.0, gwpy=True)
+
+
+def test_what_a_waveform_says_of_itself():
+    pulsar = source()
+    assert repr(Waveform(pulsar, "once", reference=2)) == f"Waveform({pulsar!r}, 'once', reference=2.0)"
+    assert repr(Waveform(pulsar, "twice", hand="left")) == f"Waveform({pulsar!r}, 'twice', reference=0.0, hand='left')"
 
 
 def test_series_of_gwpy():

@@ -78,7 +78,7 @@ class TimingLikelihood(_Likelihood):  # type: ignore[misc, valid-type]
             columns = derivatives[:, [TimingModel.names.index(name) for name in self.marginalised]] * self._scale[:, None]
             sizes = np.linalg.norm(columns, axis=0)
             self._basis, values, _ = np.linalg.svd(columns / sizes, full_matrices=False)
-            if not values.min() > 1e-10 * values.max():
+            if len(values) < len(sizes) or not values.min() > 1e-10 * values.max():
                 raise Error(f"marginalised: {', '.join(self.marginalised)}: allowed are parameters that the arrival times determine")
             # The integral of exp(-chi^2/2) over the parameters.
             self._norm += len(sizes) / 2 * np.log(2 * np.pi) - np.log(values).sum() - np.log(sizes).sum()

@@ -49,10 +49,10 @@ class _Star:
         least = min(self.chi, np.pi - self.chi)
         if not 0.0 < least:
             raise InvalidModelParameters(f"WOBCHI = {degrees[1]}: allowed is above 0 and below 180 deg")
-        if not abs(self.wobble) < min(least, np.pi / 2):
+        if not abs(self.wobble) < least:
             raise InvalidModelParameters(
-                f"WOBBLE = {degrees[0]}: allowed is below {np.degrees(min(least, np.pi / 2)):.12g} deg, which is how far"
-                f" WOBCHI = {degrees[1]} is from 0 or from 180 deg, and below 90 deg"
+                f"WOBBLE = {degrees[0]}: allowed is below {np.degrees(least):.12g} deg, which is how far"
+                f" WOBCHI = {degrees[1]} is from 0 or from 180 deg"
             )
         if not (self.rate > 0.0 and np.isfinite(self.rate)):
             raise InvalidModelParameters(f"WOBPERIOD = {2 * np.pi / self.rate / DAY:.12g} d: allowed is above 0")
@@ -128,6 +128,9 @@ class _Beyond:
     @cached_property
     def derivatives(self) -> dict[str, np.ndarray]:
         """Derivatives of the turns by the fields of the star, in their units, and by the time (`t`)."""
+        return self._derivatives()
+
+    def _derivatives(self) -> dict[str, np.ndarray]:
         star, kappa, tau = self.star, self.kappa, self.tau
         wobble, chi = star.wobble, star.chi
         (sin_w, cos_w), (sin_chi, cos_chi) = (np.sin(wobble), np.cos(wobble)), (np.sin(chi), np.cos(chi))
@@ -436,7 +439,7 @@ def _start(
     data: _Projected, days: float, chi: float, torque: float, wobble: float | None, phase: float | None
 ) -> tuple[float, float]:
     """The wobble and its phase (rad) that agree best with data."""
-    most = min(chi, np.pi - chi, np.pi / 2.0)
+    most = min(chi, np.pi - chi)
     x = np.linalg.lstsq(data.small(days, chi, torque).T, -data.residuals, rcond=None)[0]
     linear = (float(np.hypot(*x)), float(np.arctan2(x[1], x[0]) % (2.0 * np.pi)))
     wobbles = np.geomspace(0.01, 0.9, 14) * most if wobble is None else [wobble]

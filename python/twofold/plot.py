@@ -31,7 +31,7 @@ try:
 except ImportError as error:
     raise ImportError(f"twofold.plot needs matplotlib ({error}): pip install 'twofold[plot]'") from error
 
-from twofold._twofold import Error, Motion, Scene, Table, Timing
+from twofold._twofold import Error, Motion, Scene, Timing
 
 __all__ = ["COLUMN", "PAGE", "angles", "arrivals", "frame", "pulses", "spectrum", "sphere", "style", "waterfall"]
 
@@ -189,7 +189,7 @@ def pulses(scene: Scene, *, axes: Sequence[Axes] | None = None) -> list[Axes]:
     """
     table = scene.pulses()
     panels = _panels(axes, 2, COLUMN, 1.25)
-    whole = np.array([cut == "" for cut in _words(table, "cut")], dtype=bool)
+    whole = np.array([cut == "" for cut in table["cut"]])
     if not whole.any():
         raise Error(f"scene {scene.name}: it has no whole pulse in its span")
     for beam in (1, 2):
@@ -227,7 +227,7 @@ def waterfall(
     """The shapes of pulses as shades, later turns above earlier ones.
 
     A pulsar with a `time.epoch` is shown over the years of the scene, at `rows` of its epochs, against the time from the pulse that the fit of its frequency foretells. Other scenes are
-    shown turn by turn, folded with their mean period. `window` is the first and last time shown of a turn, in the unit of the scene; if it is not given the pulses fill half of it, or
+    shown turn by turn, folded with their mean period. `window` is the first and last time shown of a turn, in the unit of the scene; if it is not given the pulses fill two thirds of it, or
     it is a turn.
 
     `intensity` is that of the beam as a function of the angle from its axis, in units of `pulsar.rho`; by default a Gaussian that falls to a tenth at the edge, so that the pulse is as
@@ -337,7 +337,7 @@ def spectrum(
         taken.append(place)
         if room:
             axes.annotate(
-                _combination(_words(table, "combination")[k]), (place, height[k]), xytext=(0, 3),
+                _combination(table["combination"][k]), (place, height[k]), xytext=(0, 3),
                 textcoords="offset points", rotation=90, ha="center", va="bottom", fontsize=_SMALL,
             )  # fmt: skip
     axes.set_ylabel(f"amplitude of {_COLUMNS.get(column, column)}", fontsize=_LABEL)
@@ -404,11 +404,6 @@ _COLUMNS = {
 def _combination(text: str) -> str:
     """`alpha' - 2 l'` as a formula, without the dashes of rates."""
     return "$" + re.sub(r"\b(alpha|gamma|nu|psi)\b", r"\\\1", text.replace("'", "")) + "$"
-
-
-def _words(table: Table, name: str) -> list[str]:
-    # A column without any word is read as missing numbers.
-    return [word if isinstance(word, str) else "" for word in table[name]]
 
 
 def _sampled(scene: Scene, until: float | None, samples: int) -> Scene:

@@ -95,8 +95,6 @@ def unit(text: str) -> u.UnitBase | None:
     """The unit that a table writes as `text`: `"rad/t_c"`, `"g cm^2/s"`. None of a column without one, of counts and words."""
     if text == "":
         return None
-    if text == "1":
-        return _ONE
     square = re.fullmatch(r"\((.*)\)\^(\d)", text)
     if square:
         return (unit(square[1]) or _ONE) ** int(square[2])
@@ -186,7 +184,7 @@ def _plain(section: str, key: str, value: Any, in_tc: list[str], in_seconds: lis
     if isinstance(wanted, u.Quantity):
         value, wanted = value / wanted, _ONE
     found = _value(name, value, wanted)
-    return found.tolist() if isinstance(found, np.ndarray) else float(found)
+    return np.asarray(found).tolist()
 
 
 def _value(name: str, value: Any, wanted: Any) -> Any:

@@ -19,9 +19,6 @@ use serde_json::{Value, json};
 use crate::package::Package;
 use suite::{Outcome, Suite, Test};
 
-/// Tests of one process together take about this long without a mutant (s).
-const BATCH: f64 = 0.4;
-
 /// Runs the campaign, with `budget` seconds of tests for each mutant in files that begin with `prefix`.
 ///
 /// Reads `mutants.json`, keeps `coverage.json` and appends to `results.jsonl`, all in the tree; goes on where it stopped. What is listed as
@@ -188,7 +185,7 @@ fn judge(
         while at >= 2
             && at < order.len()
             && tests[order[at]].binary == binary
-            && time + tests[order[at]].seconds < BATCH
+            && time + tests[order[at]].seconds < suite.batch
         {
             time += tests[order[at]].seconds;
             batch.push(order[at]);

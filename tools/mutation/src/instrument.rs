@@ -135,7 +135,7 @@ fn prepare(tree: &Path, package: &Package) -> Result<(), String> {
     let root = tree.join(package.sources).join("lib.rs");
     let text = fs::read_to_string(&root).map_err(|e| e.to_string())?;
     if !text.contains("mod mutation;") {
-        let at = text.find("\npub mod ").ok_or("lib.rs has no public module")?;
+        let at = text.find("\npub mod ").or_else(|| text.find("\nmod ")).ok_or("lib.rs has no module")?;
         let (head, tail) = text.split_at(at);
         fs::write(&root, format!("{head}\n#[allow(missing_docs)] pub mod mutation;{tail}"))
             .map_err(|e| e.to_string())?;

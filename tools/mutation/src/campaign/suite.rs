@@ -1,4 +1,4 @@
-//! The test binaries of the rewritten tree, and how one is run with a mutant.
+//! The test binaries of the rewritten tree, or the tests of its module for Python, and how one is run with a mutant.
 
 use std::io::Read;
 use std::os::unix::process::CommandExt;
@@ -24,11 +24,17 @@ pub struct Test {
 pub struct Binary {
     pub path: PathBuf,
     pub folder: PathBuf,
+    /// Arguments before the names of tests.
+    run: &'static [&'static str],
+    /// Arguments by which it lists them.
+    list: &'static [&'static str],
 }
 
 /// All binaries.
 pub struct Suite {
     pub binaries: Vec<Binary>,
+    /// Tests of one process together take about this long without a mutant (s). Most of it is the start, for Python.
+    pub batch: f64,
 }
 
 /// How a run ended; of one that failed, its output.
@@ -44,6 +50,9 @@ const MEMORY: u64 = 4_000_000;
 impl Suite {
     /// Compiles the tests that reach the package; of the binaries, those with the names `only` (`lib`: the tests within the sources).
     pub fn build(tree: &Path, package: &Package, only: Option<&str>) -> Result<Self, String> {
+        if package.tested_by.is_empty() {
+            return Self::of_python(tree, package);
+        }
         let mut command = Command::new("cargo");
         command.args(["test", "--no-run", "--profile", "mutants", "--message-format", "json"]);
         match only {
@@ -58,40 +67,56 @@ impl Suite {
         package.tested_by.iter().for_each(|name| {
             command.args(["-p", name]);
         });
-        let output = command
-            .env("RUSTFLAGS", "--cap-lints=allow")
-            .current_dir(tree)
-            .stderr(Stdio::inherit())
-            .output()
-            .map_err(|e| format!("cargo: {e}"))?;
-        if !output.status.success() {
-            return Err("the tests do not compile".into());
-        }
         let mut binaries = Vec::new();
-        for line in String::from_utf8_lossy(&output.stdout).lines() {
-            let Ok(message) = serde_json::from_str::<Value>(line) else { continue };
+        for message in built(&mut command, tree)? {
             let is_test = message["profile"]["test"] == true || message["target"]["kind"][0] == "test";
             if let (Some(path), true) = (message["executable"].as_str(), is_test) {
                 let manifest = Path::new(message["manifest_path"].as_str().unwrap_or(""));
                 let folder = manifest.parent().unwrap_or(tree).to_path_buf();
-                binaries.push(Binary { path: path.into(), folder });
+                let run = &["--exact", "--test-threads", "1"];
+                binaries.push(Binary { path: path.into(), folder, run, list: &["--list", "--format", "terse"] });
             }
         }
-        Ok(Self { binaries })
+        Ok(Self { binaries, batch: 0.4 })
+    }
+
+    /// Compiles the module for Python into the package beside it, for pytest by the Python of `scripts/python`. Left out are tests of the Python around the module, and
+    /// slow ones of what arguments do at its border.
+    fn of_python(tree: &Path, package: &Package) -> Result<Self, String> {
+        let mut command = Command::new("cargo");
+        command.args(["build", "--lib", "-p", package.name, "--profile", "mutants", "--message-format", "json"]);
+        // Symbols of Python are found when it loads the module.
+        let messages = built(command.env("PYO3_BUILD_EXTENSION_MODULE", "1"), tree)?;
+        let is_module = |message: &&Value| message["target"]["name"] == "_twofold";
+        let module = messages.iter().find(is_module).and_then(|message| message["filenames"][0].as_str());
+        let module = module.ok_or("no module was built")?;
+        std::fs::copy(module, tree.join("python/twofold/_twofold.abi3.so")).map_err(|e| format!("{module}: {e}"))?;
+        let path = std::path::absolute("target/python/bin/python").map_err(|e| e.to_string())?;
+        let run = &["-m", "pytest", "-q", "-x", "--tb=no", "-p", "no:cacheprovider"];
+        let list = &[
+            "-m",
+            "pytest",
+            "-q",
+            "--collect-only",
+            "tests/test_core.py",
+            "tests/test_sweep.py",
+            "tests/test_worked_pulsar.py",
+        ];
+        Ok(Self { binaries: vec![Binary { path, folder: tree.join("python"), run, list }], batch: 20.0 })
     }
 
     /// Names of the tests of a binary.
     pub fn names(&self, binary: usize) -> Result<Vec<String>, String> {
         let binary = &self.binaries[binary];
         let output = Command::new(&binary.path)
-            .args(["--list", "--format", "terse"])
+            .args(binary.list)
             .current_dir(&binary.folder)
             .output()
             .map_err(|e| format!("{}: {e}", binary.path.display()))?;
         let text = String::from_utf8_lossy(&output.stdout).to_string();
         Ok(text
             .lines()
-            .filter_map(|line| line.strip_suffix(": test"))
+            .filter_map(|line| line.strip_suffix(": test").or_else(|| line.contains("::").then_some(line)))
             .map(|n| n.rsplit("] ").next().unwrap_or(n).to_string())
             .collect())
     }
@@ -104,7 +129,7 @@ impl Suite {
             .arg("-c")
             .arg(format!("ulimit -v {MEMORY}; exec \"$0\" \"$@\""))
             .arg(&binary.path)
-            .args(["--exact", "--test-threads", "1"])
+            .args(binary.run)
             .args(names)
             .current_dir(&binary.folder)
             .env("FAIL_FAST", "1")
@@ -137,6 +162,20 @@ impl Suite {
             Some(_) => Outcome::Failed(output),
         }
     }
+}
+
+/// What cargo says of a build.
+fn built(command: &mut Command, tree: &Path) -> Result<Vec<Value>, String> {
+    let output = command
+        .env("RUSTFLAGS", "--cap-lints=allow")
+        .current_dir(tree)
+        .stderr(Stdio::inherit())
+        .output()
+        .map_err(|e| format!("cargo: {e}"))?;
+    if !output.status.success() {
+        return Err("the tests do not compile".into());
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).lines().filter_map(|line| serde_json::from_str(line).ok()).collect())
 }
 
 /// How the leader of a process group ended; none if it had to be stopped. What it has started ends with it: a mutant that runs for ever would
