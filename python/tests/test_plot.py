@@ -317,7 +317,7 @@ def test_spans_that_are_written_in_other_ways():
     assert len(plot.angles(scene, until=10.0)[0].figure.axes) == 2
     printed = drawn(plot.angles(twofold.Scene("tp-2"), until=10.0)[1], "perturbation, printed")
     np.testing.assert_allclose(printed[0], np.linspace(0.0, 10.0, 1001), atol=1e-12)
-    assert len(plot.angles(twofold.Scene("free"), until=10.0)[0].lines) == 1
+    assert len(plot.angles(twofold.Scene("free", output={"columns": ["m.n"]}), until=10.0)[0].lines) == 1
 
 
 def test_a_beam_is_a_gaussian_that_falls_to_a_tenth():

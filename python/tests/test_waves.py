@@ -177,8 +177,9 @@ def test_what_is_refused():
         Waveform(pulsar, "once")(np.inf)
     with pytest.raises(twofold.Error, match="a million knots"):
         Waveform(pulsar, "once", knot_distance=1e-3)(2000.0)
-    with pytest.raises(twofold.Error, match="observer.distance"):
-        Waveform(source(distance=None), "once")
+    nowhere = twofold.Scene("wave-source", time={"epoch": "58000.0"}, pulsar={"chi": 1.0, "rho": 0.3}, observer={"distance": None}, output=None).pulsar()
+    with pytest.raises(twofold.Error, match="^the scene lacks `observer.distance`"):
+        Waveform(nowhere, "once")
     strong = source(eigenvalues=(1e-2, 0.5e-2, -1.5e-2), spin=2.0)
     with pytest.raises(twofold.Error, match="knot_distance = .* smaller distance"):
         Waveform(strong, "once", hand="right")(np.linspace(0.0, 1e4, 101))

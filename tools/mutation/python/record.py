@@ -75,6 +75,9 @@ def main(tree):
             if status in CAUGHT:
                 counts[path.name]["caught"] += 1
                 continue
+            if code is None:
+                counts[path.name]["not run"] += 1
+                continue
             before, after = read_functions_from_index(name, path)
             lines = get_diff_for_mutant(name, path=path).splitlines()[2:]
             was, now = (" ".join(line[1:].strip() for line in lines if line.startswith(sign)) for sign in "-+")
@@ -84,7 +87,7 @@ def main(tree):
             counts[path.name][kind] += 1
             if kind == "left":
                 left.append(f"{path.name}\t{before.name.value}\t{was}\t{now}\t{status}\n")
-    kinds = ("caught", "equivalent", "no value", "left")
+    kinds = ("caught", "equivalent", "no value", "left", "not run")
     rows = [",".join(["file", "mutants", *kinds]), *(",".join(map(str, [name, count.total(), *(count[kind] for kind in kinds)])) for name, count in counts.items())]
     print("\n".join(rows))
     for k in set(range(len(listed))) - used:
