@@ -51,6 +51,8 @@ fn a_sweep_says_where_the_star_is_at_the_end_and_how_well() {
     ];
     let expected = [["scene", "initial.beta_0", "status"].as_slice(), &state, &errors].concat();
     assert_eq!(names, expected);
+    let text = text(&format!("{VARIED}[time]\nend = 10.0\n"));
+    assert_eq!(Sweep::new(&text).expect("a sweep").errors_header(), ["scene", "initial.beta_0", "error"]);
 }
 
 /// Many motions at once are those of each scene, from its start on, also where that is not zero.
