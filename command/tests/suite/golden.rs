@@ -46,6 +46,12 @@ fn digits_are_certified_or_listed_with_a_reason() {
         }
     }
     assert!(wrong.is_empty(), "{} numbers:\n{}", wrong.len(), wrong.join("\n"));
+    let superfluous = enclosures.superfluous(&*TABLES);
+    assert!(
+        superfluous.is_empty(),
+        "lines of not_enclosed.csv are the reason of no number:\n{}",
+        superfluous.join("\n")
+    );
     assert_eq!(certified, enclosures.count(), "there are enclosures of numbers that no golden table has");
     let counts = format!("| all | {certified} | {listed} |");
     assert!(texts[2].contains(&counts), "docs/reliability/certified.md has no line {counts}");

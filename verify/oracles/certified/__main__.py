@@ -8,6 +8,7 @@ asks that each lies within what rounds to the printed digits. Needs SymPy 1.14 a
 
 import argparse
 import csv
+import importlib
 import sys
 import time
 import traceback
@@ -18,6 +19,7 @@ from pathlib import Path
 from flint import ctx
 
 DIGITS = 17
+OUT = "verify/data/certified.csv"
 
 
 def end(x, rounding):
@@ -32,34 +34,39 @@ def end(x, rounding):
 
 
 def task(argument):
-    """One job: enclosures, with the time that they took."""
+    """One job: enclosures, with the time that they took. Modules are imported where they are used: SymPy takes seconds to derive what each needs."""
     started = time.time()
     kind, value = argument
-    if kind == "formulas":
-        import formulas
-
-        ctx.dps = 50
-        found = list(formulas.all_formulas())
-    else:
-        import motions
-
-        found = {
-            "example": motions.of_example,
-            "long": lambda name: motions.of_example(name, 500),
-            "near": lambda _: motions.near_middle_axis(),
-            "twofold": motions.twofold_regimes,
-            "single": motions.single_regime,
-        }[kind](value)
+    ctx.dps = 50
+    module, function, arguments = KINDS[kind]
+    found = getattr(importlib.import_module(module), function)(*arguments(value))
     rows = [(table, label, str(end(ball, ROUND_FLOOR)), str(end(ball, ROUND_CEILING))) for table, label, ball in found]
     return argument, rows, time.time() - started
 
 
+# Module, function, and its arguments by what the job is of.
+KINDS = {
+    "formulas": ("formulas", "all_formulas", lambda _: ()),
+    "corrected": ("corrected", "corrected", lambda _: ()),
+    "eta": ("eta", "eta", lambda _: ()),
+    "factor": ("eta", "figure", lambda _: ()),
+    "axes": ("unknown_axes", "unknown_axes", lambda ratio: (ratio,)),
+    "limits": ("limits", "limits", lambda _: ()),
+    "lines": ("spectral_lines", "spectral_lines", lambda name: (name,)),
+    "example": ("motions", "of_example", lambda name: (name,)),
+    "long": ("motions", "of_example", lambda name: (name, 500)),
+    "near": ("motions", "near_middle_axis", lambda _: ()),
+    "twofold": ("motions", "twofold_regimes", lambda form: (form,)),
+    "single": ("motions", "single_regime", lambda case: (case,)),
+}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--only", nargs="+", help="jobs by their first word: formulas example twofold single long near")
+    parser.add_argument("--only", nargs="+", help="jobs by their first word, merged with the rows of verify/data/certified.csv")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--pieces", default="target/certified", help="folder of what each job found; a job that is there is not done again")
-    parser.add_argument("--out", default="verify/data/certified.csv")
+    parser.add_argument("--out", default=OUT)
     arguments = parser.parse_args()
     pieces = Path(arguments.pieces)
     pieces.mkdir(parents=True, exist_ok=True)
@@ -78,12 +85,22 @@ def main():
                 csv.writer(file, lineterminator="\n").writerows(found)
     if failed:
         sys.exit(f"{failed} jobs failed")
-    rows = [row for path in sorted(pieces.glob("*.csv")) for row in csv.reader(open(path, newline=""))]
+    rows = before(OUT) if arguments.only else {}
+    for job in wanted:
+        rows |= {(table, label): ends for table, label, *ends in csv.reader(open(piece(pieces, job), newline=""))}
     with open(arguments.out, "w", newline="") as file:
         file.write("# python3 verify/oracles/certified; see docs/reliability/certified.md\n")
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["table", "label", "lower", "upper"])
-        writer.writerows(sorted(rows))
+        writer.writerows(sorted([*name, *ends] for name, ends in rows.items()))
+
+
+def before(path):
+    """The rows of a file, by table and label."""
+    with open(path, newline="") as file:
+        lines = csv.reader(line for line in file if not line.startswith("#"))
+        next(lines)
+        return {(table, label): ends for table, label, *ends in lines}
 
 
 def jobs():
@@ -91,7 +108,9 @@ def jobs():
     import motions
 
     names = ("tp-I", "tp-II", "sp-I", "sp-II")
-    out = [("formulas", "all")] + [("example", name) for name in names]
+    out = [(kind, "all") for kind in ("formulas", "corrected", "eta", "factor", "limits")]
+    out += [("axes", ratio) for ratio in ("0", "-1-11", "-1-3")] + [("lines", name) for name in names[:2]]
+    out += [("example", name) for name in names]
     out += [("twofold", form) for form in ("printed", "corrected")] + [("single", case) for case in motions.SINGLE]
     return out + [("long", name) for name in names] + [("near", "Y")]
 

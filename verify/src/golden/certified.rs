@@ -50,11 +50,24 @@ impl Enclosures {
                 false => Certainty::Wrong(format!("{printed} printed, enclosed in [{lower:e}, {upper:e}]")),
             };
         }
-        let reason = self.without.iter().find(|[name, part, _]| name == table.name && line.label.contains(part));
-        reason.map_or_else(
+        self.reason(table, line).map_or_else(
             || Certainty::Wrong("neither enclosed nor listed as not enclosed".into()),
             |[_, _, reason]| Certainty::NotEnclosed(reason.clone()),
         )
+    }
+
+    /// The first line of `not_enclosed.csv` that fits a number, if it has no enclosure.
+    fn reason(&self, table: &GoldenTable, line: &GoldenLine) -> Option<&[String; 3]> {
+        let enclosed = self.ends.contains_key(&(table.name.to_owned(), line.label.clone()));
+        let fits = |[name, part, _]: &&[String; 3]| !enclosed && name == table.name && line.label.contains(part);
+        self.without.iter().find(fits)
+    }
+
+    /// Lines of `not_enclosed.csv` that are the reason of no number in these tables.
+    pub fn superfluous<'a>(&self, tables: impl IntoIterator<Item = &'a GoldenTable>) -> Vec<String> {
+        let lines = tables.into_iter().flat_map(|table| table.lines.iter().map(move |line| (table, line)));
+        let used: Vec<_> = lines.filter_map(|(table, line)| self.reason(table, line)).collect();
+        self.without.iter().filter(|row| !used.contains(row)).map(|row| row.join(",")).collect()
     }
 
     /// How many there are.
