@@ -53,8 +53,6 @@ def above_seen_at(angle):
     return lambda x: below_rate(1 / (x * DEGREE(angle).sin())).real
 
 
-
-
 def sinc(y):
     """sin(y) / y."""
     return (y / arb.pi()).sinc_pi()
@@ -99,7 +97,7 @@ def at_azimuth(r, edge, size, u, x, on_cone, tolerance, limit, analytic):
         else:
             from_begin = (theta.sin() ** 2 - z_1).sqrt(flag)
         root = x * (b - a).sqrt(flag) * from_begin * from_end
-        if not root.real > -1:
+        if flag and not (root.real > 0 or abs(root.imag) < 1):
             return acb("nan")
         return (1 - root.atan() * 2 / arb.pi()) * theta.cos() * s * c * arb.pi()
 
