@@ -130,6 +130,7 @@ class _Beyond:
         """Derivatives of the turns by the fields of the star, in their units, and by the time (`t`)."""
         return self._derivatives()
 
+    # By itself: mutmut (scripts/mutation-python) makes no mutants of what is decorated.
     def _derivatives(self) -> dict[str, np.ndarray]:
         star, kappa, tau = self.star, self.kappa, self.tau
         wobble, chi = star.wobble, star.chi

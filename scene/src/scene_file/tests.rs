@@ -8,21 +8,14 @@ use nalgebra::Vector3;
 
 use super::*;
 
-/// A scene in the paper's units, with what is seen of it.
+/// A star in the paper's units.
 const PAPER: &str = "star.inertia_ratio = 1.1
     star.spin = 1.0
     lorentz_violation.eigenvalues = [0.02, 0.01, -0.04]
     initial.alpha = 0.0
     initial.beta = 0.7
     initial.alpha_rate = 1.0
-    initial.beta_rate = 0.0
-    time.end = 10.0
-    time.samples = 3
-    output.columns = ['e_z']
-    observer.theta_o = 0.8
-    observer.phi_o = 0.5
-    pulsar.chi = 0.5
-    pulsar.rho = 0.1";
+    initial.beta_rate = 0.0";
 
 /// A neutron star with a wobble that turns once in a second.
 const PHYSICAL: &str = "star.mass = 1.4
@@ -31,8 +24,10 @@ const PHYSICAL: &str = "star.mass = 1.4
     star.spin_frequency = 1.0
     lorentz_violation.alpha_2 = 1e-9
     lorentz_violation.w = [1e-3, 0.0, 1e-3]
-    initial.wobble = 0.1
-    time.end = 10.0
+    initial.wobble = 0.1";
+
+/// When, and what is seen of them.
+const SEEN: &str = "time.end = 10.0
     time.samples = 3
     output.columns = ['e_z']
     observer.theta_o = 0.8
@@ -40,10 +35,13 @@ const PHYSICAL: &str = "star.mass = 1.4
     pulsar.chi = 0.5
     pulsar.rho = 0.1";
 
+/// Takes the angles away that a start by a wobble or by constants does not have.
+const NO_ANGLES: [&str; 4] = ["initial.alpha =", "initial.beta =", "initial.alpha_rate =", "initial.beta_rate ="];
+
 /// The scene with other lines, of which those without a value take a key away.
-fn with(base: &str, lines: &[&str]) -> Result<Scene, String> {
+fn with(base: &str, lines: &[impl AsRef<str>]) -> Result<Scene, String> {
     let mut values = BTreeMap::new();
-    for line in base.lines().chain(lines.iter().copied()) {
+    for line in base.lines().chain(SEEN.lines()).chain(lines.iter().map(AsRef::as_ref)) {
         let (key, value) = line.split_once('=').expect("a line is a key and its value");
         values.insert(key.trim(), value.trim());
     }
@@ -52,7 +50,7 @@ fn with(base: &str, lines: &[&str]) -> Result<Scene, String> {
     Scene::from_toml("scene.toml", &text).map_err(String::from)
 }
 
-fn assert_taken(base: &str, lines: &[&str]) -> Scene {
+fn assert_taken(base: &str, lines: &[impl AsRef<str> + std::fmt::Debug]) -> Scene {
     with(base, lines).unwrap_or_else(|why| panic!("{lines:?} is refused: {why}"))
 }
 
@@ -110,13 +108,13 @@ fn pulses_come_as_the_magnetic_axis_goes_round() {
         for (wobble, chi, turns_back) in [(0.4, 0.5, 1.0), (0.4, 0.3, 0.0), (0.4, PI - 0.5, 1.0), (0.4, PI - 0.3, 0.0)]
         {
             let given = [
+                "star.spin_frequency =".to_owned(),
                 format!("star.oblateness = {oblateness}"),
                 format!("star.frequency = {frequency:?}"),
                 format!("initial.wobble = {wobble}"),
                 format!("pulsar.chi = {chi:?}"),
             ];
-            let [first, second, third, fourth] = given.each_ref().map(String::as_str);
-            let scene = assert_taken(PHYSICAL, &["star.spin_frequency =", first, second, third, fourth]);
+            let scene = assert_taken(PHYSICAL, &given);
             let (state, inertia_zz) = (scene.problem.initial(), scene.problem.spheroid().inertia_zz);
             assert_relative_eq!(inertia_zz, 1.0 + oblateness, max_relative = 1e-15);
             let spin = state.axis.dot(&state.momentum) / inertia_zz;
@@ -156,7 +154,7 @@ fn coefficients_are_at_most_one() {
         let [eigenvalues, tensor] = lines;
         let lines =
             [format!("lorentz_violation.eigenvalues = {eigenvalues}"), format!("lorentz_violation.tensor = {tensor}")];
-        let read = with(PAPER, &lines.each_ref().map(String::as_str));
+        let read = with(PAPER, &lines);
         assert_eq!(read.is_ok(), taken, "{lines:?}: {:?}", read.err());
     }
     let half = "lorentz_violation.w = [0.3, 0.4, 0.5]"; // |w|^2 = 1/2
@@ -173,9 +171,8 @@ fn coefficients_are_at_most_one() {
 /// `L` is along the given direction, however long it is written, and the axis on the other side where the spin is negative.
 #[test]
 fn a_wobble_is_about_the_given_direction() {
-    const OF_ANGLES: [&str; 4] = ["initial.alpha =", "initial.beta =", "initial.alpha_rate =", "initial.beta_rate ="];
     let started = |lines: &[&str]| {
-        assert_taken(PAPER, &[&OF_ANGLES, ["initial.wobble = 0.2"].as_slice(), lines].concat())
+        assert_taken(PAPER, &[&NO_ANGLES, ["initial.wobble = 0.2"].as_slice(), lines].concat())
             .problem
             .initial()
             .to_owned()
@@ -214,18 +211,10 @@ fn a_start_on_a_pole_has_an_inclination() {
 
 #[test]
 fn constants_are_those_of_a_solution() {
-    let base = [
-        "initial.alpha =",
-        "initial.beta =",
-        "initial.alpha_rate =",
-        "initial.beta_rate =",
-        "initial.alpha_0 = 0.3",
-        "initial.amplitude = 0.0",
-        "initial.phase = 0.0",
-    ];
     let of = |kind: &str, beta_0: f64| {
-        let lines = [format!("initial.kind = '{kind}'"), format!("initial.beta_0 = {beta_0:?}")];
-        with(PAPER, &[&base, lines.each_ref().map(String::as_str).as_slice()].concat())
+        let (kind, beta_0) = (format!("initial.kind = '{kind}'"), format!("initial.beta_0 = {beta_0:?}"));
+        let constants = ["initial.alpha_0 = 0.3", "initial.amplitude = 0.0", "initial.phase = 0.0", &kind, &beta_0];
+        with(PAPER, &[NO_ANGLES.as_slice(), &constants].concat())
     };
     // The rate of twofold precession is omega / cos beta_0.
     assert!(of("twofold", FRAC_PI_2 - 2e-12).is_ok_and(|scene| scene.perturbation.is_ok()));
@@ -271,7 +260,7 @@ fn samples_differ_in_double_precision() {
         (1024.0, 8192.0, false),
     ] {
         let lines = [format!("time.start = {start:?}"), format!("time.end = {:?}", start + roundings * f64::EPSILON)];
-        let read = with(PAPER, &lines.each_ref().map(String::as_str));
+        let read = with(PAPER, &lines);
         assert_eq!(read.is_ok(), taken, "{lines:?} {:?}", read.err());
     }
     assert_refused(PAPER, &["time.start = -1e308", "time.end = 1.7e308"], "differ from one another");
@@ -306,7 +295,7 @@ fn an_epoch_is_within_a_billion_days_of_the_end() {
                 format!("time.span = {span:e}"),
                 "time.epoch = 5e4".into(),
             ];
-            let read = with(PHYSICAL, &lines.each_ref().map(String::as_str));
+            let read = with(PHYSICAL, &lines);
             assert_eq!(read.is_ok(), taken, "{lines:?} {:?}", read.err());
         }
     }
@@ -317,10 +306,10 @@ fn an_epoch_is_within_a_billion_days_of_the_end() {
 #[test]
 fn positions_are_those_of_the_sky() {
     let at = |ascension: &str, declination: &str| {
+        let lines = ["observer.theta_o =", "observer.phi_o =", "observer.frame = 'equatorial'"].map(String::from);
         let position =
             [format!("pulsar.right_ascension = '{ascension}'"), format!("pulsar.declination = '{declination}'")];
-        let lines = ["observer.theta_o =", "observer.phi_o =", "observer.frame = 'equatorial'"];
-        with(PHYSICAL, &[&lines, position.each_ref().map(String::as_str).as_slice()].concat())
+        with(PHYSICAL, &[lines.as_slice(), &position].concat())
     };
     let seen = at("19:39:36", "+21:34:30").unwrap().observer.expect("an observer");
     assert_relative_eq!(seen.phi_o, (294.9_f64 - 180.0).to_radians(), max_relative = 1e-14);

@@ -209,11 +209,16 @@ pub(super) mod tests {
         (Source::new(1, Beam::new(chi, 0.0, rho), line_of_sight), segment)
     }
 
-    /// `m.n = cos chi cos theta_o + sin chi sin theta_o cos phi` is `cos rho` at the edges; opposite is half a turn later.
+    /// Time from the closest approach to the edge of the beam: `m.n = cos chi cos theta_o + sin chi sin theta_o cos phi` is `cos rho` there.
+    pub(in super::super) fn edge(chi: f64, rho: f64) -> f64 {
+        ((rho.cos() - chi.cos() * THETA_O.cos()) / (chi.sin() * THETA_O.sin())).acos() / TAU
+    }
+
+    /// Opposite to the observer is half a turn later.
     #[test]
     fn the_axis_is_clear_off_the_edges_and_off_half_a_turn() {
-        let (chi, rho) = (0.6_f64, 0.5_f64);
-        let edge = ((rho.cos() - chi.cos() * THETA_O.cos()) / (chi.sin() * THETA_O.sin())).acos() / TAU;
+        let (chi, rho) = (0.6, 0.5);
+        let edge = edge(chi, rho);
         for sense in [1.0, -1.0] {
             let (source, segment) = segment(chi, rho, sense);
             let clear = |turns: f64| source.is_clear_at(&segment, sense * turns).unwrap();

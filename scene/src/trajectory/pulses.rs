@@ -175,7 +175,7 @@ mod tests {
     use nalgebra::Vector3;
     use twofold::dynamics::BodyState;
 
-    use super::super::pulse_source::tests::{THETA_O, scene, segment};
+    use super::super::pulse_source::tests::{self, THETA_O, scene, segment};
     use super::*;
     use crate::scene_file::{Pulsar, Viewer};
 
@@ -186,9 +186,7 @@ mod tests {
             let scene = scene(sense);
             let step = 0.35 / scene.turning_rate();
             let (source, mut segment) = segment(0.6, 0.5, sense);
-            let (chi, rho) = (0.6_f64, 0.5_f64);
-            let edge =
-                ((rho.cos() - chi.cos() * THETA_O.cos()) / (chi.sin() * THETA_O.sin())).acos() / std::f64::consts::TAU;
+            let edge = tests::edge(0.6, 0.5);
             let sources = [source];
             for (to, expected) in
                 [(2.25, 2.25), (2.5, 2.5 - step), (2.0 + edge, 2.0 + edge - step), (3.0 - edge, 3.0 - edge - step)]
@@ -201,7 +199,7 @@ mod tests {
             assert!((cut(&scene, &segment, &sources).unwrap() - sense * 2.495).abs() < 1e-14);
             // A beam along the axis of rotation is never off half a turn: the other one is off its edge.
             let [first] = sources;
-            let sources = [first, super::super::pulse_source::tests::segment(0.0, 0.5, sense).0];
+            let sources = [first, tests::segment(0.0, 0.5, sense).0];
             (segment.from, segment.to) = (0.0, sense * (2.0 + edge));
             let found = cut(&scene, &segment, &sources).unwrap();
             assert!((found - sense * (2.0 + edge - step)).abs() < 1e-14, "{found}");
