@@ -143,10 +143,151 @@ impl<'a, U: Unknown> Directions<'a, U> {
 /// An orthonormal basis of a space without one of its unit vectors.
 fn without(space: &DMatrix<f64>, unit: &DVector<f64>) -> DMatrix<f64> {
     let left = space - unit * (unit.transpose() * space);
-    let svd = left.svd(true, false);
-    let u = svd.u.expect("asked for");
-    let mut order: Vec<usize> = (0..svd.singular_values.len()).collect();
-    order.sort_by(|a, b| svd.singular_values[*b].total_cmp(&svd.singular_values[*a]));
-    order.truncate(space.ncols() - 1);
-    u.select_columns(&order)
+    // The last of its vectors, of the smallest singular value, is the one left out.
+    let u = left.svd(true, false).u.expect("asked for");
+    u.columns(0, space.ncols() - 1).into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inference::functions::{A, B, Fraction, Name, Numbers, exact};
+    use crate::inference::{Fisher, Symmetry};
+
+    /// What data with this Jacobian by the three numbers tell.
+    fn told(rows: &[[f64; 3]], model: &Numbers) -> Fisher<Numbers> {
+        let matrix = DMatrix::from_fn(rows.len(), 3, |row, column| rows[row][column]);
+        Fisher::of_jacobian(&exact(matrix), &[A, B, Fraction], model)
+    }
+
+    fn with_symmetries(symmetries: &[(&'static str, &[(Name, f64)])]) -> Numbers {
+        let of = |(words, change): &(&'static str, &[(Name, f64)])| Symmetry { words, change: change.to_vec() };
+        Numbers { symmetries: symmetries.iter().map(of).collect(), ..Numbers::new([0.0; 3], [1.0; 3]) }
+    }
+
+    fn assert_change(found: &Direction<Name>, expected: &[(Name, f64)], exact_to: f64) {
+        let names: Vec<Name> = found.change.iter().map(|(name, _)| *name).collect();
+        assert_eq!(names, expected.iter().map(|(name, _)| *name).collect::<Vec<_>>(), "{found:?}");
+        for ((_, size), (_, wanted)) in found.change.iter().zip(expected) {
+            assert!((size - wanted).abs() <= exact_to * wanted.abs(), "{found:?}");
+        }
+    }
+
+    #[test]
+    fn directions_are_written_with_four_digits() {
+        let direction = |words, change: &[(Name, f64)]| Direction { words, change: change.to_vec(), ratio: 1.25e-13 };
+        let alone = " (the data change by 1.2e-13 of what each of these does alone)";
+        assert_eq!(direction(None, &[(A, 1.0)]).to_string(), format!("d(a) alone{alone}"));
+        let found = direction(Some("a against b"), &[(A, 1.0), (B, -0.5), (Fraction, 1e-3)]).to_string();
+        assert_eq!(found, format!("a against b; d(a) : d(b) : d(f) = 1.0000 : -0.5000 : 0.0010{alone}"));
+        let found = direction(None, &[(A, 9.99e-4), (B, -9.99e-4)]).to_string();
+        assert_eq!(found, format!("d(a) : d(b) = 9.99e-4 : -9.99e-4{alone}"));
+    }
+
+    #[test]
+    fn a_number_that_no_datum_depends_on_stands_alone() {
+        let named = with_symmetries(&[("b is seen by nobody", &[(B, 1.0)])]);
+        for (model, words) in [(Numbers::new([0.0; 3], [1.0; 3]), None), (named, Some("b is seen by nobody"))] {
+            let found = told(&[[1.0, 0.0, 1.0], [2.0, 0.0, -1.0], [0.0, 0.0, 3.0]], &model);
+            let expected = Direction { words, change: vec![(B, 1.0)], ratio: 0.0 };
+            assert_eq!(found.degenerate, [expected]);
+            assert!(found.weak.is_empty());
+        }
+    }
+
+    /// The data are functions of `a + 2 b` and `f`.
+    #[test]
+    fn what_data_do_not_determine_is_found_and_named() {
+        let rows = [[1.0, 2.0, 0.0], [3.0, 6.0, 1.0], [0.0, 0.0, 2.0]];
+        let against = [(A, 1.0), (B, -0.5)];
+        let unnamed = told(&rows, &Numbers::new([0.0; 3], [1.0; 3])).degenerate;
+        assert_eq!((unnamed.len(), unnamed[0].words), (1, None));
+        assert_change(&unnamed[0], &against, 1e-12);
+        assert!(unnamed[0].ratio < 1e-14, "{unnamed:?}");
+        // Of symmetries that the data do not have, or that change what is known too, none is named.
+        let model = with_symmetries(&[("others", &[(A, 1.0), (B, 0.5)]), ("a against b", &[(A, -4.0), (B, 2.0)])]);
+        let named = told(&rows, &model).degenerate;
+        assert_eq!((named.len(), named[0].words), (1, Some("a against b")));
+        assert_change(&named[0], &against, 1e-12);
+    }
+
+    /// A change of what is known spoils a symmetry, but for a hundred-thousandth of it.
+    #[test]
+    fn symmetries_change_unknowns_alone() {
+        let rows = DMatrix::from_row_slice(2, 2, &[1.0, 2.0, 3.0, 6.0]);
+        for (part, is_named) in [(1e-4, false), (1.1e-5, false), (0.9e-5, true), (-0.9e-5, true), (1e-15, true)] {
+            let model = with_symmetries(&[("a against b", &[(A, 1.0), (B, -0.5), (Fraction, part)])]);
+            let found = Fisher::of_jacobian(&exact(rows.clone()), &[A, B], &model).degenerate;
+            assert_eq!(found.len(), 1);
+            assert_eq!(found[0].words.is_some(), is_named, "{part}");
+        }
+    }
+
+    /// All data are functions of `a + b + f`. Of the two directions the symmetries name one each, also where the second is the first but for a thousandth; what is left
+    /// over is at right angles to those named, to rounding.
+    #[test]
+    fn every_symmetry_that_says_something_new_is_named() {
+        let rows = [[1.0, 1.0, 1.0], [2.0, 2.0, 2.0], [-1.0, -1.0, -1.0]];
+        let first: &[(Name, f64)] = &[(A, 1.0), (B, -1.0)];
+        let nearly: &[(Name, f64)] = &[(A, 1.0), (B, -0.999), (Fraction, -0.001)];
+        let found = told(&rows, &with_symmetries(&[("first", first), ("again", first), ("nearly", nearly)])).degenerate;
+        assert_eq!(found.iter().map(|one| one.words).collect::<Vec<_>>(), [Some("first"), Some("nearly")]);
+        assert_change(&found[1], nearly, 1e-11);
+        let found = told(&rows, &with_symmetries(&[("first", first)])).degenerate;
+        assert_eq!(found.iter().map(|one| one.words).collect::<Vec<_>>(), [Some("first"), None]);
+        let [Some((A, a)), Some((B, b)), Some((Fraction, f))] = [0, 1, 2].map(|k| found[1].change.get(k).copied())
+        else {
+            panic!("{found:?}")
+        };
+        assert!((a - b).abs() < 1e-14 && (a + b + f).abs() < 1e-14 && (f - 1.0).abs() < 1e-14, "{found:?}");
+    }
+
+    /// The last of three directions, of four numbers' worth of data on their sum, is exact though the part of the second that is new is a thousandth.
+    #[test]
+    fn what_is_left_over_is_exact() {
+        let null = DMatrix::from_column_slice(3, 3, &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
+        let unit = DVector::from_column_slice(&[0.6, 0.8, 0.0]);
+        let left = without(&null, &unit);
+        assert_eq!((left.nrows(), left.ncols()), (3, 2));
+        assert!((left.transpose() * &unit).norm() < 1e-15);
+        assert!((left.transpose() * &left - DMatrix::identity(2, 2)).norm() < 1e-15);
+    }
+
+    /// Small parts of a symmetry are those of its formula; those of a direction without a name are rounding.
+    #[test]
+    fn small_parts_of_named_directions_are_kept() {
+        let part = 1e-7;
+        // The sum of the columns of a and b, and a ten-millionth of that of f, is zero.
+        let rows = [[1.0, -1.0, 0.0], [0.0, -part, 1.0], [0.0, 0.0, 0.0]];
+        let model = with_symmetries(&[("all", &[(A, 1.0), (B, 1.0), (Fraction, part)])]);
+        let found = told(&rows, &model).degenerate;
+        assert_change(&found[0], &[(A, 1.0), (B, 1.0), (Fraction, part)], 1e-12);
+        let found = told(&rows, &Numbers::new([0.0; 3], [1.0; 3])).degenerate;
+        assert_change(&found[0], &[(A, 1.0), (B, 1.0)], 1e-12);
+    }
+
+    /// With independent data of standard deviations 1/2, 1/10 and 1/30 the range of a number decides whether it is weakly determined.
+    #[test]
+    fn weak_directions_are_those_of_errors_beyond_the_range() {
+        let rows = [[2.0, 0.0, 0.0], [0.0, 10.0, 0.0], [0.0, 0.0, 30.0]];
+        let weak = |ranges: [f64; 3]| told(&rows, &Numbers::new([0.0; 3], ranges)).weak;
+        assert!(weak([0.51, 0.11, 0.034]).is_empty());
+        for (ranges, name) in [([0.49, 0.11, 0.034], A), ([0.51, 0.09, 0.034], B), ([0.51, 0.11, 0.033], Fraction)] {
+            let found = weak(ranges);
+            assert_eq!(found.len(), 1, "{found:?}");
+            // As far as its range goes.
+            assert_change(&found[0], &[(name, ranges[name as usize])], 1e-12);
+            assert_eq!(found[0].words, None);
+        }
+        // Of two numbers of which the sum alone is well known, the difference is weak, each in its range.
+        let rows = [[1e3, 1e3, 0.0], [1e-3, -1e-3, 0.0], [0.0, 0.0, 1.0]];
+        let found = told(&rows, &Numbers::new([0.0; 3], [1.0, 1.0, 10.0])).weak;
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_change(&found[0], &[(A, 1.0), (B, -1.0)], 1e-6);
+        // 2e-3 of the difference, where either number alone changes the data by 1e3: `sqrt(2)` of that for both.
+        assert!((found[0].ratio / (2e-6 / 2.0_f64.sqrt()) - 1.0).abs() < 1e-4, "{found:?}");
+        // What no datum depends on is degenerate, not weak.
+        let found = told(&[[0.0; 3], [0.0; 3], [0.0; 3]], &Numbers::new([0.0; 3], [1.0; 3]));
+        assert!(found.weak.is_empty() && found.degenerate.len() == 3);
+    }
 }

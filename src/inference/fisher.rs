@@ -120,3 +120,84 @@ impl<M: Model> Fisher<M> {
         self.parameters.moved(&self.unknowns, change.as_slice())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inference::functions::{A, B, Fraction, Numbers, exact};
+
+    /// Correlated data of three numbers.
+    fn rows() -> DMatrix<f64> {
+        DMatrix::from_row_slice(4, 3, &[2.0, 1.0, 0.0, 1.0, 3.0, -1.0, 0.5, 0.0, 4.0, 1.0, 1.0, 1.0])
+    }
+
+    fn fisher() -> Fisher<Numbers> {
+        Fisher::of_jacobian(&exact(rows()), &[A, B, Fraction], &Numbers::unbounded([1.0, 2.0, 0.5]))
+    }
+
+    #[test]
+    fn the_covariance_is_the_inverse_of_the_fisher_matrix() {
+        let fisher = fisher();
+        let information = rows().transpose() * rows();
+        assert!((&fisher.covariance * &information - DMatrix::identity(3, 3)).norm() < 1e-13);
+        assert_eq!(fisher.values(), [1.0, 2.0, 0.5]);
+        let (sigmas, correlations) = (fisher.sigmas(), fisher.correlations());
+        for (i, name) in [A, B, Fraction].into_iter().enumerate() {
+            assert_eq!(fisher.sigma(name), Some(sigmas[i]));
+            assert!((sigmas[i].powi(2) - fisher.covariance[(i, i)]).abs() < 1e-15);
+            for j in 0..3 {
+                let product = correlations[(i, j)] * sigmas[i] * sigmas[j];
+                assert!((product - fisher.covariance[(i, j)]).abs() < 1e-15);
+            }
+        }
+        let of_two =
+            Fisher::of_jacobian(&exact(rows().columns(0, 2).into_owned()), &[A, B], &Numbers::unbounded([0.0; 3]));
+        assert_eq!(of_two.sigma(Fraction), None);
+        assert!(fisher.determined().is_ok());
+    }
+
+    /// So many standard deviations along the principal axes of the correlations add the sum of their squares to `chi^2` of a linear model; the axes are at right angles
+    /// in units of the standard deviations.
+    #[test]
+    fn parameters_beside_are_so_many_standard_deviations_away() {
+        let fisher = fisher();
+        let change = |deviations: [f64; 3], factor: f64| {
+            let beside = fisher.beside(&DVector::from_row_slice(&deviations), factor).expect("all are determined");
+            DVector::from_iterator(3, beside.values.into_iter().zip(fisher.values()).map(|(there, here)| there - here))
+        };
+        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|one| change(one, 1.0));
+        let sigmas = DVector::from_vec(fisher.sigmas());
+        for (i, a) in axes.iter().enumerate() {
+            for (j, b) in axes.iter().enumerate() {
+                let one = if i == j { 1.0 } else { 0.0 };
+                assert!(((rows() * a).dot(&(rows() * b)) - one).abs() < 1e-12, "{i} {j}");
+                let cosine = a.component_div(&sigmas).dot(&b.component_div(&sigmas));
+                assert!(i == j || cosine.abs() < 1e-12, "{cosine}");
+            }
+        }
+        assert!(((rows() * change([1.0, -2.0, 3.0], 0.5)).norm_squared() - 3.5).abs() < 1e-11);
+        let opposite = change([1.0, -2.0, 3.0], -0.5) + change([1.0, -2.0, 3.0], 0.5);
+        assert!(opposite.norm() < 1e-14);
+    }
+
+    #[test]
+    fn what_is_not_determined_is_refused() {
+        let of = |matrix: DMatrix<f64>, ranges: [f64; 3]| {
+            Fisher::of_jacobian(&exact(matrix), &[A, B], &Numbers::new([0.0; 3], ranges))
+        };
+        let refused = |fisher: Fisher<Numbers>| match fisher.determined() {
+            Err(InferenceError::Degenerate(directions)) => directions,
+            other => panic!("{other:?}"),
+        };
+        let degenerate = of(DMatrix::from_row_slice(2, 2, &[1.0, 2.0, 2.0, 4.0]), [1.0; 3]);
+        assert!(degenerate.sigma(A).is_some_and(f64::is_nan));
+        let beside = degenerate.beside(&DVector::from_row_slice(&[1.0, 0.0]), 1.0);
+        assert!(matches!(beside, Err(Error::Domain { quantity: "correlation of unknowns", .. })), "{beside:?}");
+        assert!(refused(degenerate)[0].starts_with("d(a) : d(b) = 1.0000 : -0.5000"));
+        let weak = of(DMatrix::from_row_slice(2, 2, &[1.0, 0.0, 0.0, 1.0]), [0.5, 2.0, 1.0]);
+        assert!(weak.degenerate.is_empty());
+        assert!(refused(weak)[0].starts_with("d(a) alone"));
+        let both = of(DMatrix::from_row_slice(2, 2, &[1.0, 0.0, 0.0, 0.0]), [0.5, 2.0, 1.0]);
+        assert_eq!(refused(both).len(), 2);
+    }
+}

@@ -38,12 +38,11 @@ fn compared(parameters: &Parameters<f64>, data: &[Datum], end: f64) -> Result<(V
         let value = match datum.place {
             Place::Time(t) => signal.strain(datum.observable, t)?,
             Place::Turn { number, near } => {
-                let event = find(number);
-                let value = event.and_then(|event| event.value(find(number - 1).as_ref(), datum.observable));
-                let value = value.ok_or(InferenceError::NoPulse { turn: number, near })?;
+                let missing = InferenceError::NoPulse { turn: number, near };
+                let event = find(number).ok_or_else(|| missing.clone())?;
+                let value = event.value(find(number - 1).as_ref(), datum.observable).ok_or(missing)?;
                 let is_time = matches!(datum.observable, Observable::Arrivals | Observable::ClosestApproaches);
-                let epoch = event.map_or(0.0, |event| event.epoch);
-                if is_time { (epoch - datum.epoch) + value } else { value }
+                if is_time { (event.epoch - datum.epoch) + value } else { value }
             }
         };
         Ok((value - datum.value) / datum.sigma)
@@ -114,4 +113,145 @@ fn rounding_of_all(fit: &Fit, data: &[Datum], end: f64) -> Result<Option<(Observ
     }
     let finest = data.iter().max_by(|a, b| (rounding(a) / a.sigma).total_cmp(&(rounding(b) / b.sigma)));
     Ok(finest.map(|datum| (datum.observable, rounding(datum))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inference::{Residuals, data_of, stars};
+
+    const OF_PULSES: [(Observable, f64); 4] = [
+        (Observable::Arrivals, 1e-6),
+        (Observable::ClosestApproaches, 2e-6),
+        (Observable::Widths, 3e-6),
+        (Observable::Periods, 4e-6),
+    ];
+
+    /// Data without errors of a star to a time: of seven pulses from the second on, and of the strain at two times.
+    fn data(star: &Parameters<f64>, end: f64) -> Vec<Datum> {
+        let signal = Signal::new(star, end).expect("a motion");
+        let noise = [&OF_PULSES[..], &[(Observable::StrainPlus, 1e-3), (Observable::StrainCross, 1e-3)]].concat();
+        data_of(&signal, &signal.events().expect("pulses")[1..8], &[3.0, 17.0], &noise).expect("data")
+    }
+
+    #[test]
+    fn a_star_has_no_residuals_however_its_turns_are_counted() {
+        let star = stars::precessing();
+        let mut data = data(&star, 60.0);
+        assert!(OF_PULSES.iter().all(|(kind, _)| data.iter().filter(|datum| datum.observable == *kind).count() > 3));
+        for _ in 0..2 {
+            let (residuals, _) = compared(&star, &data, 60.0).expect("the same star");
+            assert_eq!(residuals.len(), data.len());
+            assert!(residuals.iter().all(|residual| residual.abs() < 1e-6), "{residuals:?}");
+            for datum in &mut data {
+                if let Place::Turn { number, .. } = &mut datum.place {
+                    *number += 1000;
+                }
+            }
+        }
+    }
+
+    /// Of a star that turns a little slower: its data less those, each found by itself.
+    #[test]
+    fn residuals_are_the_data_of_the_model_less_those_measured() {
+        let star = stars::precessing();
+        let slower = star.moved(&[Parameter::AlphaRate, Parameter::Strain], &[-1e-3, 0.25]);
+        let (measured, expected) = (data(&star, 60.0), data(&slower, 60.0));
+        assert_eq!(measured.len(), expected.len());
+        let (residuals, _) = compared(&slower, &measured, 60.0).expect("a star with these pulses");
+        for ((residual, datum), of_slower) in residuals.iter().zip(&measured).zip(&expected) {
+            let difference = (of_slower.value - datum.value) / datum.sigma;
+            assert!((residual - difference).abs() < 1e-6 + 1e-9 * difference.abs(), "{datum:?}: {residual}");
+            assert!(difference != 0.0, "{datum:?}");
+        }
+    }
+
+    /// Pulses are looked for to two turns after the last datum, so that those of a slower star are found: here the last comes 0.8 turns late.
+    #[test]
+    fn late_pulses_are_found_after_the_last_datum() {
+        let star = stars::slow();
+        let turn = std::f64::consts::TAU / turning_rate(&star);
+        let signal = Signal::new(&star, 16.0 * turn).expect("a motion");
+        let events = signal.events().expect("pulses");
+        let (first, last) = (events[1], events[events.len() - 1]);
+        let data = data_of(&signal, &[first, last], &[], &OF_PULSES[..1]).expect("data");
+        let turns = (last.turn - first.turn) as f64;
+        let rate = -star.alpha_rate * 0.8 / (turns + 0.8);
+        let slower =
+            star.moved(&[Parameter::AlphaRate, Parameter::Spin], &[rate, star.spin() * rate / star.alpha_rate]);
+        let (residuals, found) = compared(&slower, &data, last.end).expect("late pulses");
+        let late = residuals[1] * 1e-6 / turn;
+        assert!((0.6..1.1).contains(&late), "{late} turns");
+        assert!(found.iter().any(|event| event.turn == last.turn && event.start > last.end));
+    }
+
+    #[test]
+    fn data_of_turns_without_a_pulse_are_told() {
+        let star = stars::precessing();
+        let mut data = data(&star, 60.0);
+        let missing = data.len();
+        data.push(Datum { place: Place::Turn { number: 999, near: 12.5 }, ..data[0] });
+        let told = compared(&star, &data, 60.0).expect_err("no such turn");
+        assert_eq!(told, InferenceError::NoPulse { turn: 999, near: 12.5 });
+        // A period wants the pulse before too.
+        let first = Signal::new(&star, 60.0).expect("a motion").events().expect("pulses")[0];
+        let of_first = Place::Turn { number: first.turn, near: first.midpoint() };
+        data[missing] = Datum { observable: Observable::Periods, place: of_first, ..data[0] };
+        let told = compared(&star, &data, 60.0).expect_err("no pulse before");
+        assert_eq!(told, InferenceError::NoPulse { turn: first.turn, near: first.midpoint() });
+    }
+
+    /// Errors far below what doubles tell: the kind is named that is stated best against its rounding.
+    #[test]
+    fn a_fit_of_rounding_is_refused() {
+        let star = stars::precessing();
+        let signal = Signal::new(&star, 30.0).expect("a motion");
+        let events = signal.events().expect("pulses");
+        let of = |noise: &[(Observable, f64)], off: f64| {
+            let mut data = data_of(&signal, &events, &[3.0, 17.0], noise).expect("data");
+            data.iter_mut().enumerate().for_each(|(k, datum)| datum.value += if k % 2 == 0 { off } else { -off });
+            fit(&star, &data, &[Parameter::Spin, Parameter::Oblateness], 30.0)
+        };
+        let rounding = signal.rounding(Observable::Arrivals);
+        for (noise, finest) in [
+            ([(Observable::Arrivals, 1e-19), (Observable::Widths, 1e-18)], Observable::Arrivals),
+            ([(Observable::Arrivals, 1e-18), (Observable::Widths, 1e-19)], Observable::Widths),
+        ] {
+            match of(&noise, 0.3 * rounding) {
+                Err(InferenceError::Rounding { observable, rounding: told }) => {
+                    assert_eq!(observable, finest);
+                    assert!((told / rounding - 1.0).abs() < 0.1, "{told:e} {rounding:e}");
+                }
+                other => panic!("{other:?}"),
+            }
+        }
+        // Twenty times as much is no rounding.
+        match of(&[(Observable::Arrivals, 1e-19), (Observable::Widths, 1e-18)], 20.0 * rounding) {
+            Ok(found) => assert_eq!(found.judged(), Residuals::Larger),
+            Err(error) => assert!(matches!(error, InferenceError::NotConverged { .. }), "{error:?}"),
+        }
+    }
+
+    /// Over a span too long to be followed pulses are found by their numbers, and their times are sums of two doubles.
+    #[test]
+    fn long_spans_have_residuals_in_two_doubles() {
+        let star = stars::weak();
+        let signal = Signal::new(&star, 3e6).expect("a motion");
+        assert!(signal.is_long());
+        let events = signal.events_after(&[10.0, 2e6, 2.9e6]).expect("pulses");
+        let data =
+            data_of(&signal, &events, &[], &[(Observable::Arrivals, 1e-9), (Observable::Widths, 1e-9)]).expect("data");
+        let (residuals, _) = compared(&star, &data, 3e6).expect("the same star");
+        assert!(residuals.iter().all(|residual| residual.abs() < 1e-2), "{residuals:?}");
+        // A turn of the beam about the symmetry axis moves arrivals by some time less than a turn, which the residuals tell in spite of another epoch.
+        let turned = star.moved(&[Parameter::PhiO], &[0.2]);
+        let (residuals, found) = compared(&turned, &data, 3e6).expect("pulses of the same numbers");
+        for ((residual, event), before) in residuals.iter().zip(&found).zip(&events) {
+            let late = (event.epoch - before.epoch) + (event.midpoint() - before.midpoint());
+            assert!(
+                event.epoch != before.epoch && (residual * 1e-9 - late).abs() < 1e-15 + 1e-12 * late.abs(),
+                "{residual} {late}"
+            );
+        }
+    }
 }

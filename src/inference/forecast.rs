@@ -81,3 +81,84 @@ pub fn scaling(forecasts: &[Forecast]) -> [Option<Slope>; 2] {
         mean_slope(|forecast| forecast.span.to_bits(), |forecast| forecast.data as f64),
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inference::stars;
+
+    /// Epochs from the start to 2.2 turns before the end, equally spaced; of a span of less all at the start.
+    #[test]
+    fn epochs_of_a_forecast_end_before_its_span() {
+        let star = stars::slow();
+        let noise = [(Observable::StrainPlus, 1e-3), (Observable::StrainCross, 2e-3)];
+        let unknowns = [Parameter::Spin, Parameter::Beta];
+        let turn = std::f64::consts::TAU / star.state().momentum.norm();
+        let spans = [1.5 * turn, 10.0 * turn];
+        let found = forecast(&star, &noise, &unknowns, Parameter::Spin, &spans, &[3, 7]).expect("forecasts");
+        assert_eq!(found.len(), 4);
+        for (place, (span, epochs)) in spans.into_iter().flat_map(|span| [(span, 3), (span, 7)]).enumerate() {
+            let last = (span - 2.2 * turn).max(0.0);
+            let times: Vec<f64> = (0..epochs).map(|k| last * f64::from(k) / f64::from(epochs - 1)).collect();
+            let signal = Signal::new(&star, span).expect("a motion");
+            let data = data_of(&signal, &[], &times, &noise).expect("data");
+            let sigma = Fisher::of(&star, &[], &data, &unknowns).expect("derivatives").sigma(Parameter::Spin);
+            let Forecast { span: of, epochs: counted, data: different, sigma: told } = found[place];
+            assert_eq!((of, counted, different), (span, epochs as usize, epochs as usize));
+            let sigma = sigma.expect("one of the unknowns");
+            // At the start alone the strain does not tell the spin from the tilt: no number either way.
+            assert!(
+                if last > 0.0 { (told / sigma - 1.0).abs() < 1e-9 } else { told.is_nan() == sigma.is_nan() },
+                "{told:e} {sigma:e}"
+            );
+        }
+        let one = forecast(&star, &noise, &[Parameter::Spin], Parameter::Spin, &spans, &[1]).expect("forecasts");
+        assert_eq!((one[0].data, one[1].data), (1, 1));
+    }
+
+    /// Few epochs for so many pulses are different ones each; so many that a pulse is the next of several count it once.
+    #[test]
+    fn a_pulse_is_counted_once() {
+        let star = stars::precessing();
+        let signal = Signal::new(&star, 60.0).expect("a motion");
+        let pulses = signal.events().expect("pulses").len();
+        let of = |epochs: usize| {
+            let noise = [(Observable::Arrivals, 1e-6)];
+            forecast(&star, &noise, &[Parameter::Spin], Parameter::Spin, &[60.0], &[epochs]).expect("forecasts")[0]
+        };
+        assert_eq!(of(4).data, 4);
+        let many = of(200).data;
+        assert!((pulses - 3..=pulses).contains(&many), "{many} of {pulses}");
+        assert!(of(0).sigma.is_nan(), "fewer data than unknowns");
+    }
+
+    /// Two groups of different slopes and lengths, in any order, and a group of one: lines with a common slope are fitted to each about its own mean.
+    #[test]
+    fn powers_are_common_slopes_of_groups() {
+        let of = |epochs: usize, log_span: f64, log_sigma: f64| Forecast {
+            span: 10_f64.powf(log_span),
+            epochs,
+            data: epochs,
+            sigma: 10_f64.powf(log_sigma),
+        };
+        // 25 epochs: slope -1 at 0, 1, 2. 100 epochs: slope -3 at 0, 1, 2, 3, 4. Mixed, with a point of its own and one that is no number.
+        let mut forecasts: Vec<Forecast> = (0..5).map(|k| of(100, f64::from(k), 7.0 - 3.0 * f64::from(k))).collect();
+        for (place, k) in [(0, 0.0), (2, 1.0), (6, 2.0)] {
+            forecasts.insert(place, of(25, k, -k));
+        }
+        forecasts.push(of(7, 3.0, 55.0));
+        forecasts.push(Forecast { sigma: f64::NAN, ..of(100, 9.0, 0.0) });
+        let [by_span, _] = scaling(&forecasts);
+        let by_span = by_span.expect("a slope");
+        // Squares of distances from the means, 2 and 10, are the weights.
+        assert!((by_span.value - (-2.0 - 30.0) / 12.0).abs() < 1e-12, "{by_span:?}");
+        // What is left: (slope difference)^2 times these weights, over 9 points less 2, over 12.
+        let left = 2.0 * (5.0_f64 / 3.0).powi(2) + 10.0 * (1.0_f64 / 3.0).powi(2);
+        assert!((by_span.error - (left / 7.0 / 12.0).sqrt()).abs() < 1e-12, "{by_span:?}");
+        let by_number: Vec<Forecast> = (1..6).map(|k| of(10_usize.pow(k), 2.0, -0.5 * f64::from(k))).collect();
+        let [by_span, of_number] = scaling(&by_number);
+        assert!(by_span.is_none(), "one span has no slope");
+        assert!((of_number.expect("a slope").value + 0.5).abs() < 1e-12);
+        assert!(scaling(&by_number[..2])[1].is_none(), "two points are too few");
+    }
+}

@@ -216,3 +216,50 @@ impl Jacobian {
         self
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inference::{Signal, data_of, stars};
+
+    fn strain_at(star: &Parameters<f64>, times: &[f64]) -> Vec<Datum> {
+        let signal = Signal::new(star, *times.last().expect("a time")).expect("a motion");
+        data_of(&signal, &[], times, &[(Observable::StrainPlus, 0.5), (Observable::StrainCross, 0.25)]).expect("data")
+    }
+
+    /// Terms of a sum have magnitudes that are no less than the sum: of `s_axial` two of three weights are negative.
+    #[test]
+    fn magnitudes_are_those_of_the_terms() {
+        let star = stars::precessing();
+        let data = strain_at(&star, &[1.0, 5.0, 12.0]);
+        let unknowns = [Parameter::SAxial, Parameter::Spin, Parameter::STrace];
+        let found = jacobian(&star, &[], &data, &unknowns).expect("derivatives");
+        let sums = found.matrix.iter().zip(&found.magnitudes);
+        assert!(sums.clone().all(|(sum, magnitude)| sum.abs() <= magnitude * (1.0 + 1e-12)), "{found:?}");
+        // The trace turns nothing: its terms cancel.
+        assert!(found.matrix.column(2).amax() < 1e-12 * found.magnitudes.column(2).amax());
+        let weighted = found.clone().weighted(&data);
+        for (row, datum) in data.iter().enumerate() {
+            for column in 0..unknowns.len() {
+                assert_eq!(weighted.matrix[(row, column)] * datum.sigma, found.matrix[(row, column)]);
+                assert_eq!(weighted.magnitudes[(row, column)] * datum.sigma, found.magnitudes[(row, column)]);
+            }
+        }
+    }
+
+    /// Twenty times the tolerance and the rounding of an angle of so many radians; without the latter where phases are kept.
+    #[test]
+    fn derivatives_have_an_error_by_the_rotation() {
+        let star = stars::slow();
+        let rate = star.state().momentum.norm();
+        let error = |star: &Parameters<f64>, times: &[f64]| {
+            jacobian(star, &[], &strain_at(star, times), &[Parameter::Spin]).expect("derivatives").relative_error
+        };
+        for time in [10.0, 50.0] {
+            let expected = 20.0 * (1e-13 + f64::EPSILON * rate * time);
+            assert!((error(&star, &[1.0, time, 3.0, time]) / expected - 1.0).abs() < 1e-12, "{time}: {expected:e}");
+        }
+        assert_eq!(error(&star, &[1.0, 2_000.0]), 2e-12);
+        assert_eq!(error(&stars::weak(), &[1e6, 2e6]), 2e-12);
+    }
+}

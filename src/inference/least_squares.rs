@@ -127,10 +127,10 @@ pub(super) fn least_squares<M: Model>(
         .zip(&gradient)
         .fold(0.0, |most: f64, (column, product)| most.max((product / (column.norm() * chi_squared.sqrt())).abs()));
     let fisher = Fisher::of_jacobian(&weighted, unknowns, &model).determined()?;
-    for (unknown, value) in unknowns.iter().zip(fisher.values()) {
-        let (low, high) = unknown.limits();
-        if low == Some(value) || high == Some(value) {
-            return Err(InferenceError::OnLimit { unknown: unknown.symbol(), value });
+    for ((unknown, at), bound) in unknowns.iter().zip(&at).zip(&search.bounds) {
+        let limits = [(bound.limited_low, bound.limit_low), (bound.limited_up, bound.limit_up)];
+        if limits.into_iter().any(|(is_limited, limit)| is_limited && *at == limit) {
+            return Err(InferenceError::OnLimit { unknown: unknown.symbol(), value: model.value(*unknown) });
         }
     }
     // What is left of the gradient moves no unknown by more than a hundredth of its error.
@@ -231,5 +231,228 @@ impl<M: Model, C: Comparison<M>> MPFitter for Search<'_, M, C> {
             }
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inference::functions::{A, B, Fraction, Functions, Name, Numbers};
+
+    /// Seven measurements of a straight line `a + b x`: x, y, sigma.
+    const POINTS: [[f64; 3]; 7] = [
+        [0.0, 1.1, 0.1],
+        [1.0, 2.9, 0.2],
+        [2.0, 5.2, 0.1],
+        [3.0, 6.8, 0.3],
+        [4.0, 9.1, 0.1],
+        [5.0, 11.4, 0.2],
+        [6.0, 12.8, 0.1],
+    ];
+
+    const LINE: Functions = Functions {
+        count: 7,
+        residuals: |[a, b, _]| Some(POINTS.iter().map(|[x, y, sigma]| (a + b * x - y) / sigma).collect()),
+        derivatives: |_| POINTS.iter().map(|[x, _, sigma]| [1.0 / sigma, x / sigma, 0.0]).collect(),
+        all_rounding: false,
+    };
+
+    /// Sums of `f(x, y)` over the points, weighted by `sigma^-2`.
+    fn sum(f: impl Fn(f64, f64) -> f64) -> f64 {
+        POINTS.iter().map(|[x, y, sigma]| f(*x, *y) / (sigma * sigma)).sum()
+    }
+
+    fn close(found: f64, expected: f64) {
+        assert!((found - expected).abs() <= 1e-12 * expected.abs().max(1e-3), "{found:e}, expected {expected:e}");
+    }
+
+    fn why(found: Result<Fit<Numbers>, InferenceError>) -> (&'static str, f64) {
+        match found {
+            Err(InferenceError::NotConverged { why, cosine }) => (why, cosine),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// Against the sums of the textbook.
+    #[test]
+    fn a_straight_line_has_its_closed_form() {
+        let found = least_squares(&Numbers::unbounded([30.0, -7.0, 0.0]), &LINE, &[A, B]).expect("a fit");
+        let [s, sx, sy] = [sum(|_, _| 1.0), sum(|x, _| x), sum(|_, y| y)];
+        let [sxx, sxy] = [sum(|x, _| x * x), sum(|x, y| x * y)];
+        let determinant = s * sxx - sx * sx;
+        let (a, b) = ((sxx * sy - sx * sxy) / determinant, (s * sxy - sx * sy) / determinant);
+        let [found_a, found_b] = found.fisher.values()[..] else { panic!("two values") };
+        close(found_a, a);
+        close(found_b, b);
+        close(found.fisher.covariance[(0, 0)], sxx / determinant);
+        close(found.fisher.covariance[(1, 1)], s / determinant);
+        close(found.fisher.covariance[(0, 1)], -sx / determinant);
+        close(found.chi_squared, sum(|x, y| (y - a - b * x).powi(2)));
+        assert_eq!(found.degrees, 5);
+        close(found.root_mean_square(), (found.chi_squared / 5.0).sqrt());
+        assert_eq!(found.residuals.len(), 7);
+        for (residual, [x, y, sigma]) in found.residuals.iter().zip(POINTS) {
+            assert!((residual - (y - a - b * x) / sigma).abs() < 1e-11, "measured less fitted");
+        }
+        assert!(found.cosine < 1e-9 && found.iterations > 0, "{found:?}");
+        assert_eq!(found.judged(), Residuals::AsStated);
+    }
+
+    /// `chi^2` of a normal distribution's six standard deviations, from the incomplete gamma function to 25 digits (mpmath).
+    #[test]
+    fn chi_squared_is_judged_at_six_standard_deviations() {
+        let fitted = least_squares(&Numbers::unbounded([1.0, 2.0, 0.0]), &LINE, &[A, B]).expect("a fit");
+        let judged = |chi_squared: f64, degrees: usize| Fit { chi_squared, degrees, ..fitted.clone() }.judged();
+        for (degrees, edge, exact_to) in [(100, 209.367_631, 5e-3), (1000, 1_292.074_00, 5e-4)] {
+            assert_eq!(judged(edge * (1.0 - exact_to), degrees), Residuals::AsStated, "{degrees}");
+            assert_eq!(judged(edge * (1.0 + exact_to), degrees), Residuals::Larger, "{degrees}");
+        }
+        assert_eq!(judged(754.551_951 * (1.0 + 5e-4), 1000), Residuals::AsStated);
+        assert_eq!(judged(754.551_951 * (1.0 - 5e-4), 1000), Residuals::Smaller);
+    }
+
+    #[test]
+    fn too_few_data_and_no_unknowns_are_refused() {
+        let two = Functions { count: 2, ..LINE };
+        let found = least_squares(&Numbers::unbounded([1.0; 3]), &two, &[A, B, Fraction]).expect_err("too few");
+        assert_eq!(found, InferenceError::TooFew { data: 2, unknowns: 3 });
+        let found = least_squares(&Numbers::unbounded([1.0; 3]), &Functions { count: 2, ..LINE }, &[A, B])
+            .expect_err("as many");
+        assert_eq!(found, InferenceError::TooFew { data: 2, unknowns: 2 });
+        let found = least_squares(&Numbers::unbounded([1.0; 3]), &LINE, &[]).expect_err("none");
+        assert!(matches!(found, InferenceError::Model(Error::Unsupported { what: "a fit", .. })), "{found:?}");
+    }
+
+    /// Data that a fraction beyond either end would fit best: from any start the search ends on that end, whatever the rounding of the steps.
+    #[test]
+    fn a_fit_that_ends_on_a_limit_is_refused() {
+        let fraction = |target: fn([f64; 3]) -> Option<Vec<f64>>| Functions {
+            count: 3,
+            residuals: target,
+            derivatives: |_| vec![[0.0, 0.0, 3.0], [0.0, 0.0, 7.0], [0.0, 0.0, 1.1]],
+            all_rounding: false,
+        };
+        let above = fraction(|[.., f]| Some([3.0, 7.0, 1.1].map(|scale| scale * (f - 1.5)).to_vec()));
+        let below = fraction(|[.., f]| Some([3.0, 7.0, 1.1].map(|scale| scale * (f + 0.5)).to_vec()));
+        let within = fraction(|[.., f]| Some([3.0, 7.0, 1.1].map(|scale| scale * (f - 0.999)).to_vec()));
+        for k in 1..100 {
+            let start = Numbers::unbounded([0.0, 0.0, f64::from(k) / 100.0]);
+            for (data, limit) in [(&above, 1.0), (&below, 0.0)] {
+                match least_squares(&start, data, &[Fraction]) {
+                    Err(InferenceError::OnLimit { unknown: "f", value }) => {
+                        assert!((value - limit).abs() < 1e-15, "{value}")
+                    }
+                    other => panic!("from {start:?}: {other:?}"),
+                }
+            }
+            let found = least_squares(&start, &within, &[Fraction]).expect("a fit");
+            assert!((found.fisher.values()[0] - 0.999).abs() < 1e-12);
+        }
+        let outside = least_squares(&Numbers::unbounded([0.0, 0.0, 1.5]), &above, &[Fraction]);
+        assert_eq!(why(outside).0, "the start is outside the limits");
+    }
+
+    /// A derivative of the wrong sign leads uphill: the fit stays at its start, where the residuals (3, 4) have with the derivative (1, 0) a cosine of
+    /// 3/5, and the derivative (0, 1) of the other number one of 4/5.
+    #[test]
+    fn a_fit_that_ends_off_a_minimum_is_refused() {
+        let uphill = |derivatives: fn([f64; 3]) -> Vec<[f64; 3]>| Functions {
+            count: 3,
+            residuals: |[a, b, _]| Some(vec![3.0 + a, 4.0 + b, 0.0]),
+            derivatives,
+            all_rounding: false,
+        };
+        let wrong = uphill(|_| vec![[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]]);
+        let start = Numbers::unbounded([0.0; 3]);
+        let (what, cosine) = why(least_squares(&start, &wrong, &[A]));
+        assert_eq!(what, "no step makes chi^2 less");
+        assert!((cosine - 0.6).abs() < 1e-6, "{cosine}");
+        let (_, cosine) = why(least_squares(&start, &wrong, &[A, B]));
+        assert!((cosine - 0.8).abs() < 1e-6, "{cosine}");
+        let (_, cosine) = why(least_squares(&start, &wrong, &[B, A]));
+        assert!((cosine - 0.8).abs() < 1e-6, "{cosine}");
+        // A step left of 0.03 standard deviations is too long, on either side; one of 0.003 is not.
+        for (off, refused) in [(0.03, true), (-0.03, true), (0.003, false), (-0.003, false)] {
+            let near = Numbers::unbounded([-3.0 + off, 0.0, 0.0]);
+            assert_eq!(least_squares(&near, &wrong, &[A]).is_err(), refused, "{off}");
+        }
+        let undefined = uphill(|[a, ..]| vec![[if a == 0.0 { 1.0 } else { f64::NAN }, 0.0, 0.0], [0.0; 3], [0.0; 3]]);
+        assert_eq!(why(least_squares(&start, &undefined, &[A])).0, "a derivative is not finite");
+    }
+
+    /// `exp(-a)` has no least value: each step is one long, without end.
+    #[test]
+    fn too_many_steps_are_told() {
+        let endless = Functions {
+            count: 2,
+            residuals: |[a, ..]| Some(vec![(-a).exp(), 0.0]),
+            derivatives: |[a, ..]| vec![[-(-a).exp(), 0.0, 0.0], [0.0; 3]],
+            all_rounding: false,
+        };
+        assert_eq!(why(least_squares(&Numbers::unbounded([0.0; 3]), &endless, &[A])).0, "too many steps");
+    }
+
+    /// The first step from 5 to the minimum of `ln(a)^2` leads below zero, where there is no logarithm.
+    #[test]
+    fn steps_to_models_without_the_data_are_rejected() {
+        let logarithm = Functions {
+            count: 2,
+            residuals: |[a, ..]| (a > 0.0).then(|| vec![10.0 * a.ln(), 1.0]),
+            derivatives: |[a, ..]| vec![[10.0 / a, 0.0, 0.0], [0.0; 3]],
+            all_rounding: false,
+        };
+        let found = least_squares(&Numbers::unbounded([5.0, 0.0, 0.0]), &logarithm, &[A]).expect("a fit");
+        assert!((found.fisher.values()[0] - 1.0).abs() < 1e-6 && (found.chi_squared - 1.0).abs() < 1e-9, "{found:?}");
+    }
+
+    /// Residuals that are rounding are told where they are too large or the fit ends off a minimum, and only there.
+    #[test]
+    fn rounding_is_told_where_it_matters() {
+        let small = Functions { all_rounding: true, ..LINE };
+        assert!(least_squares(&Numbers::unbounded([1.0, 2.0, 0.0]), &small, &[A, B]).is_ok());
+        let large = |all_rounding: bool| Functions {
+            residuals: |[a, ..]| Some((0..7).map(|k| a + 100.0 * f64::from(k)).collect()),
+            derivatives: |_| vec![[1.0, 0.0, 0.0]; 7],
+            all_rounding,
+            ..LINE
+        };
+        let found = least_squares(&Numbers::unbounded([0.0; 3]), &large(false), &[A]).expect("a fit");
+        assert_eq!(found.judged(), Residuals::Larger);
+        let found = least_squares(&Numbers::unbounded([0.0; 3]), &large(true), &[A]).expect_err("rounding");
+        assert_eq!(found, InferenceError::PeriodsForecast);
+        let off = Functions {
+            count: 3,
+            residuals: |[a, ..]| Some(vec![1.0 + a, 0.0, 0.0]),
+            derivatives: |_| vec![[-1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]],
+            all_rounding: true,
+        };
+        let found = least_squares(&Numbers::unbounded([0.0; 3]), &off, &[A]).expect_err("rounding");
+        assert_eq!(found, InferenceError::PeriodsForecast);
+    }
+
+    /// Of `r = (x + curvature x^2 + cubic x^3, constant)` one standard deviation from x = 0 changes `chi^2` by `(1 + curvature + cubic)^2`, or with the other
+    /// sign of the curvature.
+    #[test]
+    fn nonlinearity_is_the_largest_difference_from_a_parabola() {
+        let of = |residuals: fn([f64; 3]) -> Option<Vec<f64>>, unknowns: &[Name]| {
+            let data = Functions {
+                count: 3,
+                residuals,
+                derivatives: |_| vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0; 3]],
+                all_rounding: false,
+            };
+            let at = Numbers::unbounded([0.0; 3]);
+            let (_, jacobian) = data.linearised(&at, unknowns).expect("derivatives");
+            nonlinearity(&Fisher::of_jacobian(&jacobian, unknowns, &at), &data).expect("data")
+        };
+        let curved = |[a, ..]: [f64; 3]| Some(vec![a + 0.1 * a * a, 0.0, 3.0]);
+        assert!((of(curved, &[A]) - 0.21).abs() < 1e-12);
+        let the_other_way = |[a, ..]: [f64; 3]| Some(vec![a - 0.1 * a * a, 0.0, 3.0]);
+        assert!((of(the_other_way, &[A]) - 0.21).abs() < 1e-12);
+        let flatter = |[a, ..]: [f64; 3]| Some(vec![a - 0.3 * a * a * a, 0.0, 3.0]);
+        assert!((of(flatter, &[A]) - 0.51).abs() < 1e-12);
+        let in_the_second = |[a, b, _]: [f64; 3]| Some(vec![a, b + 0.2 * b * b, 3.0]);
+        assert!((of(in_the_second, &[A, B]) - 0.44).abs() < 1e-12);
+        assert!(of(|[a, b, _]| Some(vec![a, b, 3.0]), &[A, B]) < 1e-12);
     }
 }

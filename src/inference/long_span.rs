@@ -120,3 +120,72 @@ pub(super) fn pulses_numbered(
     }
     Ok(found)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inference::stars;
+    use crate::parameters::Parameter;
+
+    #[test]
+    fn spans_of_more_than_a_hundred_thousand_radians_are_long() {
+        for (star, rate) in [(stars::slow(), 0.3), (stars::weak(), 1.3)] {
+            let found = turning_rate(&star);
+            assert!((0.8..2.0).contains(&(found / rate)), "{found}");
+            assert!(!is_long(&star, 0.999e5 / found) && is_long(&star, 1.001e5 / found));
+        }
+    }
+
+    /// A number is looked for from any time, also some turns away.
+    #[test]
+    fn pulses_are_found_by_their_numbers() {
+        let (star, end) = (stars::weak(), 2e6);
+        let period = clock(&star, end).expect("a clock").period();
+        let near = pulses_near(&star, end, &[1e5, 1e6, 1.9e6]).expect("pulses");
+        assert_eq!(near.len(), 3);
+        for turns in [0.0, 0.4, -3.0, 7.0, 2_000.0] {
+            let wanted: Vec<_> = near.iter().map(|event| (event.turn, event.epoch + turns * period)).collect();
+            let found = pulses_numbered(&star, end, &wanted).expect("pulses");
+            assert_eq!(found.len(), 3, "{turns}");
+            for (event, before) in found.iter().zip(&near) {
+                assert_eq!(event.turn, before.turn);
+                let late = (event.epoch - before.epoch) + (event.midpoint() - before.midpoint());
+                assert!(late.abs() < 1e-9, "{turns}: {late:e}");
+            }
+        }
+        assert!(pulses_numbered(&star, end, &[]).expect("none asked for").is_empty());
+    }
+
+    #[test]
+    fn the_pulse_of_the_turn_nearest_to_a_time_is_taken_once() {
+        let (star, end) = (stars::weak(), 2e6);
+        let period = clock(&star, end).expect("a clock").period();
+        let at = |times: &[f64]| pulses_near(&star, end, times).expect("pulses");
+        let first = at(&[1e6])[0];
+        let middle = first.epoch + first.midpoint();
+        for part in [-0.4, 0.0, 0.4] {
+            assert_eq!(at(&[middle + part * period])[0].turn, first.turn, "{part}");
+        }
+        let turns: Vec<i64> = at(&[middle, middle + 0.1, middle + period, middle + 1.2 * period])
+            .iter()
+            .map(|event| event.turn)
+            .collect();
+        assert_eq!(turns, [first.turn, first.turn + 1]);
+    }
+
+    /// A pulse that has begun before the start is none.
+    #[test]
+    fn pulses_begin_after_the_start() {
+        let (star, end) = (stars::weak(), 2e6);
+        let first = pulses_near(&star, end, &[5.0]).expect("pulses")[0];
+        let width = first.end - first.start;
+        let clock_rate = std::f64::consts::TAU / clock(&star, end).expect("a clock").period();
+        for (middle, is_seen) in [(0.4, false), (0.6, true)] {
+            // The observer is moved so that the pulse comes this part of its width after the start.
+            let turn = -clock_rate * (first.epoch + first.midpoint() - middle * width);
+            let moved = star.moved(&[Parameter::PhiO], &[turn]);
+            let found = pulses_near(&moved, end, &[0.0]).expect("pulses");
+            assert_eq!(found.len(), usize::from(is_seen), "{middle}: {found:?}");
+        }
+    }
+}

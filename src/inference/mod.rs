@@ -43,6 +43,8 @@ mod error;
 mod fisher;
 mod fit;
 mod forecast;
+#[cfg(test)]
+mod functions;
 mod jacobian;
 mod least_squares;
 mod long_span;
@@ -50,6 +52,8 @@ mod model;
 mod observables;
 mod scaled_jacobian;
 mod signal;
+#[cfg(test)]
+mod stars;
 mod symmetry;
 mod timing;
 mod wobble_limit;

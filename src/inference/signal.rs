@@ -190,3 +190,91 @@ impl Signal {
         Ok(strain(&self.parameters, [&state.axis, &state.momentum], observable))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::RigidSpheroid;
+    use crate::inference::stars;
+
+    #[test]
+    fn the_rate_of_turns_is_the_momentum_over_the_inertia() {
+        let star = stars::slow();
+        let heavy =
+            Parameters { spheroid: RigidSpheroid { inertia_xx: 2.0, inertia_zz: 2.2, ..star.spheroid }, ..star };
+        // Twice as heavy, the star of the same angular velocity turns as fast.
+        assert!((turning_rate(&heavy) / turning_rate(&star) - 1.0).abs() < 1e-15);
+        assert!((turning_rate(&star) - star.state().momentum.norm()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn strains_are_the_two_polarizations_in_their_unit() {
+        let star = Parameters { strain_scale: 3.0, strain_unit: 0.125, ..stars::precessing() };
+        let signal = Signal::new(&star, 10.0).expect("a motion");
+        for t in [0.0, 2.5, 9.0] {
+            let state = signal.motion.axis_state(t).expect("a state");
+            let h = wave_of_state(&star.spheroid, &star.coefficients, &state, &star.observer());
+            let found = |kind| signal.strain(kind, t).expect("a strain") / (3.0 * 0.125);
+            assert!(
+                (found(Observable::StrainPlus) - h.plus).abs() < 1e-14
+                    && (found(Observable::StrainCross) - h.cross).abs() < 1e-14
+            );
+            assert!(h.plus.abs() > 1e-3 && (h.plus - h.cross).abs() > 1e-3);
+        }
+        assert!(signal.strain(Observable::StrainPlus, 11.0).is_err());
+    }
+
+    /// The beam of a star whose symmetry axis goes far from `L` is out of sight for several turns at a time.
+    fn with_gaps() -> Parameters<f64> {
+        Parameters { rho: 0.25, theta_o: 1.3, ..stars::precessing() }
+    }
+
+    #[test]
+    fn pulses_after_epochs_are_the_next_ones_within_two_turns() {
+        let star = with_gaps();
+        let signal = Signal::new(&star, 200.0).expect("a motion");
+        let (events, turn) = (signal.events().expect("pulses"), signal.turn());
+        let longest = events.windows(2).map(|pair| (pair[1].start - pair[0].start) / turn).fold(0.0, f64::max);
+        assert!(longest > 3.4, "{longest} turns");
+        let times: Vec<f64> = (0..400).map(|k| f64::from(k) * 0.45).collect();
+        let found = signal.events_after(&times).expect("pulses");
+        let mut expected: Vec<Event> = Vec::new();
+        for (place, time) in times.iter().enumerate() {
+            let next = events.iter().find(|event| event.start > *time && event.end < time + 2.2 * turn);
+            if let Some(event) = next.filter(|event| expected.last().is_none_or(|last| last.closest != event.closest)) {
+                expected.push(Event { turn: place as i64, ..*event });
+            }
+        }
+        assert_eq!(found.len(), expected.len());
+        for (event, wanted) in found.iter().zip(&expected) {
+            assert_eq!(event.turn, wanted.turn);
+            let differences = [event.start - wanted.start, event.end - wanted.end, event.closest - wanted.closest];
+            assert!(differences.into_iter().all(|difference| difference.abs() < 1e-9), "{event:?} {wanted:?}");
+        }
+        // In an order that goes back, a pulse may come again.
+        let again = signal.events_after(&[events[3].start - 0.1, events[0].start - 0.1]).expect("pulses");
+        assert_eq!(again.len(), 2);
+    }
+
+    #[test]
+    fn long_spans_have_no_list_of_every_pulse() {
+        let signal = Signal::new(&stars::weak(), 3e6).expect("a motion");
+        assert!(signal.is_long() && signal.events().is_err());
+        assert!(!Signal::new(&stars::weak(), 100.0).expect("a motion").is_long());
+    }
+
+    /// Ten times the estimated error of directions: in radians over the rate of turns, or as a part of the largest strain.
+    #[test]
+    fn rounding_is_a_part_of_a_turn_or_of_the_strain() {
+        let star = Parameters { strain_scale: 30.0, ..stars::slow() };
+        let signal = Signal::new(&star, 100.0).expect("a motion");
+        let directions = 10.0 * signal.motion.error_estimate(100.0);
+        let of_times = signal.rounding(Observable::Widths);
+        assert!((of_times * turning_rate(&star) / directions - 1.0).abs() < 1e-12);
+        let strains =
+            (0..=10_000).map(|k| signal.strain(Observable::StrainCross, f64::from(k) * 0.01).expect("a strain").abs());
+        let of_strain = signal.rounding(Observable::StrainCross) / directions;
+        let largest = strains.fold(0.0, f64::max);
+        assert!((0.95..=1.0 + 1e-12).contains(&(of_strain / largest)), "{of_strain} {largest}");
+    }
+}

@@ -43,7 +43,7 @@ pub struct Prior {
 /// Measurements of the pulses of a star, with independent errors, and what is known of it beforehand.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct TimingData {
-    /// MeasuredArrival times.
+    /// Arrival times.
     pub arrivals: Vec<MeasuredArrival>,
     /// Widths.
     pub widths: Vec<MeasuredWidth>,
@@ -210,4 +210,190 @@ pub fn timing_fisher(
 /// A model a standard deviation away that cannot be.
 pub fn timing_nonlinearity(fisher: &Fisher<TimingModel>, data: &TimingData) -> Result<f64, InferenceError> {
     least_squares::nonlinearity(fisher, &data.numbered(&fisher.parameters)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inference::{Model, Residuals};
+    use TimingParameter::*;
+
+    /// A pulsar that wobbles, of which pulses have widths.
+    fn star() -> TimingModel {
+        let rate = core::f64::consts::TAU / 4e7;
+        let star = [
+            (F1, -3e-13),
+            (Wobble, 0.05),
+            (Chi, 1.3),
+            (PrecessionRate, rate),
+            (TorqueShare, 1.0),
+            (Inclination, 1.2),
+            (Rho, 0.3),
+        ];
+        TimingModel::new([10.0, 0.0], &star).expect("a model")
+    }
+
+    /// Arrivals at the times that the model has, each later by `late` (s).
+    fn arrivals(model: &TimingModel, numbers: &[i64], late: f64, sigma: f64) -> Vec<MeasuredArrival> {
+        let of = |number: &i64| {
+            let [time, rest] = model.arrival(*number).expect("a pulse");
+            MeasuredArrival { time: [time, rest + late], sigma, number: Some(*number) }
+        };
+        numbers.iter().map(of).collect()
+    }
+
+    /// Two arrivals, two widths and two priors.
+    fn mixed(model: &TimingModel) -> TimingData {
+        let width =
+            |time: f64| MeasuredWidth { time, duration: model.width(time).expect("a width") + 2e-4, sigma: 1e-4 };
+        let priors = vec![
+            Prior { parameter: Chi, mean: 1.25, sigma: 0.1 },
+            Prior { parameter: F1, mean: -3.5e-13, sigma: 1e-13 },
+        ];
+        TimingData {
+            arrivals: arrivals(model, &[-4_000_000, 7_000_000], 3e-5, 1e-5),
+            widths: vec![width(1e5), width(7e6)],
+            priors,
+        }
+    }
+
+    /// The model less what is measured, in standard deviations: late arrivals and long pulses have negative residuals.
+    #[test]
+    fn residuals_are_the_model_less_the_data() {
+        let model = star();
+        let data = mixed(&model);
+        assert_eq!(data.len(), 6);
+        let residuals = data.residuals(&model).expect("data of the model");
+        for (found, expected) in residuals.iter().zip([-3.0, -3.0, -2.0, -2.0, 0.5, 0.5]) {
+            assert!((found - expected).abs() < 1e-6, "{residuals:?}");
+        }
+        assert_eq!(residuals.len(), 6);
+    }
+
+    /// Against central differences, by a change that moves the largest residual by a standard deviation or less.
+    #[test]
+    fn derivatives_of_residuals_are_their_differences() {
+        let model = star();
+        let data = mixed(&model);
+        let unknowns = [Phase, F0, F1, Chi, Wobble, PrecessionPhase, Rho];
+        let (residuals, jacobian) = data.linearised(&model, &unknowns).expect("derivatives");
+        assert_eq!(residuals, data.residuals(&model).expect("data of the model"));
+        assert_eq!((jacobian.matrix.nrows(), jacobian.matrix.ncols()), (6, 7));
+        assert_eq!(jacobian.magnitudes, jacobian.matrix.abs());
+        assert_eq!(jacobian.relative_error, 1e-13);
+        for (column, unknown) in unknowns.into_iter().enumerate() {
+            let derivative = jacobian.matrix.column(column);
+            let step = 1e-3 / derivative.amax();
+            let at = |sign: f64| {
+                let moved = Model::moved(&model, &[unknown], &[sign * step]).expect("a model");
+                data.residuals(&moved).expect("data of the model")
+            };
+            for (row, (up, down)) in at(1.0).into_iter().zip(at(-1.0)).enumerate() {
+                let difference = (up - down) / (2.0 * step);
+                assert!(
+                    (difference - derivative[row]).abs() < 1e-5 * derivative.amax(),
+                    "{unknown:?} {row}: {difference} {}",
+                    derivative[row]
+                );
+            }
+        }
+    }
+
+    /// Numbers of the data begin anywhere: the first that has one is that of its turn, and a pulse without a number has that of the turn nearest to it.
+    #[test]
+    fn pulses_are_numbered_as_the_model_counts() {
+        let model = star();
+        let turns = [20, 21, 25, 40];
+        let mut arrivals = arrivals(&model, &turns, 0.02, 1e-5);
+        for (arrival, number) in arrivals.iter_mut().zip([None, Some(1021), Some(1025), Some(1041)]) {
+            arrival.number = number;
+        }
+        let data = TimingData { arrivals, ..TimingData::default() };
+        let numbers: Vec<_> =
+            data.numbered(&model).expect("turns").arrivals.iter().map(|arrival| arrival.number).collect();
+        // The last was counted one too far, which the residuals then show.
+        assert_eq!(numbers, [Some(20), Some(21), Some(25), Some(41)]);
+    }
+
+    /// Two measurements of one number, known beforehand too: their weighted mean.
+    #[test]
+    fn what_is_known_beforehand_counts_as_data() {
+        let priors = vec![
+            Prior { parameter: Phase, mean: 0.1, sigma: 0.01 },
+            Prior { parameter: Phase, mean: 0.2, sigma: 0.02 },
+        ];
+        let data = TimingData { priors, ..TimingData::default() };
+        let model = TimingModel::new([10.0, 0.0], &[]).expect("a model");
+        let found = fit_timing(&model, &data, &[Phase]).expect("a fit");
+        assert!((found.fisher.values()[0] - 0.12).abs() < 1e-12, "{found:?}");
+        assert!((found.fisher.sigmas()[0] - 12_500_f64.powf(-0.5)).abs() < 1e-12, "{found:?}");
+        assert!((found.chi_squared - 20.0).abs() < 1e-9, "{found:?}");
+        assert!(timing_nonlinearity(&found.fisher, &data).expect("data of the model") < 1e-9);
+    }
+
+    #[test]
+    fn errors_that_are_none_are_refused() {
+        let model = star();
+        for sigma in [0.0, -1.0, f64::INFINITY, f64::NAN] {
+            for which in 0..3 {
+                let mut data = mixed(&model);
+                match which {
+                    0 => data.arrivals[1].sigma = sigma,
+                    1 => data.widths[1].sigma = sigma,
+                    _ => data.priors[1].sigma = sigma,
+                }
+                let refused = timing_fisher(&model, &data, &[Phase]).expect_err("no standard deviation");
+                assert!(
+                    matches!(refused, InferenceError::Model(Error::Domain { quantity: "standard deviation", .. })),
+                    "{refused:?}"
+                );
+            }
+        }
+        let few =
+            TimingData { priors: vec![Prior { parameter: Phase, mean: 0.0, sigma: 1.0 }], ..TimingData::default() };
+        let refused = timing_fisher(&model, &few, &[Phase, F0]).expect_err("too few");
+        assert_eq!(refused, InferenceError::TooFew { data: 1, unknowns: 2 });
+        let enough = timing_fisher(&model, &few, &[Phase]).expect("one of each");
+        assert!((enough.sigmas()[0] - 1.0).abs() < 1e-12);
+    }
+
+    /// With errors far below rounding, data of the model itself are told to be rounding, and data that are off by a hundred times as much are not.
+    #[test]
+    fn residuals_that_are_rounding_are_told() {
+        let model = TimingModel::new([300.0, 0.0], &[]).expect("a model");
+        let numbers: Vec<i64> = (-6..6).map(|k| k * 1_234_567).collect();
+        // In turns: 1e-14 is rounding.
+        let off_by = |turns: f64| {
+            let mut data = TimingData { arrivals: arrivals(&model, &numbers, 0.0, 1e-21), ..TimingData::default() };
+            let shift = |arrival: (usize, &mut MeasuredArrival)| {
+                arrival.1.time[1] += if arrival.0 % 2 == 0 { turns / 300.0 } else { -turns / 300.0 }
+            };
+            data.arrivals.iter_mut().enumerate().for_each(shift);
+            fit_timing(&model, &data, &[Phase])
+        };
+        match off_by(5e-15) {
+            Err(InferenceError::NotConverged { why, .. }) => assert_eq!(why, "the residuals are rounding"),
+            other => panic!("{other:?}"),
+        }
+        for turns in [3e-14, 1e-12] {
+            match off_by(turns) {
+                Ok(found) => assert_eq!(found.judged(), Residuals::Larger),
+                Err(InferenceError::NotConverged { why, .. }) => assert_ne!(why, "the residuals are rounding"),
+                Err(other) => panic!("{other:?}"),
+            }
+        }
+    }
+
+    #[test]
+    fn frequencies_differ_in_both_doubles() {
+        let model = |frequency: [f64; 2]| TimingModel::new(frequency, &[(F1, -1e-15)]).expect("a model");
+        let (here, there) = (model([300.0, 3e-16]), model([299.0, -5e-15]));
+        assert_eq!(here.difference(&there, F0), 1.0 + 5.3e-15);
+        assert_eq!(model([300.0, 3e-16]).difference(&model([300.0, -5e-15]), F0), 5.3e-15);
+        assert_eq!(here.difference(&model([300.0, 0.0]), F1), 0.0);
+        for unknown in TimingParameter::ALL {
+            let is_rate = [F0, F1, F2, PrecessionRate, InclinationRate].contains(&unknown);
+            assert_eq!(here.range(unknown), if is_rate { 300.0 } else { 1.0 }, "{unknown:?}");
+        }
+    }
 }

@@ -124,4 +124,45 @@ mod tests {
             );
         }
     }
+
+    /// A model of which a limit is asked that it cannot have.
+    #[test]
+    fn fitted_wobbles_and_unknowns_of_the_wobble_are_refused() {
+        use TimingParameter::{Chi, F0, Phase, PrecessionPhase, PrecessionRate, TorqueShare, Wobble};
+        let model = |wobble: f64| TimingModel::new([2.5, 0.0], &[(Chi, 1.4), (Wobble, wobble)]).expect("a model");
+        let arrival = |k: i32| MeasuredArrival { time: [f64::from(k) * 4e5, 0.0], sigma: 1e-6, number: None };
+        let data = TimingData { arrivals: (0..20).map(arrival).collect(), ..TimingData::default() };
+        let limits =
+            |wobble: f64, unknowns: &[TimingParameter]| wobble_limits(&model(wobble), &data, unknowns, &[1e-6], 0.95);
+        assert!(limits(1e-13, &[Phase, F0]).is_ok());
+        let refused = limits(1e-10, &[Phase]).expect_err("a wobble");
+        assert!(
+            matches!(refused, InferenceError::Model(Error::Domain { quantity: "wobble (rad)", value: 1e-10, .. })),
+            "{refused:?}"
+        );
+        for unknown in [Chi, PrecessionPhase, PrecessionRate, TorqueShare, Wobble] {
+            let refused = limits(0.0, &[Phase, unknown]).expect_err("no effect");
+            assert!(
+                matches!(refused, InferenceError::Model(Error::Unsupported { what, .. }) if what == unknown.key()),
+                "{refused:?}"
+            );
+        }
+    }
+
+    /// Columns of any length and nearly alike span what they span.
+    #[test]
+    fn a_basis_spans_its_columns() {
+        let of =
+            |columns: &[[f64; 3]]| orthonormal(DMatrix::from_fn(3, columns.len(), |row, column| columns[column][row]));
+        let spans = |basis: &DMatrix<f64>, vector: [f64; 3]| {
+            let vector = DVector::from_row_slice(&vector);
+            (&vector - basis * (basis.transpose() * &vector)).norm() < 1e-4
+        };
+        let small = of(&[[1e-20, 0.0, 0.0], [0.0, 3.0, 0.0]]);
+        assert!(small.ncols() == 2 && spans(&small, [1.0, 0.0, 0.0]) && spans(&small, [0.0, 1.0, 0.0]));
+        let alike = of(&[[1.0, 0.0, 0.0], [1.0, 1e-11, 0.0]]);
+        assert!(alike.ncols() == 2 && spans(&alike, [0.0, 1.0, 0.0]) && !spans(&alike, [0.0, 0.0, 1.0]));
+        assert_eq!(of(&[[1.0, 2.0, 0.0], [2.0, 4.0, 0.0], [0.0; 3]]).ncols(), 1);
+        assert!(of(&[]).is_empty());
+    }
 }

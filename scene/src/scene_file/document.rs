@@ -1,6 +1,5 @@
 //! TOML documents of any kind, read key by key. Every refusal has its place in the file, the value as written and what is allowed.
 
-use std::fmt;
 use std::fs::File;
 use std::io::Read;
 use std::ops::{Range, RangeInclusive};
@@ -11,6 +10,8 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::LARGEST_FILE;
+use super::fault::{Fault, SceneError};
+use super::names::{did_you_mean, listed, nearest, shortened};
 
 type Names = fn() -> Vec<&'static str>;
 
@@ -379,124 +380,6 @@ impl<'a> Entry<'a> {
     }
 }
 
-/// `` `a`, `b` and `c` ``.
-pub fn listed(names: &[&str]) -> String {
-    let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
-    match quoted.split_last() {
-        Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
-        _ => quoted.concat(),
-    }
-}
-
-/// The text on one line, without control characters, cut after 40 characters.
-pub fn shortened(text: &str) -> String {
-    let line = text.split_whitespace().collect::<Vec<_>>().join(" ").replace(char::is_control, "\u{fffd}");
-    if line.chars().count() <= 40 { line } else { line.chars().take(37).chain("...".chars()).collect() }
-}
-
-/// `` Did you mean `name`?`` with the name that is most probably meant, after a space; nothing where none is near.
-pub fn did_you_mean(word: &str, names: &[&str]) -> String {
-    nearest(word, names).map(|name| format!(" Did you mean `{name}`?")).unwrap_or_default()
-}
-
-/// The name that is most probably meant: at most two letters wrong, or the beginning of a name, in capitals or not.
-pub fn nearest<'n>(word: &str, names: &[&'n str]) -> Option<&'n str> {
-    if let Some(name) = names.iter().find(|name| name.eq_ignore_ascii_case(word)) {
-        return Some(name);
-    }
-    let (distance, name) = names.iter().map(|&name| (strsim::levenshtein(word, name), name)).min()?;
-    let beginning = || names.iter().copied().find(|name| word.len() > 2 && name.starts_with(word));
-    if distance <= 2.min(name.len() / 2) { Some(name) } else { beginning() }
-}
-
-/// A fault at a place of the text that is being read; becomes a [`SceneError`] with [`SceneError::in_text`].
-#[derive(Debug)]
-pub(crate) struct Fault {
-    /// Bytes of the text, where the fault has a place.
-    pub(crate) span: Option<Range<usize>>,
-    /// Key, value and what is allowed.
-    pub(crate) message: String,
-}
-
-impl Fault {
-    pub(crate) fn at(span: Range<usize>, message: impl Into<String>) -> Self {
-        Self { span: Some(span), message: message.into() }
-    }
-}
-
-/// A scene, or a table of pulsars, that cannot be used: file, place, key, value and what is allowed.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SceneError {
-    file: String,
-    place: Option<Place>,
-    message: String,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-struct Place {
-    line: usize,
-    column: usize,
-    /// The line as it stands in the file, shortened, and the marked characters in it.
-    excerpt: Option<(String, Range<usize>)>,
-}
-
-/// Longest line of a file that is shown under a message.
-const LONGEST_EXCERPT: usize = 100;
-
-impl SceneError {
-    /// A refusal of the file as a whole.
-    pub fn of_file(file: &str, message: impl Into<String>) -> Self {
-        Self { file: file.to_owned(), place: None, message: message.into() }
-    }
-
-    pub(crate) fn in_text(file: &str, text: &str, fault: Fault) -> Self {
-        let place = fault.span.map(|span| Place::of(text, span));
-        Self { file: file.to_owned(), place, message: fault.message }
-    }
-}
-
-impl Place {
-    fn of(text: &str, span: Range<usize>) -> Self {
-        let mut start = span.start.min(text.len());
-        while !text.is_char_boundary(start) {
-            start -= 1;
-        }
-        let line_start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
-        let column = text[line_start..start].chars().count();
-        let line = text[line_start..].lines().next().unwrap_or("").replace('\t', " ");
-        let line = line.replace(char::is_control, "\u{fffd}");
-        let length = line.chars().count();
-        let marked = text.get(start..span.end).map_or(1, |s| s.lines().next().unwrap_or("").chars().count()).max(1);
-        let excerpt =
-            (length <= LONGEST_EXCERPT).then(|| (line, column..(column + marked).min(length.max(column + 1))));
-        Place { line: text[..line_start].matches('\n').count() + 1, column: column + 1, excerpt }
-    }
-}
-
-impl fmt::Display for SceneError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.file)?;
-        if let Some(place) = &self.place {
-            write!(f, ":{}:{}", place.line, place.column)?;
-        }
-        write!(f, ": {}", self.message)?;
-        if let Some(Place { line, excerpt: Some((text, marked)), .. }) = &self.place {
-            let margin = line.to_string().len();
-            write!(f, "\n{:margin$} |\n{line} | {text}\n{:margin$} | ", "", "")?;
-            write!(f, "{:skip$}{}", "", "^".repeat(marked.len()), skip = marked.start)?;
-        }
-        Ok(())
-    }
-}
-
-impl std::error::Error for SceneError {}
-
-impl From<SceneError> for String {
-    fn from(error: SceneError) -> Self {
-        error.to_string()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -506,54 +389,6 @@ mod tests {
     /// What `read` makes of a document, or the message of its refusal.
     fn read<T>(text: &str, read: impl FnOnce(&Section<'_>) -> Result<T, Fault>) -> Result<T, String> {
         SHEET.parse("sheet.toml", text, read).map_err(String::from)
-    }
-
-    /// The message of a refusal of the bytes `span` of a text, whose fault is `why`.
-    fn message(text: &str, span: Range<usize>) -> String {
-        SceneError::in_text("sheet.toml", text, Fault::at(span, "why")).to_string()
-    }
-
-    /// Under the line stand as many marks as there are characters, at least one, and none beyond the end of the line.
-    #[test]
-    fn what_is_refused_is_marked_in_its_line() {
-        assert_eq!(message("a = 1\nbc = 23\n", 11..13), "sheet.toml:2:6: why\n  |\n2 | bc = 23\n  |      ^^");
-        // A value of two lines is marked in its first.
-        assert_eq!(message("a = [1,\n2]\n", 4..10), "sheet.toml:1:5: why\n  |\n1 | a = [1,\n  |     ^^^");
-        // Nothing at all, as where a value lacks at the end of the line, and beyond the end of the text.
-        assert_eq!(message("a =", 3..3), "sheet.toml:1:4: why\n  |\n1 | a =\n  |    ^");
-        assert_eq!(message("a =", 7..9), "sheet.toml:1:4: why\n  |\n1 | a =\n  |    ^");
-        assert_eq!(message("abc", 1..2), "sheet.toml:1:2: why\n  |\n1 | abc\n  |  ^");
-        // Within a character of two bytes: at its beginning.
-        assert_eq!(message("\u{e9}\u{e9}x", 3..4), "sheet.toml:1:2: why\n  |\n1 | \u{e9}\u{e9}x\n  |  ^");
-        assert_eq!(message("\u{e9}\u{e9}x", 0..1), "sheet.toml:1:1: why\n  |\n1 | \u{e9}\u{e9}x\n  | ^");
-        // Of the two characters that a mark would cover the line has one.
-        assert_eq!(message("a\r\nb", 0..2), "sheet.toml:1:1: why\n  |\n1 | a\n  | ^");
-    }
-
-    #[test]
-    fn lines_are_shown_up_to_a_hundred_characters() {
-        for (length, shown) in [(100, true), (101, false)] {
-            let text = "x".repeat(length);
-            assert_eq!(message(&text, 0..1).contains(&text), shown, "{length}");
-        }
-    }
-
-    #[test]
-    fn values_are_cut_after_forty_characters() {
-        assert_eq!(shortened(&"x".repeat(40)), "x".repeat(40));
-        assert_eq!(shortened(&"x".repeat(41)), format!("{}...", "x".repeat(37)));
-        assert_eq!(shortened(" a\n\t b\u{7} "), "a b\u{fffd}");
-    }
-
-    /// Two letters may be wrong, and of a short name no more than half.
-    #[test]
-    fn a_name_is_guessed_from_one_with_two_letters_wrong() {
-        let near = |word| nearest(word, &["momentum", "spin", "rho", "w"]);
-        assert_eq!(near("momemtun"), Some("momentum"));
-        assert_eq!([near("nomemtun"), near("sxxn"), near("sxxx")], [None, Some("spin"), None]);
-        assert_eq!([near("who"), near("wha"), near("r")], [Some("rho"), None, None]);
-        // The beginning of a name, of three letters at least, and capitals.
-        assert_eq!([near("mom"), near("mo"), near("RHO")], [Some("momentum"), None, Some("rho")]);
     }
 
     #[test]

@@ -5,7 +5,9 @@
 
 mod built_in;
 mod document;
+mod fault;
 mod motion;
+mod names;
 mod observation;
 mod rotation;
 mod spin_down;
@@ -19,9 +21,11 @@ use twofold::plan::{Method, Output};
 use twofold::solutions::perturbation::Perturbation;
 
 pub use built_in::{BUILT_IN, BuiltIn, PULSARS, TEMPLATES, built_in, names};
-pub(crate) use document::{Entry, Fault, FileFormat, Replaced, Section};
-pub use document::{SceneError, did_you_mean, listed, nearest, shortened};
+pub(crate) use document::{Entry, FileFormat, Replaced, Section};
+pub(crate) use fault::Fault;
+pub use fault::SceneError;
 pub use motion::Units;
+pub use names::{did_you_mean, listed, nearest, shortened};
 pub use observation::{COLUMN_GROUPS, Catalogued, Pulsar, Times, Viewer, column_group, like_julian_date};
 pub(crate) use observation::{NAMELESS, columns_in, read_end, read_times, read_tolerance_and_method};
 pub use spin_down::{IndexOrSecond, SpinDown};

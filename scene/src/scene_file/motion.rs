@@ -14,7 +14,8 @@ use twofold::star::uniform_spheroid::UniformSpheroid;
 use twofold::units::geometrised::{CENTIMETRE, ERG, GRAM, GRAM_PER_CUBIC_CENTIMETRE, KILOMETRE, SOLAR_MASS};
 use twofold::units::si::GRAM_SQUARE_CENTIMETRE;
 
-use super::document::{Entry, Fault, Section};
+use super::document::{Entry, Section};
+use super::fault::Fault;
 use super::observation::Pulsar;
 use super::rotation::{Rotation, WobbleAngles, rotation};
 

@@ -11,8 +11,10 @@ use twofold::units::JULIAN_YEAR;
 use twofold::units::si::KILOPARSEC;
 
 use super::Scene;
-use super::document::{Entry, Fault, Section, did_you_mean, listed};
+use super::document::{Entry, Section};
+use super::fault::Fault;
 use super::motion::{Units, outwards};
+use super::names::{did_you_mean, listed};
 
 /// Direction and distance of the observer, in the inertial frame of the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]

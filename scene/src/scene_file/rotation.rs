@@ -4,7 +4,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use twofold::epoch::DAY;
 
-use super::document::{Entry, Fault, Section};
+use super::document::{Entry, Section};
+use super::fault::Fault;
 
 /// Angles of a wobbling pulsar, where the scene has them: of the symmetry axis to `L`, and of the magnetic axis to the symmetry axis (rad).
 pub(super) struct WobbleAngles {

@@ -4,7 +4,8 @@ use twofold::epoch::DAY;
 use twofold::spin_down::Braking;
 
 use super::Units;
-use super::document::{Fault, Section};
+use super::document::Section;
+use super::fault::Fault;
 
 /// How a star slows down, by the derivatives of its frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]

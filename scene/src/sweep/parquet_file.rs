@@ -38,6 +38,10 @@ struct Group {
 
 /// Writes the CSV table `table` to `file`. The same table gives the same bytes.
 pub fn write_parquet(table: impl Read, file: &File) -> Result<(), ConversionError> {
+    write_in_groups(table, file, NUMBERS_PER_GROUP)
+}
+
+fn write_in_groups(table: impl Read, file: &File, numbers_per_group: usize) -> Result<(), ConversionError> {
     let mut table = csv::Reader::from_reader(table);
     let header: Vec<_> = table.headers()?.iter().map(str::to_owned).collect();
     let fields = header.iter().map(|name| field(name).map(Arc::new)).collect::<Result<Vec<_>, _>>()?;
@@ -52,7 +56,7 @@ pub fn write_parquet(table: impl Read, file: &File) -> Result<(), ConversionErro
             .set_column_encoding(column, Encoding::BYTE_STREAM_SPLIT);
     }
     let mut writer = SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties.build()))?;
-    let rows_per_group = (NUMBERS_PER_GROUP / header.len()).max(1);
+    let rows_per_group = (numbers_per_group / header.len()).max(1);
     let mut group = Group::new(header.len());
     let mut record = csv::StringRecord::new();
     while table.read_record(&mut record)? {
@@ -159,36 +163,80 @@ mod tests {
 
     use super::*;
 
+    /// The file of a table, `numbers` to a group.
+    fn read(table: &str, numbers: usize) -> Result<SerializedFileReader<File>, ConversionError> {
+        let file = tempfile::tempfile().expect("a file");
+        write_in_groups(table.as_bytes(), &file, numbers)?;
+        Ok(SerializedFileReader::new(file).expect("a Parquet file"))
+    }
+
     #[test]
     fn every_number_comes_back_and_missing_ones_are_missing() {
         let table =
             "scene,star.spin,status,e_z_X@1.0 [1]\n0,0.1,ok,-1.5e-300\n1,1e22,failed,\n2,-0.0,ok,0.30000000000000004\n";
-        let write = |table: &str| {
-            let file = tempfile::tempfile().expect("a file");
-            write_parquet(table.as_bytes(), &file).map(|()| file)
-        };
-        let reader = SerializedFileReader::new(write(table).expect("a table")).expect("a Parquet file");
         let expected = [
             (0, 0.1, "ok", Field::Double(-1.5e-300)),
             (1, 1e22, "failed", Field::Null),
             (2, -0.0, "ok", Field::Double(0.30000000000000004)),
         ];
-        let rows: Vec<_> = reader.get_row_iter(None).expect("rows").map(|row| row.expect("a row")).collect();
-        assert_eq!(rows.len(), expected.len());
-        for (row, (number, spin, status, value)) in rows.iter().zip(expected) {
-            let fields: Vec<_> = row.get_column_iter().map(|(name, field)| (name.as_str(), field.clone())).collect();
-            let wanted = [
-                ("scene", Field::Long(number)),
-                ("star.spin", Field::Double(spin)),
-                ("status", Field::Str(status.to_owned())),
-                ("e_z_X@1.0 [1]", value),
-            ];
-            assert_eq!(fields, wanted);
+        // All rows in a group; two and one; a row in each, also where it has more numbers than a group should.
+        for (numbers, groups) in
+            [(NUMBERS_PER_GROUP, vec![3]), (11, vec![2, 1]), (4, vec![1, 1, 1]), (1, vec![1, 1, 1])]
+        {
+            let reader = read(table, numbers).expect("a table");
+            let rows_of_groups: Vec<_> = reader.metadata().row_groups().iter().map(|group| group.num_rows()).collect();
+            assert_eq!(rows_of_groups, groups, "{numbers} numbers to a group");
+            let rows: Vec<_> = reader.get_row_iter(None).expect("rows").map(|row| row.expect("a row")).collect();
+            assert_eq!(rows.len(), expected.len());
+            for (row, (number, spin, status, value)) in rows.iter().zip(&expected) {
+                let fields: Vec<_> =
+                    row.get_column_iter().map(|(name, field)| (name.as_str(), field.clone())).collect();
+                let wanted = [
+                    ("scene", Field::Long(*number)),
+                    ("star.spin", Field::Double(*spin)),
+                    ("status", Field::Str(status.to_string())),
+                    ("e_z_X@1.0 [1]", value.clone()),
+                ];
+                assert_eq!(fields, wanted);
+            }
         }
-        let column = reader.metadata().row_group(0).column(1);
+    }
+
+    #[test]
+    fn numbers_are_split_streams_under_zstd() {
+        let reader = read("scene,star.spin,status\n0,0.1,ok\n", NUMBERS_PER_GROUP).expect("a table");
+        let metadata = reader.metadata();
+        let column = metadata.row_group(0).column(1);
         assert!(column.encodings().any(|encoding| encoding == Encoding::BYTE_STREAM_SPLIT));
+        assert_eq!(column.dictionary_page_offset(), None);
         assert!(matches!(column.compression(), Compression::ZSTD(_)));
-        let bad = write("scene,star.spin,status\n0,x,ok\n").expect_err("no number").to_string();
+        let by = concat!("twofold ", env!("CARGO_PKG_VERSION"));
+        assert_eq!(metadata.file_metadata().created_by(), Some(by));
+        assert_eq!(metadata.file_metadata().schema().name(), "sweep");
+    }
+
+    #[test]
+    fn tables_without_rows_have_no_group() {
+        let reader = read("scene,star.spin,status\n", NUMBERS_PER_GROUP).expect("a table");
+        assert_eq!(reader.metadata().num_row_groups(), 0);
+        assert_eq!(reader.metadata().file_metadata().schema().get_fields().len(), 3);
+    }
+
+    #[test]
+    fn errors_name_what_is_wrong() {
+        let told = |table: &str| read(table, NUMBERS_PER_GROUP).err().expect("an error").to_string();
+        let bad = told("scene,star.spin,status\n0,x,ok\n");
         assert_eq!(bad, "line 2 of the table holds no number in the column `star.spin`");
+        let bad = told("scene,star.spin,status\n0,0.1,ok\n1.5,0.1,ok\n");
+        assert_eq!(bad, "line 3 of the table holds no number in the column `scene`");
+        let short = told("scene,star.spin,status\n0,0.1\n");
+        assert!(short.starts_with("the table cannot be read: ") && short.contains("line: 2"), "{short}");
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.parquet");
+        std::fs::write(&path, "").expect("a file");
+        let closed = File::open(&path).expect("a file to read");
+        let refused =
+            write_parquet("scene,star.spin,status\n0,0.1,ok\n".as_bytes(), &closed).expect_err("not to be written");
+        assert!(refused.to_string().starts_with("the Parquet file cannot be written: "), "{refused}");
     }
 }

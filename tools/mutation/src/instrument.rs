@@ -166,6 +166,7 @@ fn refusals(
 ) -> Result<(usize, Vec<String>), String> {
     let output = Command::new("cargo")
         .args(["check", "-q", "-p", package.name, "--lib", "--message-format", "json"])
+        .args(["--features", &package.features.join(",")])
         .env("RUSTFLAGS", "--cap-lints=allow")
         .current_dir(tree)
         .output()

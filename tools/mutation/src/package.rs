@@ -7,13 +7,20 @@ pub struct Package {
     pub sources: &'static str,
     /// Packages whose tests reach it; none of the module for Python, which pytest tests.
     pub tested_by: &'static [&'static str],
+    /// Features that it is built with, beside the default ones.
+    pub features: &'static [&'static str],
 }
 
 const PACKAGES: [Package; 4] = [
-    Package { name: "twofold", sources: "src/", tested_by: &["twofold"] },
-    Package { name: "twofold-scene", sources: "scene/src/", tested_by: &["twofold-scene", "twofold-command"] },
-    Package { name: "twofold-command", sources: "command/src/", tested_by: &["twofold-command"] },
-    Package { name: "twofold-python", sources: "python/src/", tested_by: &[] },
+    Package { name: "twofold", sources: "src/", tested_by: &["twofold"], features: &[] },
+    Package {
+        name: "twofold-scene",
+        sources: "scene/src/",
+        tested_by: &["twofold-scene", "twofold-command"],
+        features: &["twofold-scene/parquet"],
+    },
+    Package { name: "twofold-command", sources: "command/src/", tested_by: &["twofold-command"], features: &[] },
+    Package { name: "twofold-python", sources: "python/src/", tested_by: &[], features: &[] },
 ];
 
 impl Package {

@@ -55,6 +55,7 @@ impl Suite {
         }
         let mut command = Command::new("cargo");
         command.args(["test", "--no-run", "--profile", "mutants", "--message-format", "json"]);
+        command.args(["--features", &package.features.join(",")]);
         match only {
             None => {
                 command.args(["--lib", "--tests"]);
