@@ -81,7 +81,7 @@ impl<'a, U: Unknown> Directions<'a, U> {
             let new = &left * (left.transpose() * &vector);
             if left.ncols() > 0 && new.norm() > INDEPENDENT {
                 found.push(self.direction(&vector, Some(symmetry.words)));
-                left = without(&left, &new.normalize());
+                left = without(&left, &new);
             }
         }
         found.extend(left.column_iter().map(|vector| self.direction(&vector.into_owned(), None)));
@@ -140,9 +140,10 @@ impl<'a, U: Unknown> Directions<'a, U> {
     }
 }
 
-/// An orthonormal basis of a space without one of its unit vectors.
-fn without(space: &DMatrix<f64>, unit: &DVector<f64>) -> DMatrix<f64> {
-    let left = space - unit * (unit.transpose() * space);
+/// An orthonormal basis of a space without one of its directions.
+fn without(space: &DMatrix<f64>, direction: &DVector<f64>) -> DMatrix<f64> {
+    let unit = direction.normalize();
+    let left = space - &unit * (unit.transpose() * space);
     // The last of its vectors, of the smallest singular value, is the one left out.
     let u = left.svd(true, false).u.expect("asked for");
     u.columns(0, space.ncols() - 1).into_owned()
@@ -220,7 +221,20 @@ mod tests {
             let found = Fisher::of_jacobian(&exact(rows.clone()), &[A, B], &model).degenerate;
             assert_eq!(found.len(), 1);
             assert_eq!(found[0].words.is_some(), is_named, "{part}");
+            // The same change a thousandth as large, and a billion times, with the parts of the unknowns off by a millionth.
+            for (size, off) in [(1e-3, 0.0), (1e9, 1e-6)] {
+                let change = [(A, size), (B, -0.5 * size * (1.0 + off)), (Fraction, part * size)];
+                let found =
+                    Fisher::of_jacobian(&exact(rows.clone()), &[A, B], &with_symmetries(&[("a against b", &change)]))
+                        .degenerate;
+                assert_eq!(found[0].words.is_some(), is_named, "{part} {size}");
+            }
         }
+        // A part of a million-millionth counts where the data depend on it a million million times as much.
+        let rows = DMatrix::from_row_slice(2, 2, &[1.0, 1e12, 3.0, 3e12]);
+        let model = with_symmetries(&[("a against b", &[(A, 1.0), (B, -1e-12)])]);
+        let found = Fisher::of_jacobian(&exact(rows), &[A, B], &model).degenerate;
+        assert_eq!(found.iter().map(|one| one.words).collect::<Vec<_>>(), [Some("a against b")]);
     }
 
     /// All data are functions of `a + b + f`. Of the two directions the symmetries name one each, also where the second is the first but for a thousandth; what is left
@@ -242,12 +256,12 @@ mod tests {
         assert!((a - b).abs() < 1e-14 && (a + b + f).abs() < 1e-14 && (f - 1.0).abs() < 1e-14, "{found:?}");
     }
 
-    /// The last of three directions, of four numbers' worth of data on their sum, is exact though the part of the second that is new is a thousandth.
+    /// Also without a direction that is given by a short vector, as what a symmetry has that others have not.
     #[test]
     fn what_is_left_over_is_exact() {
         let null = DMatrix::from_column_slice(3, 3, &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
         let unit = DVector::from_column_slice(&[0.6, 0.8, 0.0]);
-        let left = without(&null, &unit);
+        let left = without(&null, &(1e-3 * &unit));
         assert_eq!((left.nrows(), left.ncols()), (3, 2));
         assert!((left.transpose() * &unit).norm() < 1e-15);
         assert!((left.transpose() * &left - DMatrix::identity(2, 2)).norm() < 1e-15);

@@ -125,6 +125,7 @@ impl<M: Model> Fisher<M> {
 mod tests {
     use super::*;
     use crate::inference::functions::{A, B, Fraction, Numbers, exact};
+    use crate::inference::{Observable, Place, stars};
 
     /// Correlated data of three numbers.
     fn rows() -> DMatrix<f64> {
@@ -178,6 +179,16 @@ mod tests {
         assert!(((rows() * change([1.0, -2.0, 3.0], 0.5)).norm_squared() - 3.5).abs() < 1e-11);
         let opposite = change([1.0, -2.0, 3.0], -0.5) + change([1.0, -2.0, 3.0], 0.5);
         assert!(opposite.norm() < 1e-14);
+    }
+
+    #[test]
+    fn fewer_data_than_unknowns_are_refused() {
+        let star = stars::precessing();
+        let datum =
+            Datum { observable: Observable::StrainPlus, place: Place::Time(1.0), epoch: 0.0, value: 0.0, sigma: 1.0 };
+        let refused = Fisher::of(&star, &[], &[datum], &[Parameter::Spin, Parameter::Beta]).expect_err("too few");
+        assert_eq!(refused, InferenceError::TooFew { data: 1, unknowns: 2 });
+        assert!(Fisher::of(&star, &[], &[datum], &[Parameter::Spin]).is_ok());
     }
 
     #[test]

@@ -183,6 +183,12 @@ mod tests {
         let late = residuals[1] * 1e-6 / turn;
         assert!((0.6..1.1).contains(&late), "{late} turns");
         assert!(found.iter().any(|event| event.turn == last.turn && event.start > last.end));
+        // One that would come 2.6 turns late is not.
+        let rate = -star.alpha_rate * 2.6 / (turns + 2.6);
+        let slower =
+            star.moved(&[Parameter::AlphaRate, Parameter::Spin], &[rate, star.spin() * rate / star.alpha_rate]);
+        let told = compared(&slower, &data, last.end).expect_err("beyond two turns");
+        assert!(matches!(told, InferenceError::NoPulse { turn, .. } if turn == last.turn), "{told:?}");
     }
 
     #[test]
@@ -241,6 +247,9 @@ mod tests {
         let events = signal.events_after(&[10.0, 2e6, 2.9e6]).expect("pulses");
         let data =
             data_of(&signal, &events, &[], &[(Observable::Arrivals, 1e-9), (Observable::Widths, 1e-9)]).expect("data");
+        for (datum, event) in data.iter().zip(events.iter().chain(&events)) {
+            assert_eq!(datum.epoch, if datum.observable == Observable::Arrivals { event.epoch } else { 0.0 });
+        }
         let (residuals, _) = compared(&star, &data, 3e6).expect("the same star");
         assert!(residuals.iter().all(|residual| residual.abs() < 1e-2), "{residuals:?}");
         // A turn of the beam about the symmetry axis moves arrivals by some time less than a turn, which the residuals tell in spite of another epoch.

@@ -112,8 +112,23 @@ mod tests {
                 "{told:e} {sigma:e}"
             );
         }
-        let one = forecast(&star, &noise, &[Parameter::Spin], Parameter::Spin, &spans, &[1]).expect("forecasts");
-        assert_eq!((one[0].data, one[1].data), (1, 1));
+        // The size of the strain, known by each: at the start alone, and of two epochs at both ends.
+        let of_strain = |epochs: usize| {
+            forecast(&star, &noise, &[Parameter::Strain], Parameter::Strain, &spans, &[epochs]).expect("forecasts")
+        };
+        let signal = Signal::new(&star, spans[1]).expect("a motion");
+        let weight = |t: f64| {
+            let h = |(kind, sigma)| signal.strain(kind, t).expect("a strain") / sigma;
+            h(noise[0]).powi(2) + h(noise[1]).powi(2)
+        };
+        let end = spans[1] - 2.2 * turn;
+        for (found, weights) in of_strain(1)
+            .into_iter()
+            .zip([weight(0.0); 2])
+            .chain(of_strain(2).into_iter().zip([2.0 * weight(0.0), weight(0.0) + weight(end)]))
+        {
+            assert!((found.sigma * weights.sqrt() - 1.0).abs() < 1e-9, "{found:?}");
+        }
     }
 
     /// Few epochs for so many pulses are different ones each; so many that a pulse is the next of several count it once.

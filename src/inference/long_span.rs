@@ -124,8 +124,11 @@ pub(super) fn pulses_numbered(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::euler_angles::{EulerAngles, EulerRates};
     use crate::inference::stars;
+    use crate::lorentz_violation::PrincipalCoefficients;
     use crate::parameters::Parameter;
+    use crate::plan::Output;
 
     #[test]
     fn spans_of_more_than_a_hundred_thousand_radians_are_long() {
@@ -171,6 +174,32 @@ mod tests {
             .map(|event| event.turn)
             .collect();
         assert_eq!(turns, [first.turn, first.turn + 1]);
+    }
+
+    /// A star that spins about the middle axis of `s^IJ`, where its motion has no torus: the averaged motion stands in where the violation is weak, and is refused where it is not.
+    #[test]
+    fn where_there_is_no_torus_the_averaged_motion_stands_in() {
+        let about_the_middle_axis = |s: f64| {
+            let star = stars::weak();
+            let angles = EulerAngles { alpha: std::f64::consts::PI, beta: std::f64::consts::FRAC_PI_2, gamma: 0.1 };
+            let rates = EulerRates { alpha: 1e-9, beta: 0.0, gamma: 1.3 };
+            let s = PrincipalCoefficients::new([2.0 * s, s, -4.0 * s]).tensor();
+            Parameters::new(star.spheroid, s, angles, rates)
+        };
+        let request = |end: f64| Request::new(&[Output::PulseProfile], (0.0, end), 2, 1e-13);
+        let weak = about_the_middle_axis(1e-8);
+        assert!(weak.state().axis.y.abs() > 0.999);
+        assert_eq!(plan(&weak, request(1e6)).expect("a plan").method, Some(Method::Averaged));
+        assert_ne!(plan(&weak, request(1e3)).expect("a plan").method, Some(Method::Averaged));
+        match plan(&about_the_middle_axis(3e-6), request(1e6)) {
+            Err(Error::Domain { quantity, value, .. }) => {
+                assert!(
+                    quantity.starts_with("estimated error of directions") && (2e-3..0.9).contains(&value),
+                    "{value}"
+                );
+            }
+            other => panic!("{other:?}"),
+        }
     }
 
     /// A pulse that has begun before the start is none.

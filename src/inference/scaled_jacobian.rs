@@ -70,3 +70,17 @@ impl ScaledJacobian {
         covariance
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inference::functions::exact;
+
+    /// Numbers that no datum depends on leave nothing to decompose.
+    #[test]
+    fn a_jacobian_of_zeros_has_no_singular_values() {
+        let zeros = ScaledJacobian::new(&exact(DMatrix::zeros(4, 3)));
+        assert_eq!((zeros.idle, zeros.values.len(), zeros.rounding), (vec![0, 1, 2], 0, 0.0));
+        assert_eq!((zeros.vectors.nrows(), zeros.vectors.ncols(), zeros.lengths.len()), (3, 0, 3));
+    }
+}

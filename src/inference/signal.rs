@@ -196,6 +196,7 @@ mod tests {
     use super::*;
     use crate::dynamics::RigidSpheroid;
     use crate::inference::stars;
+    use crate::parameters::ThirdRate;
 
     #[test]
     fn the_rate_of_turns_is_the_momentum_over_the_inertia() {
@@ -276,5 +277,54 @@ mod tests {
         let of_strain = signal.rounding(Observable::StrainCross) / directions;
         let largest = strains.fold(0.0, f64::max);
         assert!((0.95..=1.0 + 1e-12).contains(&(of_strain / largest)), "{of_strain} {largest}");
+    }
+
+    /// A prolate star whose beam passes the line of sight twice in some turns: their pulses cannot be told apart by the turn, and are left out.
+    #[test]
+    fn turns_of_two_pulses_are_left_out() {
+        let base = stars::precessing();
+        let prolate = Parameters {
+            spheroid: RigidSpheroid::in_units_of_tc(0.2),
+            third_rate: ThirdRate::Spin(5.0),
+            chi: 0.5,
+            rho: 0.3,
+            ..base
+        };
+        let signal = Signal::new(&prolate, 40.0).expect("a motion");
+        let all = signal.events_in((0.0, 40.0)).expect("pulses");
+        let of_turn = |turn: i64| all.iter().filter(|event| event.turn == turn).count();
+        let expected: Vec<Event> = all.iter().filter(|event| of_turn(event.turn) == 1).copied().collect();
+        assert!(!expected.is_empty() && expected.len() < all.len(), "{all:?}");
+        assert_eq!(signal.events().expect("pulses"), expected);
+    }
+
+    #[test]
+    fn pulses_are_found_from_the_start_on() {
+        let first = |phi_o: f64| {
+            let signal = Signal::new(&Parameters { phi_o, ..stars::precessing() }, 20.0).expect("a motion");
+            signal.events().expect("pulses")[0].start
+        };
+        assert!(first(0.6) < 0.2 && first(1.2) < 0.8 && first(1.8) < 1.3);
+    }
+
+    /// Where the strain grows all the time its largest value is that at the end; where it falls, that at the start.
+    #[test]
+    fn the_largest_strain_is_sought_from_the_start_to_the_end() {
+        for star in [stars::precessing(), Parameters { phi_o: 1.9, ..stars::precessing() }] {
+            let signal = Signal::new(&star, 0.05).expect("a motion");
+            for kind in [Observable::StrainPlus, Observable::StrainCross] {
+                let size = |t: f64| signal.strain(kind, t).expect("a strain").abs();
+                let largest = signal.rounding(kind) / (10.0 * signal.motion.error_estimate(0.05));
+                assert!((largest / size(0.0).max(size(0.05)) - 1.0).abs() < 1e-12, "{kind:?}");
+            }
+        }
+        let grows = |phi_o: f64, kind: Observable| {
+            let signal = Signal::new(&Parameters { phi_o, ..stars::precessing() }, 0.05).expect("a motion");
+            let size = |t: f64| signal.strain(kind, t).expect("a strain").abs();
+            size(0.05) > size(0.0)
+        };
+        let ways =
+            [0.0, 1.9].map(|phi_o| [Observable::StrainPlus, Observable::StrainCross].map(|kind| grows(phi_o, kind)));
+        assert!(ways.as_flattened().contains(&true) && ways.as_flattened().contains(&false), "{ways:?}");
     }
 }

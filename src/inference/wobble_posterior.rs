@@ -89,9 +89,6 @@ impl WobblePosterior {
         let wanted = probability * all;
         let mut ends = [(best - QUANTILES).max(0.0), best + QUANTILES];
         let mut excess = ends.map(|end| self.below(end, Some(all)) - wanted);
-        if excess[0] >= 0.0 {
-            ends[1] = ends[0];
-        }
         // The Illinois method: a secant between two ends, with half the excess of an end that stays.
         let mut last = None;
         while ends[1] - ends[0] > TOLERANCE * ends[1] {
@@ -197,6 +194,43 @@ mod tests {
         let blind = posterior([f64::INFINITY, 1e-6], [0.0; 2], 0.0);
         assert_eq!((blind.limit(0.95).unwrap(), blind.gain()), (f64::INFINITY, 0.0));
         assert!(far.limit(1.0).is_err() && blind.limit(-0.1).is_err());
+    }
+
+    /// The best wobble in the plane, and what it gains; none of an axis without effect.
+    #[test]
+    fn the_best_wobble_is_that_of_least_squares() {
+        for turn in [0.0_f64, 0.3, 2.0] {
+            let (sin, cos) = turn.sin_cos();
+            let [x, y] = posterior([1e-3, 1e-4], [2.0, -7.0], turn).best();
+            assert!(
+                (x - (cos * 2e-3 + sin * 7e-4)).abs() < 1e-15 && (y - (sin * 2e-3 - cos * 7e-4)).abs() < 1e-15,
+                "{x} {y}"
+            );
+        }
+        assert!((posterior([1e-3, 1e-4], [2.0, -7.0], 0.3).gain() - 53.0).abs() < 1e-12);
+        let blind = posterior([f64::INFINITY, 1e-6], [0.0, 3.0], 0.0);
+        assert!(blind.gain() == 0.0 && blind.best().iter().all(|x| x.is_nan()));
+        // Derivatives whose squares are no numbers any more.
+        let tiny = posterior([1e200, 1e199], [2.0, -7.0], 0.0);
+        assert!((tiny.gain() - 53.0).abs() < 1e-12 && (tiny.best()[0] / 2e200 - 1.0).abs() < 1e-14, "{tiny:?}");
+        // One datum says nothing of two numbers.
+        let one =
+            WobblePosterior::new(DMatrix::from_row_slice(1, 2, &[1e3, 3e2]), &DVector::from_element(1, 5.0)).unwrap();
+        assert!(one.gain() == 0.0 && one.limit(0.95).unwrap() == f64::INFINITY, "{one:?}");
+    }
+
+    /// A small probability to all digits; wide posteriors of which the quantile asked for is below 0.1 rad, and those that are too wide for any.
+    #[test]
+    fn limits_at_the_ends_of_their_range() {
+        // Half a normal distribution: probability times sqrt(pi / 2), to its square.
+        let found = limit([1e-6; 2], [0.0; 2], 1e-9);
+        assert!((found / (1e-15 * (PI / 2.0).sqrt()) - 1.0).abs() < 1e-9, "{found:e}");
+        assert_eq!(limit([0.5; 2], [0.0; 2], 0.01), f64::INFINITY);
+        assert!((limit([0.05; 2], [0.0; 2], 0.5) / (0.05 * 0.674489750196082) - 1.0).abs() < 1e-10);
+        // A normal distribution about 0.105 rad, less what the factor theta^(-1/2) moves it by.
+        let found = limit([0.01; 2], [0.0, 10.5], 0.1);
+        assert!((found - (0.105 - 0.012815515655446)).abs() < 1e-3 && found < 0.1, "{found}");
+        assert_eq!(limit([0.01; 2], [0.0, 10.5], 0.5), f64::INFINITY);
     }
 
     /// The density of `theta` by its own sum over the phase, of equal steps: exact to rounding once they are finer than the needle.
