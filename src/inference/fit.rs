@@ -139,6 +139,7 @@ mod tests {
         let star = stars::precessing();
         let mut data = data(&star, 60.0);
         assert!(OF_PULSES.iter().all(|(kind, _)| data.iter().filter(|datum| datum.observable == *kind).count() > 3));
+        assert!(data.iter().all(|datum| datum.epoch == 0.0));
         for _ in 0..2 {
             let (residuals, _) = compared(&star, &data, 60.0).expect("the same star");
             assert_eq!(residuals.len(), data.len());

@@ -1,5 +1,7 @@
 //! What is seen of a star: its motion, pulses and strain.
 
+use std::collections::BTreeMap;
+
 use nalgebra::Vector3;
 
 use super::{Observable, long_span};
@@ -110,13 +112,11 @@ impl Signal {
     /// A beam or line of sight that has no pulses to be counted, and a long span.
     pub fn events(&self) -> Result<Vec<Event>, Error> {
         Error::ensure(!self.is_long, "span for every pulse", self.end, "one of at most 1e5 rad of rotation")?;
-        let found = self.events_in((0.0, self.end))?;
-        let once = |turn: i64| found.iter().filter(|event| event.turn == turn).count() == 1;
-        Ok(if found.windows(2).all(|pair| pair[0].turn < pair[1].turn) {
-            found
-        } else {
-            found.iter().filter(|event| once(event.turn)).copied().collect()
-        })
+        let mut found = self.events_in((0.0, self.end))?;
+        let mut of_turn = BTreeMap::new();
+        found.iter().for_each(|event| *of_turn.entry(event.turn).or_insert(0) += 1);
+        found.retain(|event| of_turn[&event.turn] == 1);
+        Ok(found)
     }
 
     /// The first whole pulse after each of some times, within two turns; `turn` is the place of the time. For spans with more pulses

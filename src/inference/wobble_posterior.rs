@@ -208,8 +208,10 @@ mod tests {
             );
         }
         assert!((posterior([1e-3, 1e-4], [2.0, -7.0], 0.3).gain() - 53.0).abs() < 1e-12);
-        let blind = posterior([f64::INFINITY, 1e-6], [0.0, 3.0], 0.0);
-        assert!(blind.gain() == 0.0 && blind.best().iter().all(|x| x.is_nan()));
+        for pull in [0.0, 2.0] {
+            let blind = posterior([f64::INFINITY, 1e-6], [pull, 3.0], 0.0);
+            assert!(blind.gain() == 0.0 && blind.best().iter().all(|x| x.is_nan()), "{blind:?}");
+        }
         // Derivatives whose squares are no numbers any more.
         let tiny = posterior([1e200, 1e199], [2.0, -7.0], 0.0);
         assert!((tiny.gain() - 53.0).abs() < 1e-12 && (tiny.best()[0] / 2e200 - 1.0).abs() < 1e-14, "{tiny:?}");
