@@ -265,13 +265,94 @@ mod tests {
 
     #[test]
     fn errors_and_work_go_by_the_length_of_the_span_alone() {
-        for (method, s) in
-            [(Method::Steady, [0.0; 3]), (Method::Splitting, [0.2, 0.1, -0.3]), (Method::Taylor, [0.2, 0.1, -0.3])]
-        {
+        // Free motion and its error by a torque, a steady motion, two equal eigenvalues and nearly equal ones, a weak violation, and a strong one.
+        let cases = [
+            (Method::Free, [0.0; 3]),
+            (Method::Free, [2e-9, 1e-9, -3e-9]),
+            (Method::Steady, [0.0; 3]),
+            (Method::Symmetric, [0.2, 0.2, -0.4]),
+            (Method::Symmetric, [0.2, 0.2 + 1e-13, -0.4]),
+            (Method::Averaged, [2e-7, 1e-7, -3e-7]),
+            (Method::Torus, [0.2, 0.1, -0.3]),
+            (Method::Splitting, [0.2, 0.1, -0.3]),
+            (Method::Taylor, [0.2, 0.1, -0.3]),
+        ];
+        for (method, s) in cases {
             let first = forecast(method, s, (0.0, 7.0), Vec::new()).prediction.unwrap();
-            for span in [(3.0, 10.0), (3.0, -4.0)] {
-                assert_eq!(forecast(method, s, span, Vec::new()).prediction, Ok(first), "{span:?}");
-            }
+            assert_eq!(forecast(method, s, (3.0, 10.0), Vec::new()).prediction, Ok(first), "{method:?}");
+            // Of the elliptic solution the rounding is sampled, at other times on the way back.
+            let back = forecast(method, s, (3.0, -4.0), Vec::new()).prediction.unwrap();
+            assert_relative_eq!(back.rounding, first.rounding, max_relative = 0.05);
+            assert_eq!(Prediction { rounding: first.rounding, ..back }, first, "{method:?}");
         }
+    }
+
+    /// Steady precession has no truncation, and its rounding is not zero.
+    #[test]
+    fn a_steady_precession_has_rounding_alone() {
+        let found = forecast(Method::Steady, [0.0; 3], (0.0, 7.0), Vec::new()).prediction.unwrap();
+        assert!(found.truncation == 0.0 && found.rounding > 0.0 && found.rounding < 1e-12, "{found:?}");
+    }
+
+    /// A derivative by `s^IJ` is as much less exact as `s` is small, and by what the principal frame turns where two eigenvalues are nearly equal.
+    #[test]
+    fn averaged_derivatives_have_an_error_of_their_own() {
+        for s in [[2e-7, 1e-7, -3e-7], [2e-7, 2e-7 - 1e-17, -4e-7]] {
+            let [values, derivatives] = [vec![], vec![Parameter::SAxial]]
+                .map(|by| forecast(Method::Averaged, s, (0.0, 7.0), by).prediction.unwrap().truncation);
+            let motion = AveragedMotion::new(&problem(s), (0.0, 7.0), AveragingOrder::Second).unwrap();
+            let frame =
+                error_of_principal_frame_along(principal_frame(problem(s).coefficients()).unwrap().coefficients);
+            assert_relative_eq!(derivatives, values / motion.mean.relative_strength + frame, max_relative = 1e-12);
+        }
+        let stiff = problem([2e-7, 1e-7, -3e-7]).with_bulge(0.5).unwrap();
+        let request =
+            |derivatives| Request { derivatives, ..Request::new(&[Output::SymmetryAxis], (0.0, 7.0), 5, 1e-9) };
+        let truncation = |by| averaged(&stiff, &request(by), (0.0, 7.0)).unwrap().truncation;
+        let mean = AveragedMotion::new(&stiff, (0.0, 7.0), AveragingOrder::Second).unwrap().mean;
+        assert!(mean.bulge_strength() > 0.1 * mean.relative_strength, "{:e}", mean.bulge_strength());
+        let expected = truncation(vec![]) / (mean.relative_strength + mean.bulge_strength());
+        assert_relative_eq!(truncation(vec![Parameter::Spin]), expected, max_relative = 1e-6);
+    }
+
+    /// Derivatives on a torus lose by how thin it is what values do not.
+    #[test]
+    fn derivatives_on_a_torus_have_an_error_of_their_own() {
+        let problem = problem([0.2, 0.1, -0.3]);
+        let rounding = |end: f64, derivatives| {
+            let request = Request { derivatives, ..Request::new(&[Output::SymmetryAxis], (0.0, end), 5, 1e-15) };
+            torus(&problem, &request, (0.0, end)).unwrap().rounding
+        };
+        let solution = TorusMotion::new(&problem, (0.0, 7.0), 1e-15).unwrap();
+        let expected = solution.solution().error_of_derivatives().unwrap();
+        assert!(rounding(7.0, vec![]) < expected, "{expected:e}");
+        assert_eq!(rounding(7.0, vec![Parameter::Spin]), expected);
+        // After so long a time the phases are worse than that, of both.
+        assert!(rounding(1e20, vec![]) > expected);
+        assert_eq!(rounding(1e20, vec![Parameter::Spin]), rounding(1e20, vec![]));
+    }
+
+    #[test]
+    fn evaluations_are_of_the_state_that_is_carried() {
+        let span = (0.0, 7.0);
+        let request = Request::new(&[Output::EquatorialAxis], span, 5, 1e-9);
+        let of = |state| {
+            Candidate::of(Method::Taylor, &problem([0.2, 0.1, -0.3]), &request, state, span, 5.0)
+                .prediction
+                .unwrap()
+                .work
+        };
+        let (axis, orientation) = (of(State::Axis), of(State::Orientation));
+        assert_eq!((axis.axis_evaluations, axis.orientation_evaluations), (5.0, 0.0));
+        assert_eq!((orientation.axis_evaluations, orientation.orientation_evaluations), (0.0, 5.0));
+    }
+
+    /// Counted turns take two states between each pair of samples at least, and samples of their own.
+    #[test]
+    fn turns_are_counted_on_two_states_for_each_sample() {
+        let request = |count: usize| Request::new(&[Output::EulerAngles], (0.0, 7.0), count, 1e-9);
+        assert_eq!(evaluations(&request(1000), 1e-3), 4_000.0);
+        let by_rotation = evaluations(&request(2), 1e4) - 2.0;
+        assert_eq!(evaluations(&request(2), 2e4) - 2.0, 2.0 * by_rotation);
     }
 }

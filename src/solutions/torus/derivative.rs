@@ -149,6 +149,10 @@ mod tests {
                     let size = expected.iter().fold(1e-3, |most: f64, v| most.max(v.amax()));
                     let off = (0..3).fold(0.0, |most: f64, i| most.max((found[i] - expected[i]).amax()));
                     assert!(off < 1e-12 * size, "{s:?}, {parameter:?} at {t}: {off:e} of {size:e}");
+                    // The same time in two parts.
+                    let parts = derivatives(&torus.state([t - 1.75, 1.75]));
+                    let off = (0..3).fold(0.0, |most: f64, i| most.max((parts[i] - expected[i]).amax()));
+                    assert!(off < 1e-12 * size, "{s:?}, {parameter:?} at {t} in two parts: {off:e} of {size:e}");
                 }
             }
         }

@@ -65,3 +65,25 @@ pub(super) fn phases<S: Real + Into<DoubleDouble>>(
         phase((spin - f1 * psi1 - f2 * psi2) / tau, -(ways.to_plane.turn + a * psi1 + b * psi2) / tau),
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A part of half a turn is no whole turn as well.
+    #[test]
+    fn whole_turns_and_the_part_beside_them_are_all_turns() {
+        for (rate, t, turns) in [
+            (1.0, [2.5, 0.0], 2.5),
+            (1.0, [3.5, 0.0], 3.5),
+            (0.25, [1e9, 5.0], 2.5e8 + 1.25),
+            (-0.5, [7.0, -2.5], -2.25),
+        ] {
+            // The offset is that of the angle at the start, not of what has passed.
+            let phase = Phase { rate: DoubleDouble::from(rate), offset: DoubleDouble::from(0.3) };
+            let [whole, part] = phase.passed(t);
+            assert_eq!(whole + part, turns);
+            assert!(whole == whole.round() && part.abs() <= 0.5, "{whole} {part}");
+        }
+    }
+}
