@@ -138,5 +138,7 @@ mod tests {
         let allows = |epoch| motion.near(epoch).is_ok();
         assert!(allows([110.0, -20.0]) && allows([40.0, 50.0]) && allows([-20.0, 30.0]));
         assert!(!allows([90.0, 20.0]) && !allows([60.0, -70.0]));
+        let later = AveragedMotion::new(&problem([2e-6, 1e-6, -3e-6]), (10.0, 100.0), AveragingOrder::Second).unwrap();
+        assert_eq!(later.near([30.0, 5.0]).unwrap().span, (-25.0, 65.0));
     }
 }

@@ -91,3 +91,16 @@ impl Motion<f64> for TorusMotion {
         self.solution.error_estimate(t - self.span.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::fixture::problem;
+
+    #[test]
+    fn a_time_lies_in_the_span_with_both_its_parts() {
+        let motion = TorusMotion::new(&problem([0.2, 0.1, -0.3]), (0.0, 100.0), 1e-9).unwrap();
+        assert!(motion.elapsed([110.0, -20.0]).is_ok() && motion.elapsed([-20.0, 30.0]).is_ok());
+        assert!(motion.elapsed([90.0, 20.0]).is_err() && motion.elapsed([60.0, -70.0]).is_err());
+    }
+}

@@ -255,7 +255,12 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
-    use crate::dynamics::fixture::STAR;
+    use crate::dynamics::RotationState;
+    use crate::dynamics::fixture::{ANGLES, STAR};
+    use crate::euler_angles::{EulerAngles, EulerRates};
+    use crate::lorentz_violation::PrincipalCoefficients;
+    use crate::solutions::perturbation::Precession;
+    use crate::solutions::steady::steady_precession_rate;
 
     /// The axis lies in the equator of `s` and precesses about its pole at the rate 1/4 without torque; a spin would need one.
     #[test]
@@ -301,5 +306,63 @@ mod tests {
                 assert_relative_eq!(short, of_momentum, max_relative = 1e-12);
             }
         }
+    }
+
+    /// Steady precessions with a torque, each with its rate about Z.
+    fn steady() -> impl Iterator<Item = (UniformMotion<f64>, f64, f64, f64)> {
+        let s = PrincipalCoefficients::new([0.2, 0.2, -0.4]);
+        [(1.5, 0.7), (1.1, 0.3), (2.7, 1.2), (-1.9, 2.2)].into_iter().map(move |(spin, beta)| {
+            let rate = steady_precession_rate(Precession::Twofold, &STAR, &s, spin, beta).unwrap();
+            let rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * beta.cos() };
+            let problem = Problem::from_angles(STAR, s.tensor(), &EulerAngles { beta, ..ANGLES }, &rates).unwrap();
+            (UniformMotion::steady(&problem, (2.0, 100.0)).unwrap(), rate, spin, beta)
+        })
+    }
+
+    /// The squared frequency of the inclination about a steady precession is the second derivative of its effective potential over `I^xx`, both momenta fixed; here by differences.
+    #[test]
+    fn the_condition_of_a_steady_motion_goes_by_its_stiffness() {
+        for (motion, rate, spin, beta) in steady() {
+            let initial = motion.problem.initial();
+            let (about_z, about_n) = (initial.momentum.z, initial.momentum.dot(&initial.axis));
+            let potential = |beta: f64| {
+                let (sin, cos) = beta.sin_cos();
+                ((about_z - about_n * cos) / sin).powi(2) / (2.0 * STAR.inertia_xx) - STAR.constant_c * 0.6 * cos * cos
+            };
+            let [low, middle, high] = [-1e-3, 0.0, 1e-3].map(|step| potential(beta + step));
+            assert!((high - low).abs() < 1e-2 * (high + low - 2.0 * middle), "a steady state is a minimum");
+            let stiffness = (high + low - 2.0 * middle) / 1e-6 / STAR.inertia_xx;
+            let pull = STAR.constant_c * 0.6 * 2.0 / STAR.inertia_xx;
+            let speed = rate.abs() + STAR.free_precession_constant(spin).abs() + pull.sqrt();
+            let expected = 1.0 + speed * speed / (stiffness * beta.sin().powi(2));
+            assert_relative_eq!(motion.condition, expected, max_relative = 1e-4);
+        }
+    }
+
+    #[test]
+    fn states_by_turns_are_those_by_time() {
+        for (motion, rate, ..) in steady() {
+            assert_relative_eq!(motion.pole() * motion.rates()[0], Vector3::z() * rate, epsilon = 1e-13);
+            let time = 3.7;
+            let [turn, _, about_axis] = motion.rates().map(|rate| rate * time / TAU);
+            let (found, expected) = (motion.state_after_turns([turn, about_axis]), motion.state(2.0 + time).unwrap());
+            for (a, b) in found.vectors().iter().zip(expected.vectors()) {
+                assert_relative_eq!(*a, b, epsilon = 1e-12);
+            }
+        }
+    }
+
+    /// Where `n` stays, all of the rotation is about it.
+    #[test]
+    fn a_star_that_spins_about_its_axis_turns_about_it_alone() {
+        let axis = Vector3::new(0.6, 0.0, 0.8);
+        let initial = BodyState { axis, momentum: axis * 2.2, equatorial_axis: Vector3::y() };
+        let motion = UniformMotion::free(&Problem::new(STAR, Matrix3::zeros(), initial).unwrap(), (0.0, 9.0));
+        let [turn, nothing, about_axis] = motion.rates();
+        assert_eq!([turn, nothing], [0.0; 2]);
+        assert_relative_eq!(about_axis, 2.0, max_relative = 1e-15);
+        let quarter = motion.state_after_turns([0.0, 0.25]);
+        assert_relative_eq!(quarter.equatorial_axis, axis.cross(&Vector3::y()), epsilon = 1e-15);
+        assert_eq!((quarter.axis, quarter.momentum), (axis, axis * 2.2));
     }
 }
