@@ -366,7 +366,7 @@ mod tests {
         let off_by = |turns: f64| {
             let mut data = TimingData { arrivals: arrivals(&model, &numbers, 0.0, 1e-21), ..TimingData::default() };
             let shift = |arrival: (usize, &mut MeasuredArrival)| {
-                arrival.1.time[1] += if arrival.0 % 2 == 0 { turns / 300.0 } else { -turns / 300.0 }
+                arrival.1.time[1] += if arrival.0.is_multiple_of(2) { turns / 300.0 } else { -turns / 300.0 }
             };
             data.arrivals.iter_mut().enumerate().for_each(shift);
             fit_timing(&model, &data, &[Phase])
