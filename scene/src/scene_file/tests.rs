@@ -157,6 +157,8 @@ fn coefficients_are_at_most_one() {
         let read = with(PAPER, &lines);
         assert_eq!(read.is_ok(), taken, "{lines:?}: {:?}", read.err());
     }
+    assert_refused(PHYSICAL, &["lorentz_violation.w ="], "missing `lorentz_violation.w`");
+    assert_refused(PHYSICAL, &["lorentz_violation.alpha_2 ="], "missing `lorentz_violation.alpha_2`");
     let half = "lorentz_violation.w = [0.3, 0.4, 0.5]"; // |w|^2 = 1/2
     for (alpha_2, taken) in [("1.999", true), ("-1.999", true), ("2.001", false), ("-2.001", false)] {
         let read = with(PHYSICAL, &[half, &format!("lorentz_violation.alpha_2 = {alpha_2}")]);
