@@ -205,7 +205,7 @@ mod tests {
         assert_eq!((unnamed.len(), unnamed[0].words), (1, None));
         assert_change(&unnamed[0], &against, 1e-12);
         assert!(unnamed[0].ratio < 1e-14, "{unnamed:?}");
-        // Of symmetries that the data do not have, or that change what is known too, none is named.
+        // A symmetry that the data do not have is not named.
         let model = with_symmetries(&[("others", &[(A, 1.0), (B, 0.5)]), ("a against b", &[(A, -4.0), (B, 2.0)])]);
         let named = told(&rows, &model).degenerate;
         assert_eq!((named.len(), named[0].words), (1, Some("a against b")));

@@ -253,7 +253,7 @@ mod tests {
         }
         let (residuals, _) = compared(&star, &data, 3e6).expect("the same star");
         assert!(residuals.iter().all(|residual| residual.abs() < 1e-2), "{residuals:?}");
-        // A turn of the beam about the symmetry axis moves arrivals by some time less than a turn, which the residuals tell in spite of another epoch.
+        // An observer at another azimuth sees the pulses earlier or later by less than a turn; the residuals tell it although the epochs differ too.
         let turned = star.moved(&[Parameter::PhiO], &[0.2]);
         let (residuals, found) = compared(&turned, &data, 3e6).expect("pulses of the same numbers");
         for ((residual, event), before) in residuals.iter().zip(&found).zip(&events) {

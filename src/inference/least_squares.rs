@@ -128,9 +128,13 @@ pub(super) fn least_squares<M: Model>(
         .fold(0.0, |most: f64, (column, product)| most.max((product / (column.norm() * chi_squared.sqrt())).abs()));
     let fisher = Fisher::of_jacobian(&weighted, unknowns, &model).determined()?;
     for ((unknown, at), bound) in unknowns.iter().zip(&at).zip(&search.bounds) {
-        let limits = [(bound.limited_low, bound.limit_low), (bound.limited_up, bound.limit_up)];
-        if limits.into_iter().any(|(is_limited, limit)| is_limited && *at == limit) {
-            return Err(InferenceError::OnLimit { unknown: unknown.symbol(), value: model.value(*unknown) });
+        let (low, high) = unknown.limits();
+        for (limit, end) in [(low, bound.limit_low), (high, bound.limit_up)] {
+            if let Some(value) = limit
+                && *at == end
+            {
+                return Err(InferenceError::OnLimit { unknown: unknown.symbol(), value });
+            }
         }
     }
     // What is left of the gradient moves no unknown by more than a hundredth of its error.
@@ -340,7 +344,7 @@ mod tests {
             for (data, limit) in [(&above, 1.0), (&below, 0.0)] {
                 match least_squares(&start, data, &[Fraction]) {
                     Err(InferenceError::OnLimit { unknown: "f", value }) => {
-                        assert!((value - limit).abs() < 1e-15, "{value}")
+                        assert_eq!(value, limit)
                     }
                     other => panic!("from {start:?}: {other:?}"),
                 }
@@ -380,7 +384,7 @@ mod tests {
         assert_eq!(why(least_squares(&start, &undefined, &[A])).0, "a derivative is not finite");
     }
 
-    /// `exp(-a)` has no least value: each step is one long, without end.
+    /// `exp(-a)` has no minimum: every step has length one, for ever.
     #[test]
     fn too_many_steps_are_told() {
         let endless = Functions {

@@ -270,7 +270,7 @@ mod tests {
         assert_eq!(residuals.len(), 6);
     }
 
-    /// Against central differences, by a change that moves the largest residual by a standard deviation or less.
+    /// Against central differences, by a change that moves the largest residual by a thousandth of a standard deviation.
     #[test]
     fn derivatives_of_residuals_are_their_differences() {
         let model = star();

@@ -70,7 +70,7 @@ pub(super) fn phases<S: Real + Into<DoubleDouble>>(
 mod tests {
     use super::*;
 
-    /// A part of half a turn is no whole turn as well.
+    /// Half a turn is counted once: in the whole turns or in the part.
     #[test]
     fn whole_turns_and_the_part_beside_them_are_all_turns() {
         for (rate, t, turns) in [
