@@ -33,14 +33,14 @@ fn compared(parameters: &Parameters<f64>, data: &[Datum], end: f64) -> Result<(V
     } else {
         events_as_counted(&signal, &turns)?
     };
-    let find = |turn: i64| events.binary_search_by_key(&turn, |event| event.turn).ok().map(|place| events[place]);
+    let of_turn: BTreeMap<i64, Event> = events.iter().map(|event| (event.turn, *event)).collect();
     let compare = |datum: &Datum| {
         let value = match datum.place {
             Place::Time(t) => signal.strain(datum.observable, t)?,
             Place::Turn { number, near } => {
                 let missing = InferenceError::NoPulse { turn: number, near };
-                let event = find(number).ok_or_else(|| missing.clone())?;
-                let value = event.value(find(number - 1).as_ref(), datum.observable).ok_or(missing)?;
+                let event = of_turn.get(&number).ok_or_else(|| missing.clone())?;
+                let value = event.value(of_turn.get(&(number - 1)), datum.observable).ok_or(missing)?;
                 let is_time = matches!(datum.observable, Observable::Arrivals | Observable::ClosestApproaches);
                 if is_time { (event.epoch - datum.epoch) + value } else { value }
             }

@@ -292,9 +292,13 @@ mod tests {
         };
         let signal = Signal::new(&prolate, 40.0).expect("a motion");
         let all = signal.events_in((0.0, 40.0)).expect("pulses");
-        let of_turn = |turn: i64| all.iter().filter(|event| event.turn == turn).count();
-        let expected: Vec<Event> = all.iter().filter(|event| of_turn(event.turn) == 1).copied().collect();
-        assert!(!expected.is_empty() && expected.len() < all.len(), "{all:?}");
+        // Turns are five units of time apart, the two pulses of one turn about one.
+        let alone = |event: &&Event| {
+            all.iter().filter(|other| (other.closest - event.closest).abs() < 0.5 * signal.turn()).count() == 1
+        };
+        let expected: Vec<Event> = all.iter().filter(alone).copied().collect();
+        assert_eq!(expected.iter().map(|event| event.turn).collect::<Vec<_>>(), [0, 1, 5, 6, 7], "{all:?}");
+        assert_eq!(all.len(), 11, "three turns of two pulses");
         assert_eq!(signal.events().expect("pulses"), expected);
     }
 

@@ -234,9 +234,9 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("a.parquet");
         std::fs::write(&path, "").expect("a file");
-        let closed = File::open(&path).expect("a file to read");
+        let read_only = File::open(&path).expect("a file to read");
         let refused =
-            write_parquet("scene,star.spin,status\n0,0.1,ok\n".as_bytes(), &closed).expect_err("not to be written");
+            write_parquet("scene,star.spin,status\n0,0.1,ok\n".as_bytes(), &read_only).expect_err("not to be written");
         assert!(refused.to_string().starts_with("the Parquet file cannot be written: "), "{refused}");
     }
 }

@@ -256,11 +256,7 @@ mod tests {
 
     use super::*;
     use crate::dynamics::RotationState;
-    use crate::dynamics::fixture::{ANGLES, STAR};
-    use crate::euler_angles::{EulerAngles, EulerRates};
-    use crate::lorentz_violation::PrincipalCoefficients;
-    use crate::solutions::perturbation::Precession;
-    use crate::solutions::steady::steady_precession_rate;
+    use crate::dynamics::fixture::{STAR, steady_precession};
 
     /// The axis lies in the equator of `s` and precesses about its pole at the rate 1/4 without torque; a spin would need one.
     #[test]
@@ -310,11 +306,8 @@ mod tests {
 
     /// Steady precessions with a torque, each with its rate about Z.
     fn steady() -> impl Iterator<Item = (UniformMotion<f64>, f64, f64, f64)> {
-        let s = PrincipalCoefficients::new([0.2, 0.2, -0.4]);
-        [(1.5, 0.7), (1.1, 0.3), (2.7, 1.2), (-1.9, 2.2)].into_iter().map(move |(spin, beta)| {
-            let rate = steady_precession_rate(Precession::Twofold, &STAR, &s, spin, beta).unwrap();
-            let rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * beta.cos() };
-            let problem = Problem::from_angles(STAR, s.tensor(), &EulerAngles { beta, ..ANGLES }, &rates).unwrap();
+        [(1.5, 0.7), (1.1, 0.3), (2.7, 1.2), (-1.9, 2.2)].into_iter().map(|(spin, beta)| {
+            let (problem, rate) = steady_precession(spin, beta);
             (UniformMotion::steady(&problem, (2.0, 100.0)).unwrap(), rate, spin, beta)
         })
     }

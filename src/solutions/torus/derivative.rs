@@ -119,13 +119,9 @@ impl<'a> TorusDerivative<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::fixture::{ANGLES, RATES, STAR, tensor};
-    use crate::euler_angles::{EulerAngles, EulerRates};
-    use crate::lorentz_violation::PrincipalCoefficients;
+    use crate::dynamics::fixture::{ANGLES, RATES, STAR, steady_precession, tensor};
     use crate::parameters::{Parameter, Parameters};
     use crate::propagation::Motion;
-    use crate::solutions::perturbation::Precession;
-    use crate::solutions::steady::steady_precession_rate;
 
     fn derivatives(state: &BodyState<Dual64>) -> [Vector3<f64>; 3] {
         state.vectors().map(|v| v.map(|x| x.eps))
@@ -174,12 +170,8 @@ mod tests {
     /// A steady precession has a series, on a circle, and no derivatives.
     #[test]
     fn a_steady_precession_has_no_torus_of_its_neighbours() {
-        let s = PrincipalCoefficients::new([0.2, 0.2, -0.4]);
         for (spin, beta) in [(1.5, ANGLES.beta), (1.1, 0.3), (2.7, 1.2), (-1.9, 2.2), (6.0, 0.9), (0.7, 2.9)] {
-            let alpha = steady_precession_rate(Precession::Twofold, &STAR, &s, spin, beta).unwrap();
-            let rates = EulerRates { alpha, beta: 0.0, gamma: spin - alpha * beta.cos() };
-            let angles = EulerAngles { beta, ..ANGLES };
-            let problem = Parameters::new(STAR, s.tensor(), angles, rates).problem().unwrap();
+            let problem = steady_precession(spin, beta).0;
             let solution = TorusSolution::new(&problem, 1e-12, 1.0).unwrap();
             let height = |t: f64| solution.state([t, 0.0]).axis.z;
             assert!((height(7.3) - beta.cos()).abs() < 1e-12, "{beta}: {}", height(7.3));
