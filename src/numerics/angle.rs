@@ -24,7 +24,7 @@ pub fn wrapped(angle: f64) -> f64 {
     angle - whole_turns(angle)
 }
 
-/// Angle about a unit vector from a vector across it to another one, in (-pi, pi].
+/// Angle about a unit vector from one vector to another, in (-pi, pi]. One of the two, at least, is across it.
 pub(crate) fn about<S: Real>(axis: &Vector3<S>, from: &Vector3<S>, to: &Vector3<S>) -> S {
     axis.dot(&from.cross(to)).atan2(from.dot(to))
 }

@@ -196,7 +196,7 @@ impl Grid {
         Some([first?, second?, winding(self.third.iter().map(|state| angle(state, 0)))?])
     }
 
-    /// Whether the azimuth of `n` goes round between four neighbours.
+    /// Whether the azimuth of `n` goes round between four neighbours, once in the positive sense: on the whole torus it does so as often in each.
     fn surrounds_pole(&self) -> bool {
         let count = self.count;
         let azimuth = |k: usize, j: usize| {
@@ -206,7 +206,7 @@ impl Grid {
         let goes_round = |k: usize, j: usize| {
             let corners = [azimuth(k, j), azimuth(k, j + 1), azimuth(k + 1, j + 1), azimuth(k + 1, j)];
             let steps = (0..4).map(|i| wrapped(corners[(i + 1) % 4] - corners[i]));
-            steps.sum::<f64>().abs() > 1.0
+            steps.sum::<f64>() > 1.0
         };
         (0..count).any(|k| (0..count).any(|j| goes_round(k, j)))
     }
@@ -248,12 +248,7 @@ impl Grid {
             about(&state.axis, &across, &state.equatorial_axis)
         });
         let fixed = Vector3::ith(self.states[0].axis.iamin(), 1.0);
-        let from_fixed = || {
-            self.windings(|state, _| {
-                let n = state.axis;
-                about(&n, &(fixed - n * n.dot(&fixed)), &state.equatorial_axis)
-            })
-        };
+        let from_fixed = || self.windings(|state, _| about(&state.axis, &fixed, &state.equatorial_axis));
         let sense = || sign(area(self.third.iter().map(|state| state.equatorial_axis), &self.third[0].axis));
         let counted = |turns: &[i32; 3]| turns[2].abs() == 1;
         from_across.filter(counted).or_else(|| from_fixed().filter(counted)).unwrap_or_else(|| [0, 0, sense()])
@@ -346,6 +341,94 @@ mod tests {
         for through in [found(&passing), found(beside), found(swinging)] {
             assert_eq!((turns(&through, "alpha'"), symbols(&through)), (None, vec!["l'", "nu'", "psi'"]));
         }
+    }
+
+    /// A grid of which only `n` is read, at these azimuths.
+    fn of_azimuths(count: usize, azimuth: impl Fn(usize, usize) -> f64) -> Grid {
+        let state = |k: usize, j: usize| {
+            let (sin, cos) = azimuth(k, j).sin_cos();
+            let axis = Vector3::new(0.6 * cos, 0.6 * sin, 0.8);
+            BodyState { axis, momentum: Vector3::z(), equatorial_axis: Vector3::y() }
+        };
+        let states = (0..count).flat_map(|k| (0..count).map(move |j| state(k, j))).collect();
+        Grid { count, states, third: Vec::new(), means: Vec::new() }
+    }
+
+    /// The horizontal part `(cos a + cos b - c, sin a)` of `n` is zero at two places of the torus, in opposite senses, for `c` between 0 and 2, and nowhere for more.
+    #[test]
+    fn four_neighbours_see_the_pole_between_them() {
+        let count = 8;
+        let angle = |i: usize, zero: f64| TAU * (i as f64 - zero) / count as f64;
+        // The poles are at b = 0.64, 0.8 of a step.
+        let c = 1.8;
+        let with_pole_in = |k: usize, j: usize, c: f64| {
+            let (k, j) = (k as f64 + 1.0, j as f64 + 0.5);
+            of_azimuths(count, move |row, column| {
+                let (a, b) = (angle(column, j), angle(row, k));
+                a.sin().atan2(a.cos() + b.cos() - c)
+            })
+        };
+        for (k, j) in (0..count).flat_map(|k| (0..count).map(move |j| (k, j))) {
+            assert!(with_pole_in(k, j, c).surrounds_pole() && !with_pole_in(k, j, 2.1).surrounds_pole(), "{k} {j}");
+        }
+        for [by_k, by_j] in [[1.0, 0.0], [0.0, 1.0], [1.0, 2.0], [-3.0, 1.0], [2.0, 2.0]] {
+            let grid = of_azimuths(16, |k, j| TAU * (by_k * k as f64 + by_j * j as f64 + 0.3) / 16.0);
+            assert!(!grid.surrounds_pole(), "{by_k} {by_j}");
+        }
+    }
+
+    /// With `L` on the axis the turn of `n` has no plane to start from; with `n` along `L` that of `e_x` is counted from a fixed direction, and where `n` passes that one too, by its sense.
+    #[test]
+    fn turns_are_counted_where_a_reference_is_missing() {
+        let backwards = |state: &dyn Fn([f64; 3]) -> BodyState<f64>, signs: [f64; 3]| {
+            found(|turns| state([0, 1, 2].map(|i| signs[i] * turns[i])))
+        };
+        for sign in [1, -1] {
+            let back = f64::from(sign);
+            let upright = backwards(&turning(0.0, 0.5, [0.0; 2]), [back, 1.0, 1.0]);
+            assert_eq!(turns(&upright, "nu'"), Some([sign, 0, 0]));
+            let along = backwards(&turning(0.3, 0.0, [0.0; 2]), [back, 1.0, 1.0]);
+            assert_eq!(turns(&along, "psi'"), Some([sign, -1, -1]));
+            let passing = backwards(&turning(TAU / 4.0, 0.0, [0.0; 2]), [1.0, 1.0, back]);
+            assert_eq!(turns(&passing, "psi'"), Some([0, 0, -sign]));
+        }
+    }
+
+    /// `n` swings through the pole and `L` through zero: neither has an azimuth, and lines are named by the angles of the torus that move.
+    #[test]
+    fn lines_without_a_basis_are_named_by_the_angles_of_the_torus() {
+        let state = |[a, b, c]: [f64; 3], momentum: f64| {
+            let swing = Rotation3::from_euler_angles(0.8 * (TAU * a).sin(), 0.5 * (TAU * b).sin(), TAU * c);
+            BodyState {
+                axis: swing * Vector3::z(),
+                momentum: Vector3::x() * momentum * (TAU * b).cos(),
+                equatorial_axis: swing * Vector3::x(),
+            }
+        };
+        let rates = [1.3, 0.01, 0.2];
+        let all = found(|turns| state(turns, 1.0));
+        assert_eq!((turns(&all, "l'"), turns(&all, "alpha'")), (None, None));
+        let named: Vec<_> = all.basis.iter().map(|of| (of.symbol, of.turns)).collect();
+        assert_eq!(named, [("theta_1'", [1, 0, 0]), ("theta_2'", [0, 1, 0]), ("theta_3'", [0, 0, 1])]);
+        for (of, rate) in all.basis.iter().zip(rates) {
+            assert!((of.rate - rate).abs() < 1e-15);
+        }
+        assert_eq!(all.combination([3, -2, 1]).to_string(), "3 theta_1' - 2 theta_2' + theta_3'");
+        let two = rates.map(|rate| DoubleDouble::from(if rate < 0.1 { 0.0 } else { rate / TAU }));
+        let two = FundamentalFrequencies::of(|[a, _, c]| state([a, 0.0, c], 0.0), two, &Vector3::z());
+        assert_eq!(two.basis.iter().map(|of| of.symbol).collect::<Vec<_>>(), ["theta_1'", "theta_3'"]);
+        assert_eq!(two.combination([-1, 0, 4]).to_string(), "-theta_1' + 4 theta_3'");
+    }
+
+    #[test]
+    fn a_basis_is_completed_by_the_angles_that_do_not_move() {
+        let of = |turns| FundamentalFrequency { symbol: "psi'", rate: 1.0, turns };
+        assert_eq!(completed(&[of([0, 1, 0])]), Matrix3::new(0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0));
+        assert_eq!(
+            completed(&[of([0, 1, 2]), of([0, 0, -1])]),
+            Matrix3::new(0.0, 1.0, 2.0, 0.0, 0.0, -1.0, 1.0, 0.0, 0.0)
+        );
+        assert_eq!(completed(&[]), Matrix3::identity());
     }
 
     #[test]

@@ -225,6 +225,31 @@ mod tests {
         }
     }
 
+    /// Noise, by the last bits of the function, ends the refinement of the grid: no line of it is listed, and those of the function above it are as they are without it.
+    #[test]
+    fn noise_is_not_listed() {
+        let found = motion(&problem([0.02, 0.01, -0.03]));
+        let noise = |value: f64| {
+            let mixed = value.to_bits().wrapping_mul(0x9E37_79B9_7F4A_7C15);
+            ((mixed ^ mixed >> 29).wrapping_mul(0xBF58_476D_1CE4_E5B9) >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+        };
+        let exact = lines(&found, 1e-14, |state| state.axis.z);
+        for part in [1e-11, 1e-10] {
+            let with_noise = lines(&found, 1e-14, |state| state.axis.z + part * noise(state.axis.z));
+            // Eight times the largest of the coefficients at the edge, each some root of twelve times the number of points below the size of the noise.
+            assert!((8e-3 * part..0.2 * part).contains(&with_noise.least), "{part:e}: {:e}", with_noise.least);
+            assert!(with_noise.left < 2.0 * part && exact.left < 1e-12, "{:e}", with_noise.left);
+            assert!(with_noise.lines.len() > 10);
+            for (line, exact) in with_noise.lines.iter().zip(&exact.lines) {
+                assert_eq!(line.combination, exact.combination);
+                assert!((line.amplitude - exact.amplitude).abs() < with_noise.least);
+            }
+        }
+        // Of a size that a number of the program could have, no noise is taken for granted.
+        let loud = found.lines(1e-14, |state| Ok::<_, Error>([state.axis.z + 1e-7 * noise(state.axis.z), 1.0]));
+        assert!(matches!(loud, Err(Error::Domain { .. })), "{loud:?}");
+    }
+
     #[test]
     fn a_constant_has_no_lines_and_a_jump_is_refused() {
         let found = motion(&problem([0.02, 0.01, -0.03]));
