@@ -386,6 +386,13 @@ mod tests {
         close(star(2.2, 0.4, -0.013, 0.0).truncation(-2e3), 8.216483130107e-11);
         close(star(3.0, 0.4, -0.013, -2e-4).truncation(-2e3), 1.87931794971e-07);
         close(star(3.0, 0.4, -0.013, -2e-4).truncation(2e3), 2.637947462964e-07);
+        // In units in which the damping is 1 or 1/2: a time squared.
+        let raised =
+            |damping: f64| Precession::new([0.4, 1.3, 0.7], 100.0 * damping, -damping).truncation(0.3 / damping);
+        close(raised(0.5), 4.0 * raised(1.0));
+        let damped =
+            |damping: f64| Precession::new([0.4, 1.3, 0.7], 100.0 * damping, damping).truncation(0.3 / damping);
+        close(damped(0.5), 4.0 * damped(1.0));
         close(star(4.5, 0.4, -0.013, 0.0).error_by_angles(0.25), 2.890057624900e-3);
         // A star that does not precess.
         let still = star(4.5, 0.0, 0.0, 0.0);
@@ -411,8 +418,11 @@ mod tests {
             let (y, tau) = (index - 2.0, 9e4);
             let expected = ((1.0 + y * rate * tau).powf(1.0 + 1.0 / y) - 1.0) / (rate * (1.0 + y)) - tau;
             let expected = if y == -1.0 { -(1.0 - rate * tau).ln() / rate - tau } else { expected };
-            let found = secular_lateness(&Braking { rate, index, torque_share: 0.0 }, tau);
-            assert!((found / expected - 1.0).abs() < 1e-13, "{rate} {index}: {found:e} {expected:e}");
+            for unit in [1.0, 1e12, 1e-12] {
+                let braking = Braking { rate: rate / unit, index, torque_share: 0.0 };
+                let found = secular_lateness(&braking, tau * unit) / unit;
+                assert!((found / expected - 1.0).abs() < 1e-13, "{rate} {index} {unit:e}: {found:e} {expected:e}");
+            }
         }
     }
 

@@ -229,12 +229,16 @@ mod tests {
             let mut shown = Vec::new();
             let segments = Segments::with_rotation(&scene, &plan, 1.001 * scene.rotation() / segments).unwrap();
             let summary = write_by_segments(&scene, segments, Vec::new(), |part| shown.push(part)).unwrap();
-            (summary.work.axis_evaluations + summary.work.orientation_evaluations, shown)
+            let evaluations = summary.work.axis_evaluations + summary.work.orientation_evaluations;
+            ([summary.work.steps, summary.work.right_hand_sides, evaluations], shown)
         };
         let (one, shown) = of(1.0);
         assert_eq!(shown, [1.0]);
         let (four, shown) = of(4.0);
-        assert!((0.9 * one..1.2 * one).contains(&four), "{one} {four}");
+        assert!(one[0] > 10.0 && one[1] > 10.0 * one[0], "steps of a series of many terms: {one:?}");
+        for (one, four) in one.into_iter().zip(four) {
+            assert!((0.9 * one..1.2 * one).contains(&four), "{one} {four}");
+        }
         // Each is cut by some radians at most before its end.
         let ends = [0.25, 0.5, 0.75, 1.0].map(|end| end - 3.0 / scene.rotation()..=end);
         assert!(shown.len() == 4 && ends.iter().zip(&shown).all(|(range, part)| range.contains(part)), "{shown:?}");
