@@ -193,3 +193,85 @@ fn difference<const V: usize>(state: &Columns<V>, small: &Columns<V>, rate: f64)
     }
     made
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::dynamics::{BodyState, Problem, RotationState};
+    use crate::propagation::taylor::step_size::Work;
+
+    const SPHEROID: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.8 };
+
+    /// A free star at rest in its frame, and the series of a rotation by the angle one of `n` and what is carried, about `L`, whose length is the inertia over the unit of time.
+    fn rotating<const V: usize>(momentum: Vector3<f64>) -> (TaylorErrors<V>, Vec<Columns<V>>) {
+        let vectors = [Vector3::x(), momentum, Vector3::y()];
+        let problem = Problem::unchecked(SPHEROID, Matrix3::zeros(), BodyState::from_vectors(vectors));
+        let setup = ScaledProblem::<f64, V>::new((true, Work::Waiting), &problem, (0.0, 1.0), 1e-10).unwrap();
+        let unit = setup.scale.time;
+        let mut coefficient = Columns::<V>::from_fn(|i, j| vectors[j][i]);
+        let mut series = vec![coefficient];
+        for k in 1..=30 {
+            for (column, mut vector) in coefficient.column_iter_mut().enumerate() {
+                let rate = momentum * (unit / SPHEROID.inertia_xx / f64::from(k));
+                let next = if column == MOMENTUM { Vector3::zeros() } else { rate.cross(&vector) };
+                vector.copy_from(&next);
+            }
+            series.push(coefficient);
+        }
+        (TaylorErrors::of(&setup), series)
+    }
+
+    fn end<const V: usize>(series: &[Columns<V>], h: f64) -> Columns<V> {
+        series.iter().rev().fold(Columns::zeros(), |sum, term| sum * h + term)
+    }
+
+    /// Each coefficient is more by its share of what the factors of all before it are more, here of the first two: `h c_1 e_1 + h^2 c_2 e_2`.
+    #[test]
+    fn rounded_factors_add_to_the_coefficients() {
+        let (mut errors, series) = rotating::<3>(Vector3::new(0.3, -0.5, 1.2));
+        errors.excess = [Columns::zeros(); SHARES];
+        let h = 1e-3;
+        let exact = end(&series, h);
+        let none = errors.truncation(&series, h, &exact);
+        assert!(none.rotation.norm() < 1e-15, "{none:?}");
+        errors.excess[0] = Columns::from_fn(|i, j| 1e-9 * (1.0 + i as f64 - 0.7 * j as f64));
+        errors.excess[1] = Columns::from_fn(|i, j| 1e-6 * (0.4 - i as f64 + 0.3 * j as f64));
+        let found = errors.truncation(&series, h, &exact);
+        let small = (series[1].component_mul(&errors.excess[0]) + series[2].component_mul(&errors.excess[1]) * h) * h;
+        let expected = difference(&exact, &small, errors.unit / SPHEROID.inertia_xx);
+        // The node is a thirty-second of the step before its end.
+        assert_relative_eq!(found.rotation, expected.rotation, epsilon = 1e-3 * expected.rotation.norm());
+        assert_relative_eq!(found.length, expected.length, max_relative = 1e-2);
+        for (found, expected) in found.off_frame.into_iter().zip(expected.off_frame) {
+            assert_relative_eq!(found, expected, max_relative = 1e-2);
+        }
+    }
+
+    /// The rounding of the angle about `n` adds up over the steps, beside all else.
+    #[test]
+    fn the_rounding_of_the_angle_about_the_axis_is_carried() {
+        let h = 0.1;
+        let of = |rate: f64| {
+            let (mut errors, series) = rotating::<3>(Vector3::new(0.3, -0.5, 1.2));
+            errors.rate_about_axis = rate;
+            let exact = end(&series, h);
+            [0, 1].map(|_| errors.step_of_columns(&series, h, &exact).carried)
+        };
+        let ([once, twice], [with_once, with_twice]) = (of(0.0), of(-1e6));
+        assert_relative_eq!(with_once - once, ANGLE_ROUNDING * 1e5, max_relative = 1e-9);
+        assert_relative_eq!(with_twice - twice, ANGLE_ROUNDING * 2e5, max_relative = 1e-9);
+    }
+
+    /// What is rounded is the change of `n`, both of its first terms without their signs: at a right angle to `L` and by half a radian `x` and `x^2 / 2`.
+    #[test]
+    fn the_change_of_the_axis_is_rounded() {
+        let (mut errors, series) = rotating::<2>(Vector3::new(0.0, 0.0, 1.3));
+        let h = 0.5 / series[1].column(AXIS).norm();
+        let found = errors.step_of_columns(&series, h, &end(&series, h)).rounded;
+        let changed = 0.5_f64.hypot(0.125);
+        let expected = ErrorGrowth::counted_deviation(ROUNDING * f64::EPSILON * changed);
+        assert_relative_eq!(found, expected, epsilon = 0.0, max_relative = 1e-12);
+    }
+}

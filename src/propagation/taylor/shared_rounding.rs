@@ -196,6 +196,23 @@ mod tests {
         assert!((0..3).any(|i| traceless(i, i).low != 0.0));
     }
 
+    /// `(T n) x n` of a diagonal `T`, by its differences.
+    #[test]
+    fn differences_of_eigenvalues_make_the_torque_of_the_tensor() {
+        let of = |values: [f64; 3], differences: [f64; 3]| SharedRounding {
+            inverse_inertia: 0.0,
+            tensor: Matrix3::from_diagonal(&values.into()),
+            differences: differences.into(),
+            rate_about_axis: 0.0,
+            off_frame: 0.0,
+        };
+        let n = Vector3::new(0.48, -0.6, 0.64);
+        let [x, y, z] = [0.3, -0.7, 1.9];
+        let expected = of([x, y, z], [0.0; 3]).torque(&n);
+        assert!((of([0.0; 3], [y - z, z - x, x - y]).torque(&n) - expected).amax() < 1e-15);
+        assert!(expected.iter().all(|torque| torque.abs() > 0.1), "{expected}");
+    }
+
     #[test]
     fn the_rate_about_the_axis_differs_by_what_was_rounded() {
         let start = [Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.3, -0.5, 1.2)];
