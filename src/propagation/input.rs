@@ -22,3 +22,28 @@ pub(crate) fn check_time((first, last): (f64, f64), t: f64) -> Result<(), Error>
         "within the span for which the motion was asked",
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tolerances_have_a_range_and_spans_an_end() {
+        for tolerance in [1e-16, 1e-9, 1e-2] {
+            assert_eq!(check_request((0.0, -3.0), tolerance), Ok(()));
+        }
+        for tolerance in [0.9e-16, 0.011, 1.0, f64::NAN] {
+            assert!(check_request((0.0, -3.0), tolerance).is_err(), "{tolerance}");
+        }
+        assert!(check_request((f64::NEG_INFINITY, 3.0), 1e-9).is_err());
+        assert!(check_request((0.0, f64::NAN), 1e-9).is_err());
+    }
+
+    #[test]
+    fn times_lie_between_the_ends_in_either_order() {
+        for span in [(-1.0, 2.0), (2.0, -1.0)] {
+            assert!([-1.0, 0.5, 2.0].iter().all(|t| check_time(span, *t).is_ok()));
+            assert!([-1.1, 2.1, f64::NAN].iter().all(|t| check_time(span, *t).is_err()));
+        }
+    }
+}

@@ -130,3 +130,42 @@ fn propagate_alike<R: Register>(a: Componentwise<Lanes<R>>, motions: &[Ready<'_>
         state.add(a, &change(a, order, |k| series[k], h));
     }
 }
+
+#[cfg(all(test, target_arch = "x86_64"))]
+mod tests {
+    use super::*;
+    use crate::dynamics::fixture::axis_problem;
+    use crate::numerics::arithmetic::plain;
+    use crate::propagation::ErrorEstimates;
+    use crate::propagation::taylor::samples::visited;
+
+    /// More motions than lanes, forwards and backwards in time, of several orders.
+    #[test]
+    fn a_motion_in_a_lane_is_the_motion_alone() {
+        let Some(register) = pulp::x86::V3::try_new() else { return };
+        let (onwards, back) = ([3.0, 3.0, 40.0, 47.5], [-0.1, -2.0, -33.0]);
+        let motion = |i: usize| SampledProblem {
+            problem: axis_problem([0.02, 0.01, -0.03].map(|value| value * (1.0 + 0.1 * i as f64))),
+            start: 0.0,
+            times: if i % 3 == 0 { &back[..] } else { &onwards },
+            tolerance: 10_f64.powi(-7 - (i % 3) as i32),
+        };
+        let motions: Vec<_> = (0..31).map(motion).collect();
+        for (motion, found) in motions.iter().zip(axis_states_in_lanes(register, &motions)) {
+            let SampledProblem { problem, start, times, tolerance } = motion;
+            let span = (*start, times[times.len() - 1]);
+            let setup = ScaledProblem::new((true, Work::Quadratic), problem, span, *tolerance).unwrap();
+            let alone =
+                visited(&setup, plain(), times, ErrorEstimates::NotWanted, |vectors: [Vector3<f64>; 2], _| vectors);
+            let (found, alone) = (found.unwrap(), alone.unwrap());
+            assert_eq!((found.step_count, found.order), (alone.step_count, alone.order));
+            assert!(found.step_count > 3 && found.states.len() == times.len());
+            for (state, [axis, momentum]) in found.states.iter().zip(alone.states) {
+                // Vectors of the length one and of about that, after some ten steps of rounding.
+                assert!((state.axis - axis).amax() < 1e-14 && (state.momentum - momentum).amax() < 1e-14);
+            }
+            // And to the bit, whatever was in its lane before.
+            assert_eq!(axis_states_in_lanes(register, &[*motion]), [Ok(found)]);
+        }
+    }
+}

@@ -402,6 +402,20 @@ mod tests {
         }
     }
 
+    /// What a step leaves out grows with the time since its start, to the power of the order.
+    #[test]
+    fn the_error_within_a_step_begins_with_what_is_carried() {
+        let motion = axis_problem([0.02, 0.01, -0.03]).taylor((0.0, 3.0), 1e-5).unwrap();
+        let Kept::Axis(series) = &motion.kept else { panic!("of the axis alone") };
+        assert!(series.steps.count() > 1);
+        let (second, length) = (series.steps.starts[1].high, series.length(0));
+        let at = |part: f64| motion.error_estimate(part * length);
+        assert!(at(0.0) < 1e-15 && at(0.3) < at(0.6) && at(0.6) < at(0.9), "{:?}", [0.0, 0.3, 0.6, 0.9].map(at));
+        assert!(at(0.9) > 1e3 * at(0.3) && length < 1.0 && series.length(1) < 1.0);
+        // What is carried from there on is the larger of both ends of the step: no less than what has come in.
+        assert!(motion.error_estimate(second) < 3.0 * at(1.0 - 1e-9), "{:e}", motion.error_estimate(second));
+    }
+
     /// A start that rounding takes out of the time since it: the same steps, and what the turn in the lost time adds.
     #[test]
     fn what_rounding_makes_of_the_time_is_in_the_estimated_error() {

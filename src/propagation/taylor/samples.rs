@@ -106,7 +106,7 @@ fn sampled<S: Real, X: RotationState<S>, T, const V: usize>(
 
 /// Evaluates each step at the times within it.
 #[inline(always)]
-fn visited<A: LoadStore, T, const V: usize>(
+pub(super) fn visited<A: LoadStore, T, const V: usize>(
     setup: &ScaledProblem<A::Scalar, V>,
     a: A,
     times: &[f64],

@@ -62,10 +62,35 @@ pub(crate) fn projected_by_segments(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dynamics::fixture::problem;
+    use crate::propagation::Motion;
+
+    /// Every stretch has its 32 steps and no more, and goes on where the last one ended; in all they are the steps of the motion that is kept.
+    #[test]
+    fn stretches_are_the_steps_of_the_motion() {
+        let (problem, span) = (problem([0.02, 0.01, -0.03]), (2.0, 1000.0));
+        let motion = problem.taylor(span, 1e-8).unwrap();
+        let both = (&Vector3::x(), &Vector3::y());
+        let mut ends = vec![span.0];
+        let end = projected_by_segments(&problem, span, 1e-8, both, |projection, end| {
+            let first = *ends.last().expect("the start");
+            // No series of an earlier stretch is kept.
+            let earlier = projection.cheapest_time(f64::NEG_INFINITY, first - 1e-9);
+            assert!(earlier.is_none() && first < end, "{first} {end} {earlier:?}");
+            let kept = motion.projection(both.0, both.1).expect("for doubles");
+            assert_eq!(projection.at((first + end) / 2.0)?, kept.at((first + end) / 2.0)?);
+            ends.push(end);
+            Ok(())
+        });
+        let Some(end) = end.unwrap() else { return };
+        assert_eq!((end.step_count, end.order), (motion.step_count, motion.order));
+        assert_eq!(ends.len() - 1, motion.step_count.div_ceil(STEPS));
+        assert!(ends.len() > 4 && ends[ends.len() - 1] == span.1, "{ends:?}");
+    }
 
     #[test]
     fn a_motion_backwards_in_time_is_not_followed() {
-        let problem = crate::dynamics::fixture::problem([0.0; 3]);
+        let problem = problem([0.0; 3]);
         let both = (&Vector3::x(), &Vector3::y());
         let followed = projected_by_segments(&problem, (70.0, 2.0), 1e-5, both, |_, _| panic!("backwards"));
         assert!(followed.unwrap().is_none());
