@@ -247,6 +247,35 @@ mod tests {
         assert!(nutating.condition() > 1.0);
     }
 
+    /// A rate of the inclination counts as none where its square is rounding: where `beta'^2 sin^2 beta |P''| / 2` is the square of what `P'` rounds.
+    #[test]
+    fn steady_precession_ends_where_the_inclination_turns_round() {
+        let Motion::Steady(Steady { frequency, sin, cos, .. }) = precession(0.0, 0.0).motion else { panic!("steady") };
+        let k = 2.0 * 0.8 * -0.15 / 1.3;
+        let omega = (ALPHA_RATE * ALPHA_RATE + k) * cos / ALPHA_RATE;
+        let turn = ALPHA_RATE * sin;
+        let slope = 2.0 * cos * turn * turn + (2.0 * k * cos * sin * sin).abs() + 2.0 * omega * turn * sin;
+        let rate = 8.0 * f64::EPSILON * slope / frequency / sin;
+        assert!(frequency < 0.9, "{frequency}");
+        for sign in [1.0, -1.0] {
+            assert!(matches!(precession(0.0, 0.99 * sign * rate).motion, Motion::Steady(_)));
+            assert!(matches!(precession(0.0, 1.01 * sign * rate).motion, Motion::Nutating(_)));
+        }
+    }
+
+    /// Those at which the inclination turns round: half a period apart.
+    #[test]
+    fn inclinations_are_those_of_the_turning_points() {
+        for more in [0.2, -0.2] {
+            let solution: SymmetricSolution<f64> = precession(more, 0.0);
+            let [start, turned] = [0.0, 0.5 * solution.period()].map(|t| solution.angles(t).beta);
+            let (least, largest) = solution.inclinations();
+            assert_relative_eq!(least, start.min(turned), max_relative = 1e-13);
+            assert_relative_eq!(largest, start.max(turned), max_relative = 1e-13);
+            assert!(largest - least > 0.02, "{least} {largest}");
+        }
+    }
+
     /// By the initial rate, against differences of motions on both sides that nutate.
     #[test]
     fn mean_rates_of_a_steady_precession_have_their_derivatives() {
