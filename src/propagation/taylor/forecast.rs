@@ -72,13 +72,22 @@ fn expected_rounding(turn: f64, steps: f64, strength: f64, vectors: usize) -> f6
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::fixture::problem;
+    use crate::dynamics::fixture::{ANGLES, STAR, problem, tensor};
+    use crate::euler_angles::EulerRates;
 
     #[test]
     fn a_motion_without_end_has_no_digits() {
         assert_eq!(expected_rounding(1e308, 1e308, 0.1, 2), f64::INFINITY);
         assert_eq!(expected_rounding(1e308, f64::INFINITY, 0.1, 2), f64::INFINITY);
         assert!(expected_rounding(1e100, 1e100, 0.1, 2).is_finite());
+    }
+
+    #[test]
+    fn a_star_at_rest_rounds_nothing_but_what_is_read() {
+        let rest = EulerRates { alpha: 0.0, beta: 0.0, gamma: 0.0 };
+        let problem = Problem::from_angles(STAR, tensor([0.0; 3]), &ANGLES, &rest).unwrap();
+        let found = problem.taylor_forecast(1e3, 1e-10).unwrap();
+        assert_eq!((found.steps, found.rounding), (1.0, READING));
     }
 
     #[test]
