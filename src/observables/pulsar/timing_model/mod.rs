@@ -135,7 +135,8 @@ impl TimingModel {
     /// As for [`phase`](Self::phase).
     pub fn arrival(&self, number: i64) -> Result<[f64; 2], Error> {
         check_turns(number as f64)?;
-        let wanted = DoubleDouble::sum(number as f64, (number - number as f64 as i64) as f64);
+        // So many turns are a double.
+        let wanted = DoubleDouble::from(number as f64);
         let mut time = (wanted - self.value(Phase).into()).over(self.frequency);
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
@@ -264,5 +265,128 @@ fn azimuth_of_pulse<S: Real>(values: &[S; COUNT], tau: S, t: f64) -> Option<S> {
     match pulse_width(of(Rho), colatitude, of(Inclination) + of(InclinationRate) * t) {
         PulseWidth::Pulsed(azimuth) => Some(azimuth),
         PulseWidth::AlwaysOn | PulseWidth::NeverOn => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    /// A pulsar of one turn a second that loses a tenth of its rotation in 1e9 s, and wobbles.
+    fn slowing_down(more: &[(TimingParameter, f64)]) -> TimingModel {
+        let star = [
+            (Phase, 0.3),
+            (F1, -1e-10),
+            (Wobble, 0.2),
+            (Chi, 1.1),
+            (PrecessionPhase, 0.7),
+            (PrecessionRate, 1.3e-5),
+            (TorqueShare, 0.4),
+            (Inclination, 1.2),
+            (InclinationRate, 2e-10),
+            (Rho, 0.4),
+        ];
+        TimingModel::new([1.0, 1e-18], &[&star, more].concat()).unwrap()
+    }
+
+    fn refused(parameters: &[(TimingParameter, f64)], name: &str, value: f64) {
+        match TimingModel::new([10.0, 0.0], parameters) {
+            Err(Error::Domain { quantity, value: told, .. }) => assert_eq!((quantity, told), (name, value)),
+            other => panic!("{parameters:?}: {other:?}"),
+        }
+    }
+
+    #[test]
+    fn parameters_have_ranges() {
+        refused(&[(Wobble, -0.1)], "wobble (rad)", -0.1);
+        refused(&[(Wobble, 1.6)], "wobble (rad)", 1.6);
+        refused(&[(Inclination, -0.1)], "inclination (rad)", -0.1);
+        refused(&[(Inclination, 3.2)], "inclination (rad)", 3.2);
+        refused(&[(Rho, -0.2)], "rho (rad)", -0.2);
+        refused(&[(Rho, PI)], "rho (rad)", PI);
+        for (chi, wobble) in [(0.3, 0.29), (PI - 0.3, 0.29), (1.5, 1.4), (1.7, 1.4)] {
+            assert!(TimingModel::new([10.0, 0.0], &[(Wobble, wobble), (Chi, chi)]).is_ok());
+        }
+        for (chi, wobble) in [(0.3, 0.31), (PI - 0.3, 0.31), (-0.3, 0.1), (3.3, 0.1), (0.0, 0.0), (PI, 0.0)] {
+            refused(&[(Wobble, wobble), (Chi, chi)], "chi (rad)", chi);
+        }
+    }
+
+    /// A fit stays where there is a model: both agree about the ends, up to a billionth.
+    #[test]
+    fn limits_of_fits_are_the_ranges_of_parameters() {
+        let mut limited = 0;
+        for parameter in TimingParameter::ALL {
+            let is_taken = |value: f64| TimingModel::new([10.0, 0.0], &[(parameter, value)]).is_ok();
+            let (least, most) = parameter.limits();
+            let small = 1e-9;
+            for (end, inwards) in least.map(|end| (end, small)).into_iter().chain(most.map(|end| (end, -small))) {
+                // A wobble needs a chi beyond it, which is at most a right angle away from both poles.
+                assert!(is_taken(end + inwards) && !is_taken(end - inwards), "{parameter:?} {end}");
+                limited += 1;
+            }
+        }
+        assert_eq!(limited, 10);
+        assert_eq!((Rho.unit(), F1.unit(), Rho.key()), ("rad", "Hz/s", "rho"));
+    }
+
+    #[test]
+    fn a_pulse_arrives_when_the_phase_is_its_number() {
+        let faster = slowing_down(&[(F1, 5e-11), (PrecessionRate, -4e-5)]);
+        let even = TimingModel::new([641.928_233_334_553_6, 3.1e-15], &[(Phase, -0.4)]).unwrap();
+        for (model, numbers) in [
+            (slowing_down(&[]), [-800_000_000_i64, -12_345, 0, 1, 700_000_001]),
+            (faster, [-800_000_000, -12_345, 0, 1, 700_000_001]),
+            (even, [-8_999_999_999_999_999, -7, 0, 5_000_000_000_000_001, 8_999_999_999_999_998]),
+        ] {
+            for number in numbers {
+                let Turns { whole, fraction } = model.phase(model.arrival(number).unwrap()).unwrap();
+                let off = (whole - number) as f64 + fraction;
+                // The time has 32 digits; the phase rounds its geometry and its fraction.
+                assert!(off.abs() < 3e-15, "{number}: {off:e}");
+            }
+        }
+        assert!(slowing_down(&[]).arrival(9_000_000_000_000_001).is_err());
+    }
+
+    /// Eq. (56) of a magnetic axis at a constant angle to `L`, over the rate of turns of the time.
+    #[test]
+    fn widths_are_those_of_a_ring_in_the_beam() {
+        let model = slowing_down(&[(Wobble, 0.0)]);
+        for t in [-4e8, 0.0, 7e8] {
+            let inclination = 1.2 + 2e-10 * t;
+            let half =
+                (0.4_f64.cos() - 1.1_f64.cos() * f64::cos(inclination)) / (1.1_f64.sin() * f64::sin(inclination));
+            let width = model.width(t).unwrap();
+            // F0 of the time, with the braking index 3: F0 / sqrt(1 - 2 F1 t / F0).
+            let frequency = (1.0 + 2e-10 * t).sqrt().recip();
+            assert_relative_eq!(width * frequency, half.acos() / PI, max_relative = 1e-12);
+        }
+        assert!(slowing_down(&[(Rho, 0.05)]).width(0.0).is_err());
+    }
+
+    /// By differences of models on both sides, with a wobble and a torque that varies with it.
+    #[test]
+    fn derivatives_of_widths_are_their_slopes() {
+        let t = 3e8;
+        let model = slowing_down(&[]);
+        let (width, slopes) = model.width_and_derivatives(t).unwrap();
+        assert_eq!(width, model.width(t).unwrap());
+        for parameter in TimingParameter::ALL {
+            // So that each changes the width by some thousandths of itself.
+            let step = match parameter {
+                F1 => 1e-15,
+                F2 | Damping => continue,
+                PrecessionRate | InclinationRate => 1e-12,
+                _ => 1e-4,
+            };
+            let at = |change: f64| model.moved(&[(parameter, change)]).unwrap().width(t).unwrap();
+            let slope = (at(step) - at(-step)) / (2.0 * step);
+            let largest = slopes[parameter as usize].abs().max(1e-4 * width);
+            assert!((slopes[parameter as usize] - slope).abs() < 1e-5 * largest, "{parameter:?}: {slope:e} {slopes:?}");
+        }
+        assert!(slopes[InclinationRate as usize].abs() > 1e6 && slopes[Wobble as usize].abs() > 1e-3, "{slopes:?}");
     }
 }
