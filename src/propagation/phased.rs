@@ -127,9 +127,14 @@ impl PhasedMotion {
         }
     }
 
-    /// Whether the phases are the angles of a torus, which may be any basis of it.
-    pub(crate) fn is_on_torus(&self) -> bool {
-        matches!(self.solution, Solution::Torus(_))
+    /// Rate (rad per unit of time) at which `L` goes round the [pole](Self::pole); None on a torus, whose angles may be any basis of it.
+    pub(crate) fn precession_of_momentum(&self) -> Option<f64> {
+        let rate = match &self.solution {
+            Solution::Averaged { mean, .. } => mean.top().rate_about_axis(),
+            Solution::Torus(_) => return None,
+            Solution::Uniform(motion) => motion.precession_of_momentum(),
+        };
+        Some(rate * end_of(&self.axis()))
     }
 
     /// The same in turns, to 32 digits where they are known.
@@ -141,8 +146,14 @@ impl PhasedMotion {
         }
     }
 
-    /// The axis of the angles `alpha` and `gamma`: a principal axis of `s^IJ` that `L` goes round, or Z if it stays.
+    /// The pole of the angles `alpha` and `gamma`: of a principal axis of `s^IJ` that `L` goes round the end that is nearest to an axis of the frame, or Z if `L` stays.
     pub(crate) fn pole(&self) -> Vector3<f64> {
+        let axis = self.axis();
+        axis * end_of(&axis)
+    }
+
+    /// That axis, by either end.
+    fn axis(&self) -> Vector3<f64> {
         match &self.solution {
             Solution::Averaged { mean, given_from_principal } => given_from_principal.column(mean.top().axis()).into(),
             Solution::Torus(torus) => torus.pole(),
@@ -209,4 +220,8 @@ impl PhasedMotion {
     pub fn error_estimate(&self, t: f64) -> f64 {
         self.truncation(t) + self.rounding(t)
     }
+}
+/// The sign of the end of an axis that is nearest to an axis of the frame.
+fn end_of(axis: &Vector3<f64>) -> f64 {
+    axis[axis.iamax()].signum()
 }

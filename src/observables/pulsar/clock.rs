@@ -235,13 +235,14 @@ impl PulsarClock {
         &self.motion
     }
 
-    /// Mean rates (rad per unit of time) of the free precession, of `e_x` about `n` from the direction in which `n` goes round `L`, and of the precession of `L`.
+    /// Mean rates (rad per unit of time) of the free precession, of `e_x` about `n` from the direction in which `n` goes round `L`, and of the precession of `L` about a principal axis of `s^IJ`, of which
+    /// the end counts that is nearest to an axis of the frame.
     ///
     /// # Errors
     /// As for [`QuasiPeriodicMotion::new`]; [`Error::NotConverged`] where turns about `n` or of `L` are not counted.
     pub fn precession_rates(&self) -> Result<[f64; 2], Error> {
-        if !self.motion.is_on_torus() {
-            let [_, of_momentum, of_body] = self.motion.rates();
+        if let Some(of_momentum) = self.motion.precession_of_momentum() {
+            let [.., of_body] = self.motion.rates();
             return Ok([of_body, of_momentum]);
         }
         let motion = QuasiPeriodicMotion::new(&self.motion.problem)?;
@@ -511,6 +512,86 @@ mod tests {
                 );
             }
         }
+    }
+
+    /// A star that wobbles by 0.2 rad and turns once in 2 pi, with `C |s| I^xx / |L|^2` of this size; `s^IJ` is symmetric about Z, from which `L` is 0.5 rad.
+    fn precessing(strength: f64) -> PulsarClock {
+        let spheroid = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.01, constant_c: 1.0 };
+        let momentum = Vector3::new(0.3_f64.cos() * 0.5_f64.sin(), 0.3_f64.sin() * 0.5_f64.sin(), 0.5_f64.cos());
+        let across = momentum.cross(&Vector3::new(0.1, 0.9, -0.2)).normalize();
+        let axis = Rotation3::from_axis_angle(&Unit::new_unchecked(across), 0.2) * momentum;
+        let start = BodyState { axis, momentum, equatorial_axis: across };
+        let s = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, -2.0)) * (strength / 12_f64.sqrt());
+        let problem = Problem::new(spheroid, s, start).unwrap();
+        PulsarClock::new(&problem, &Beam::new(1.1, 0.4, 0.3), &Observer::at(1.2, -0.5), AveragingOrder::Second).unwrap()
+    }
+
+    /// As for the motion, and by its documented sum for a star that is braked, one whose wobble is damped or excited, and both.
+    #[test]
+    fn what_a_clock_leaves_out() {
+        let strength = 5e-4;
+        let turns = TAU / precessing(strength).period();
+        let of = |braking: f64, damping: f64| {
+            let clock = precessing(strength).damped(damping).unwrap();
+            clock.braked(&Braking { rate: braking, index: 3.0, torque_share: 0.5 }).unwrap()
+        };
+        for (braking, damping) in [(1e-6, 0.0), (-1e-6, 0.0), (0.0, 2e-4), (0.0, -2e-4), (1e-6, 2e-4), (-3e-6, -1e-4)] {
+            let clock = of(braking, damping);
+            for t in [-1e3, 2e3] {
+                let of_motion = clock.motion.truncation(t) / turns;
+                let wobble = (0.2_f64.tan() * f64::exp(-damping * t)).atan();
+                let damped = (3.0 * t * (wobble.sin().powi(2) - 0.2_f64.sin().powi(2))).abs();
+                // The rate of L's precession is strength times |L| / I^xx, here the strength.
+                let rigid = strength * ((braking * t * t).abs() + damped + (wobble - 0.2).abs()) / turns;
+                let of_time = clock.time.truncation(t) + clock.time.error_by_angles(strength);
+                let expected = of_motion + of_time + rigid;
+                let found = clock.truncation(t);
+                assert!((found / expected - 1.0).abs() < 1e-12, "{braking:e} {damping:e}: {found:e} {expected:e}");
+                assert!(rigid > 1e-6 * expected, "{rigid:e} {expected:e}");
+            }
+        }
+        let undisturbed = precessing(strength);
+        assert_eq!(undisturbed.truncation(1e3), undisturbed.motion.truncation(1e3) / turns);
+        // A motion near a time is that of the clock.
+        let near = Near { clock: &undisturbed, t: [1e3, 1e-3] };
+        assert_eq!(near.error_estimate(5.0), undisturbed.motion.error_estimate(1005.0));
+    }
+
+    /// In averaged motion and on the torus, about either pole of any axis, with their senses.
+    #[test]
+    fn rates_of_both_precessions_are_those_of_any_motion() {
+        let base = precessing(5e-4).motion.problem;
+        let turns = [Vector3::zeros(), Vector3::y() * 2.0, Vector3::x() * PI, Vector3::new(0.3, 1.9, -0.8)];
+        for (turn, sign) in turns.iter().flat_map(|turn| [(turn, 1.0), (turn, -1.0)]) {
+            let turn = *Rotation3::new(*turn).matrix();
+            let problem =
+                Problem::new(*base.spheroid(), base.coefficients() * sign, *base.initial()).unwrap().rotated(&turn);
+            let rates = |motion: PhasedMotion| {
+                let clock = PulsarClock::on(motion, &Beam::new(1.1, 0.4, 0.3), &Observer::at(1.2, -0.5)).unwrap();
+                clock.precession_rates().unwrap()
+            };
+            let averaged = rates(PhasedMotion::averaged(&problem, AveragingOrder::Second).unwrap());
+            let exact = rates(PhasedMotion::torus(&problem, 1e3).unwrap());
+            for (averaged, exact) in averaged.into_iter().zip(exact) {
+                assert!((averaged / exact - 1.0).abs() < 1e-5, "{sign}: {averaged:e} {exact:e}");
+            }
+        }
+    }
+
+    /// `L` goes round Z: `cos i = L.o / |L|` changes at the rate `l' (Z x L).o / |L|`.
+    #[test]
+    fn the_inclination_of_a_timing_model_changes_as_the_momentum_precesses() {
+        let clock = precessing(1e-9);
+        let [_, rate] = clock.precession_rates().unwrap();
+        let (l, o) = (clock.motion.problem.initial().momentum, clock.observer.direction);
+        let inclination = l.dot(&o).acos();
+        let expected = -rate * Vector3::z().cross(&l).dot(&o) / inclination.sin();
+        let model = clock.timing_model().unwrap();
+        assert!((model.value(Inclination) - inclination).abs() < 1e-14);
+        // A difference over 0.01 rad, of momenta whose nutation is of the size of the strength.
+        let found = model.value(InclinationRate);
+        assert!((found / expected - 1.0).abs() < 1e-5 && expected.abs() > 1e-10, "{found:e} {expected:e}");
+        assert_eq!(precessing(0.0).timing_model().unwrap().value(InclinationRate), 0.0);
     }
 
     /// Parts that cancel are one time.

@@ -247,6 +247,42 @@ mod tests {
         Jet { time, values }
     }
 
+    /// Of which the error alone is asked.
+    struct Known(f64);
+
+    impl Margin for Known {
+        fn at(&self, _: f64) -> Result<[f64; 4], Error> {
+            panic!("nobody looks")
+        }
+
+        fn cheapest_time(&self, _: f64, t: f64) -> f64 {
+            t
+        }
+
+        fn estimated_error(&self, t: f64) -> f64 {
+            self.0 * t
+        }
+    }
+
+    /// A third derivative that values of zero do not have: 0.3, what the sixth one leaves open, and 300 errors of the later value.
+    #[test]
+    fn a_law_that_the_values_do_not_follow_is_refused() {
+        let bounds = RateBounds { first: 1.0, second: 1.0, third: 1.0, fourth: 1.0, sixth: 2.4 };
+        for (error, from, to, allowed) in
+            [(0.0, 5.0, 6.0, 0.32), (0.01, 1.0, 2.0, 6.32), (0.0, 1.0, 3.0, 1.58), (0.01, -1.5, 0.5, 3.08)]
+        {
+            let search = EdgeSearch::new(Known(error), bounds);
+            let cubed = f64::powi(to - from, 3);
+            for sign in [1.0, -1.0] {
+                let check = |mismatch: f64| {
+                    let start = jet(from, [0.0, 0.0, 0.0, sign * mismatch / cubed]);
+                    search.check_stated_law(&start, &jet(to, [0.0; 4]))
+                };
+                assert!(check(allowed - 1e-9).is_ok() && check(allowed + 1e-9).is_err(), "{error} {from} {to}");
+            }
+        }
+    }
+
     #[test]
     fn bounds_tell_where_a_slope_and_a_curvature_keep_their_signs() {
         let bounds = RateBounds { first: 1.0, second: 1.0, third: 1.0, fourth: 1.0, sixth: 1.0 };

@@ -92,9 +92,55 @@ impl<M: Motion<f64, State = BodyState<f64>>> Margin for ByStates<'_, M> {
 pub(super) mod tests {
     use core::cell::Cell;
 
+    use nalgebra::Matrix3;
+
     use super::*;
+    use crate::dynamics::RigidSpheroid;
     use crate::observables::pulsar::edge_search::EdgeSearch;
     use crate::observables::pulsar::rate_bounds::RateBounds;
+
+    /// A star that turns about Z at the rate one.
+    struct Turned(RigidSpheroid<f64>, Matrix3<f64>);
+
+    impl Motion<f64> for Turned {
+        type State = BodyState<f64>;
+
+        fn spheroid(&self) -> &RigidSpheroid<f64> {
+            &self.0
+        }
+
+        fn coefficients(&self) -> &Matrix3<f64> {
+            &self.1
+        }
+
+        fn span(&self) -> (f64, f64) {
+            (0.0, 1.0)
+        }
+
+        fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
+            let equatorial_axis = Vector3::new(t.cos(), t.sin(), 0.0);
+            Ok(BodyState { axis: Vector3::z(), momentum: Vector3::z(), equatorial_axis })
+        }
+
+        fn error_estimate(&self, _: f64) -> f64 {
+            0.0
+        }
+    }
+
+    /// A rate may be above the bound stated for it by rounding, a billionth.
+    #[test]
+    fn rates_keep_to_the_bounds_that_are_stated() {
+        let motion = Turned(RigidSpheroid::in_units_of_tc(1.1), Matrix3::zeros());
+        let (beam, line_of_sight) = (Beam::new(0.5, 0.0, 0.3), Vector3::x());
+        for place in 0..3 {
+            let looked = |excess: f64| {
+                let rate = |k: usize| Vector3::z() * if k == place { 1.0 + excess } else { 0.5 };
+                let turning = Turning::Given { rates: Box::new(move |_| Ok([0, 1, 2].map(rate))), bounds: [1.0; 6] };
+                ByStates { motion: &motion, turning, beam: &beam, line_of_sight: &line_of_sight }.at(0.3)
+            };
+            assert!(looked(0.9e-9).is_ok() && looked(1.1e-9).is_err(), "{place}");
+        }
+    }
 
     /// A margin by a function, which counts how often it is looked at.
     pub(in crate::observables::pulsar) struct Given<F>(F, pub(in crate::observables::pulsar) Cell<usize>);

@@ -189,6 +189,24 @@ mod tests {
         }
     }
 
+    /// Far from the chord: a pulsar that has lost a third of its rotation, and one with a third derivative, of any frequency.
+    #[test]
+    fn the_time_of_a_number_has_its_phase() {
+        for (frequency, rate, second) in
+            [(0.5, -1e-9, 0.0), (0.5, -1e-9, 3e-18), (-2.0, 4e-9, 0.0), (-2.0, 4e-9, -8e-18), (100.0, -2e-7, 3e-16)]
+        {
+            let (phase, residuals) = ([0.25, 1e-18], Vec::new());
+            let fit = SpinFit { phase, frequency: [frequency, 1e-18], derivatives: [rate, second], residuals };
+            for number in [-30_000_000_i64, -7, 0, 1, 40_000_000] {
+                let t = DoubleDouble::from(fit.time_of(number));
+                let slope = DoubleDouble::from(fit.frequency) + t * (t * (second / 6.0) + (rate / 2.0).into());
+                let off = DoubleDouble::from(phase) + t * slope - (number as f64).into();
+                // Of 4e7 turns with 32 digits.
+                assert!(off.high.abs() < 1e-22, "{frequency} {rate:e} {second:e}, {number}: {off:?}");
+            }
+        }
+    }
+
     /// A phase of third degree is found as it is.
     #[test]
     fn derivatives_are_those_of_the_phase() {

@@ -244,6 +244,23 @@ mod tests {
         }
     }
 
+    /// At the one place where the azimuth jumps, as the magnetic axis passes `L`, it counts on either side.
+    #[test]
+    fn a_way_through_the_momentum_is_followed() {
+        let motion = PhasedMotion::torus(&problem(1.0), 1e3).unwrap();
+        let (state, phases) = (motion.state([17.0, 0.0]), motion.turns([17.0, 0.0]).map(|turns| turns.fraction));
+        let l = state.momentum.normalize();
+        let (n, x) = (state.axis, state.equatorial_axis);
+        let axis = Vector3::new(l.dot(&x), l.dot(&n.cross(&x)), l.dot(&n));
+        let count = TurnCount::new(&motion, &Beam::new(0.9, 0.2, 0.3), &sight()).unwrap();
+        let through = TurnCount { beam: Beam { axis, half_opening: 0.3 }, ..count };
+        let from = [phases[0] - 0.3, phases[1], phases[2]];
+        let way = |turns: f64| through.followed(&motion, from, [turns, 0.0, 0.0]).unwrap();
+        // The azimuth jumps by half a turn, but for what it turns by in a ten-thousandth of one.
+        let [[_, before], [_, after]] = [0.29995, 0.30005].map(way);
+        assert!(((after - before).abs() - PI).abs() < 0.01, "{before} {after}");
+    }
+
     #[test]
     fn the_limit_on_turns_is_checked_on_both_sides() {
         let motion = PhasedMotion::torus(&problem(1.0), 1e3).unwrap();

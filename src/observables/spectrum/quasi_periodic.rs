@@ -2,8 +2,6 @@
 
 use core::f64::consts::TAU;
 
-use nalgebra::Vector3;
-
 use super::fundamental_frequencies::{FundamentalFrequencies, rate_of};
 use crate::dynamics::{BodyState, Problem};
 use crate::error::Error;
@@ -39,11 +37,8 @@ impl QuasiPeriodicMotion {
         let motion = PhasedMotion::exact(problem, longest)?;
         let start = motion.turns([0.0; 2]).map(|turns| turns.fraction);
         let rate_error = (motion.error_estimate(PART * longest) - motion.error_estimate(0.0)) / (PART * longest);
-        // The end of the axis that is nearest to an axis of the frame.
-        let pole: Vector3<f64> = motion.pole();
-        let pole = pole * pole[pole.iamax()].signum();
-        let frequencies =
-            FundamentalFrequencies::of(|turns| motion.state_at(sum(start, turns)), motion.turns_per_time(), &pole);
+        let state = |turns| motion.state_at(sum(start, turns));
+        let frequencies = FundamentalFrequencies::of(state, motion.turns_per_time(), &motion.pole());
         Ok(Self { motion, start, rate_error, frequencies })
     }
 
@@ -85,7 +80,7 @@ fn sum(start: [f64; 3], turns: [f64; 3]) -> [f64; 3] {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::Matrix3;
+    use nalgebra::{Matrix3, Vector3};
 
     use super::*;
     use crate::dynamics::RigidSpheroid;

@@ -207,6 +207,11 @@ impl<S: Real> Top<S> {
         self.places[2]
     }
 
+    /// Mean rate (rad per unit of time) at which `l` goes round that axis.
+    pub(crate) fn rate_about_axis(&self) -> S {
+        self.rates.slow * -self.signs[1]
+    }
+
     /// `k'`, one where the phase grows evenly and zero on the separatrix, the only place where the phase does not repeat itself after a turn.
     pub fn complement(&self) -> f64 {
         match &self.course {
