@@ -74,6 +74,20 @@ impl<S: Real> MaclaurinSpheroid<S> {
 mod tests {
     use super::*;
 
+    /// Central in the middle, and less by the square of the distance as part of that to the surface.
+    #[test]
+    fn the_pressure_falls_to_zero_at_the_surface() {
+        let spheroid = UniformSpheroid::from_semi_axes(1.3, 0.8, 0.7).unwrap();
+        let star = MaclaurinSpheroid::new(spheroid).unwrap();
+        for part in [0.0, 0.3, 0.8, 1.0, 1.5] {
+            for colatitude in [0.0_f64, 0.4, 1.2, 3.0] {
+                let (sin, cos) = colatitude.sin_cos();
+                let pressure = star.pressure(1.3 * part * sin, 0.8 * part * cos);
+                assert!((pressure / star.central_pressure - (1.0 - part * part)).abs() < 1e-14, "{part} {colatitude}");
+            }
+        }
+    }
+
     /// Of a thin disc the components along the axis are as small as it is thin, and so is what rounding leaves of their balance.
     #[test]
     fn each_component_is_balanced_within_its_own_rounding() {

@@ -146,7 +146,7 @@ class Pulsar:
     @property
     def precession_rates(self, /) -> list[float]:
         """
-        Rates (rad/s) of the precession of the body about its axis and of its angular momentum.
+        Rates (rad/s) of the precession of the body about its axis and of its angular momentum, about the end of a principal axis of `s^IJ` that is nearest to an axis of the frame.
         """
     @property
     def scene(self, /) -> Scene:

@@ -145,6 +145,36 @@ mod tests {
         }
     }
 
+    /// The terms beyond the degree are taken as a tail `a (l + 3/2)^-3`, with `a` from the terms above half of it: from degree 4 to 8 the sum grows by `(9.5 / 5.5)^3 - 1` times that tail.
+    #[test]
+    fn the_tail_of_the_sum_is_that_of_its_last_half() {
+        for (equatorial, polar) in [(1.0, 0.7), (0.8, 1.1)] {
+            let star = UniformSpheroid::from_semi_axes(equatorial, polar, 1.0).unwrap();
+            let [four, eight] = [4, 8].map(|degree| axisymmetric_integrals(&star, degree).unwrap());
+            // The estimated error is the tail without its sign, which is the same for both degrees.
+            let grown = [1.0, -1.0].map(|sign| (eight.c - sign * eight.c_error) - (four.c - sign * four.c_error));
+            let ratios = grown.map(|grown| (grown / eight.c_error).abs());
+            let expected = (9.5_f64 / 5.5).powi(3) - 1.0;
+            assert!(ratios.iter().any(|ratio| (ratio / expected - 1.0).abs() < 1e-6), "{ratios:?} {expected}");
+            assert!((eight.c - star.c()).abs() < eight.c_error);
+            // The trace has a tail of its own.
+            let trace = |tensor: AxisymmetricTensor<f64>| 2.0 * tensor.xx + tensor.zz;
+            let off = trace(eight.potential_energy_tensor) / trace(star.potential_energy_tensor()) - 1.0;
+            // Without it 2e-5 are missing.
+            assert!(off.abs() < 1e-5, "{off:e}");
+        }
+    }
+
+    /// A steep exponential takes more nodes than the degree has.
+    #[test]
+    fn the_rules_are_exact_for_smooth_densities() {
+        let star = (|r: f64, _: f64| (-20.0 * r).exp(), |_: f64| (1.0, 0.0));
+        let found = axisymmetric_integrals(&star, 4).unwrap().mass;
+        // 4 pi times the integral of r^2 exp(-20 r).
+        let exact = 4.0 * core::f64::consts::PI * (2.0 - f64::exp(-20.0) * (2.0 + 40.0 + 400.0)) / 8000.0;
+        assert!((found / exact - 1.0).abs() < 1e-12, "{found:e} {exact:e}");
+    }
+
     #[test]
     fn the_slope_of_a_sphere_may_be_rounding_of_its_radius() {
         for radius in [300.0, 0.02] {
