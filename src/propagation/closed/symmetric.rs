@@ -194,6 +194,18 @@ mod tests {
         SymmetricMotion::new(&problem, (0.0, 10.0))
     }
 
+    /// Within a short time the torque left out changes `L` in proportion to it, and `n` by the square.
+    #[test]
+    fn what_is_left_out_begins_with_the_momentum() {
+        let moving = motion([0.1, 0.1 + 1e-9, -0.2], 0.7, [1.4, 0.1, 0.2]).unwrap();
+        let push = moving.neglected_torque / STAR.inertia_xx;
+        assert!((push * STAR.inertia_xx / (STAR.constant_c * 1e-9) - 1.0).abs() < 0.2, "{push:e}");
+        for t in [1e-3, 3e-3, -3e-3] {
+            let expected = push * f64::abs(t) / (moving.turning_rate + push.sqrt());
+            assert!((moving.truncation(t) / expected - 1.0).abs() < 1e-5, "{t} {expected:e}");
+        }
+    }
+
     #[test]
     fn motions_are_refused_that_come_nearer_to_a_pole_than_a_billionth() {
         let refused = |motion: Result<SymmetricMotion<f64>, Error>| match motion {
