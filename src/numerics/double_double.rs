@@ -213,9 +213,12 @@ impl Real for DoubleDouble {
         Self::sqrt(self)
     }
 
-    /// By the series of `x / 2^8` and squares.
+    /// By the series of `x / 2^8` and squares; of a negative number by the reciprocal, as the sum of one and nearly minus one would have lost its digits.
     fn exp(self) -> Self {
-        let halvings = (self.high.abs().log2().ceil() as i32 + HALVINGS).max(0);
+        if self.high < 0.0 {
+            return Self::one() / (-self).exp();
+        }
+        let halvings = (self.high.log2().ceil() as i32 + HALVINGS).max(0);
         let small = self * 0.5_f64.powi(halvings);
         // exp x - 1, which keeps its digits.
         let mut less_one = Self::zero();
@@ -279,6 +282,16 @@ mod tests {
         let rest = sin - DoubleDouble::sum(0.841_470_984_807_896_5, 1.776_845_092_935_536e-18);
         assert!(rest.high.abs() < 1e-30, "{rest:?}");
         assert!((of(1.0).sin_cos().0 - of(1.0 + 4.0 * TAU).sin_cos().0).high.abs() < 1e-14);
+    }
+
+    /// `exp x exp -x = 1`, of large arguments too; each factor loses as many digits as `x` has.
+    #[test]
+    fn exponentials_of_opposite_arguments_are_reciprocal() {
+        for x in [1e-20, 0.7, 21.3, 312.9, 680.2] {
+            let x = DoubleDouble::sum(x, x * 1e-17);
+            let off = x.exp() * (-x).exp() - DoubleDouble::one();
+            assert!(off.high.abs() < 1e-31 * (1.0 + x.high), "{x:?}: {:e}", off.high);
+        }
     }
 
     #[test]

@@ -48,6 +48,16 @@ fn root_where_monotone(p: &[f64], slope: &[f64], mut a: f64, mut b: f64) -> Opti
 mod tests {
     use super::*;
 
+    /// To the rounding of the root, however small it is: `(1 - v / r) (2 - v) (3 + v)`.
+    #[test]
+    fn small_roots_have_all_digits() {
+        for root in [1e-3, 1e-9, 1e-15, -1e-9, -1e-15, 0.7] {
+            let p = [6.0, -1.0 - 6.0 / root, 1.0 / root - 1.0, 1.0 / root];
+            let found = first_root(&p, if root > 0.0 { 1.0 } else { -1.0 });
+            assert!((found / root - 1.0).abs() < 1e-14, "{root:e}: {found:e}");
+        }
+    }
+
     /// `(v - 1) (v - 2) (v + 3)`, positive at zero.
     #[test]
     fn roots_come_in_the_order_from_zero() {

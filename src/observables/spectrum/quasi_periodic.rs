@@ -85,6 +85,15 @@ mod tests {
     use super::*;
     use crate::dynamics::RigidSpheroid;
 
+    #[test]
+    fn nothing_moves_without_momentum_and_torque() {
+        let star = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.1, constant_c: 1.0 };
+        let start = BodyState { axis: Vector3::x(), momentum: Vector3::zeros(), equatorial_axis: Vector3::y() };
+        let found = QuasiPeriodicMotion::new(&Problem::new(star, Matrix3::zeros(), start).unwrap()).unwrap();
+        assert_eq!(found.rates(), [0.0; 3]);
+        assert_eq!(found.state_after_turns([0.0; 3]), start);
+    }
+
     /// The rate of `e_x` about `n` of a nearly spherical star is a difference of rates 1e8 times as large: `-epsilon Omega^z`, the torque apart.
     #[test]
     fn small_differences_of_rates_keep_their_digits() {
