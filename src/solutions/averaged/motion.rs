@@ -365,6 +365,7 @@ mod tests {
     use num_dual::Dual64;
 
     use super::*;
+    use crate::dynamics::RotationState;
 
     fn about<S: Real>(axis: [f64; 3], values: [f64; 3], momentum: [S; 3]) -> AveragedSolution<S> {
         let [inertia_xx, inertia_zz, constant_c] = [1.3, 1.6, 0.8].map(S::from_f64);
@@ -381,6 +382,32 @@ mod tests {
 
     /// So weak a tensor that `L` keeps its bits in the transformation to the averaged motion.
     const WEAK: [f64; 3] = [1e-17, 0.0, -1e-17];
+
+    /// Against differences of states on both sides.
+    #[test]
+    fn derivatives_by_the_time_are_rates() {
+        let (values, momentum) = ([0.02, 0.01, -0.03], [0.3, -0.5, 2.0]);
+        let found = motion(values, momentum.map(Dual64::from)).state(Dual64::from(7.3).derivative());
+        let h = 1e-4;
+        let [before, after] = [-h, h].map(|step| motion(values, momentum).state(7.3 + step));
+        for ((found, before), after) in found.vectors().iter().zip(before.vectors()).zip(after.vectors()) {
+            let slope = (after - before) / (2.0 * h);
+            assert!((found.map(|x| x.eps) - slope).amax() < 1e-7, "{found} {slope}");
+        }
+        // The torque alone changes L, by some thousandths.
+        assert!(found.momentum.map(|x| x.eps).amax() > 1e-3);
+    }
+
+    #[test]
+    fn errors_are_those_since_the_start_and_at_most_two() {
+        let motion = motion([0.02, 0.01, -0.03], [0.3, -0.5, 2.0]);
+        let near = motion.near([30.0, 5.0]).near([-7.0, 2.0]);
+        for t in [-40.0, 0.0, 11.0] {
+            assert_relative_eq!(near.error_estimate(t), motion.error_estimate(30.0 + t), max_relative = 1e-14);
+        }
+        assert_relative_eq!(motion.error_estimate(1e30), 2.0 + 2.0 * motion.relative_strength, max_relative = 1e-14);
+        assert!(motion.relative_strength > 1e-3);
+    }
 
     #[test]
     fn on_the_separatrix_the_phase_is_not_taken_modulo_a_turn() {

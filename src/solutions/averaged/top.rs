@@ -340,6 +340,47 @@ mod tests {
 
     const K: [f64; 3] = [4.5, 0.5, -0.5];
 
+    /// `l` and the frame about it turn at the rate `k l`: on both sides of each axis, and on the separatrix, before and after it passes the middle axis' equator.
+    #[test]
+    fn frames_turn_at_the_rate_of_the_top() {
+        // (k_1 - k_2) x^2 = (k_2 - k_3) z^2 is the separatrix.
+        let [upper, lower] = [K[0] - K[1], K[1] - K[2]];
+        let on_separatrix = |x: f64, y: f64, z: f64| {
+            let l = Vector3::new(x * lower.sqrt(), y, z * upper.sqrt()).normalize();
+            // To the last bit, so that it is on neither side.
+            let top = Top::new(K, &l);
+            assert_eq!(top.complement(), 0.0, "{l}");
+            top
+        };
+        let tops = [
+            Top::new(K, &Vector3::new(0.9, 0.2, 0.3).normalize()),
+            Top::new(K, &Vector3::new(-0.1, 0.2, -0.9).normalize()),
+            on_separatrix(1.0, 0.3, 1.0),
+            on_separatrix(-1.0, 0.3, 1.0),
+            on_separatrix(1.0, -0.9, -1.0),
+            on_separatrix(-1.0, -0.2, -1.0),
+        ];
+        for top in tops {
+            let at = |t: f64| {
+                let shape = top.at(top.start + top.rates.slow * t);
+                let angle = top.rates.about * t + shape.turned[1].atan2(shape.turned[0]);
+                shape.frame * nalgebra::Rotation3::from_axis_angle(&Vector3::z_axis(), angle)
+            };
+            for t in [-5.0, -0.7, 0.0, 0.4, 6.0] {
+                let h = 1e-5;
+                let (before, frame, after) = (at(t - h), at(t), at(t + h));
+                let l = frame.column(2).into_owned();
+                let rate = Vector3::from(K).component_mul(&l);
+                for i in 0..3 {
+                    let slope = (after.column(i) - before.column(i)) / (2.0 * h);
+                    assert!((slope - rate.cross(&frame.column(i))).amax() < 1e-8, "{top:?} at {t}");
+                }
+            }
+        }
+        // On the middle axis but for what squares lose, nothing moves.
+        assert_eq!(Top::new(K, &Vector3::new(1e-170, 1.0, 1e-170)).rates.slow, 0.0);
+    }
+
     #[test]
     fn tops_are_beside_each_other_on_one_side_of_one_axis() {
         let top = |direction: [f64; 3]| Top::new(K, &Vector3::from(direction).normalize());
