@@ -85,7 +85,7 @@ impl Pulsar {
         self.pulsar.clock.period()
     }
 
-    /// Rates (rad/s) of the precession of the body about its axis and of its angular momentum, about the end of a principal axis of `s^IJ` that is nearest to an axis of the frame.
+    /// Rates (rad/s) of the precession of the body about its axis and of its angular momentum. That is positive where the angular momentum goes in the right-handed sense round the principal axis of `s^IJ` that it circles, directed so that its largest component is positive.
     #[getter]
     fn precession_rates(&self) -> PyResult<[f64; 2]> {
         self.pulsar.clock.precession_rates().map_err(raised)

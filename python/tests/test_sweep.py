@@ -56,16 +56,30 @@ class Slowed(twofold.Sweep):
 class Cut(twofold.Sweep):
     """Its worker is killed while it hands over a part: with half of a message in the pipe, and the lock on it."""
 
+    first = 40
+
+    def end(self):
+        os.kill(os.getpid(), signal.SIGKILL)
+
     def rows(self, start, stop):
-        if start >= 40:
+        if start >= self.first:
             frame = sys._getframe()
             while "result_queue" not in frame.f_locals:
                 frame = frame.f_back
             results = frame.f_locals["result_queue"]
             with results._wlock:
                 os.write(results._writer.fileno(), struct.pack("!i", 1000) + b"half")
-                os.kill(os.getpid(), signal.SIGKILL)
+                self.end()
         return super().rows(start, stop)
+
+
+class CutAtTheEnd(Cut):
+    """Its worker ends itself while all parts that are left have been handed out."""
+
+    first = 92
+
+    def end(self):
+        os._exit(1)
 
 
 class Recorded(Executor):
@@ -281,11 +295,11 @@ def test_a_killed_worker(one_core, method, tmp_path):
 
 @pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL")
-@pytest.mark.parametrize("method", ["spawn", "fork"])
-def test_a_worker_killed_while_it_hands_over_a_part(sweep, one_core, method, tmp_path):
+@pytest.mark.parametrize(("method", "cut"), [("spawn", Cut), ("fork", Cut), ("fork", CutAtTheEnd)])
+def test_a_worker_killed_while_it_hands_over_a_part(sweep, one_core, method, cut, tmp_path):
     path = tmp_path / "table.csv"
     with pytest.raises(BrokenProcessPool), processes(method) as executor:
-        Cut(toml=GRID).write(path, executor, scenes_at_once=4, parts_at_once=4)
+        cut(toml=GRID).write(path, executor, scenes_at_once=4, parts_at_once=4)
     assert not path.exists()
     with processes(method) as executor:
         sweep.write(path, executor)

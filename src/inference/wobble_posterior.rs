@@ -189,9 +189,10 @@ mod tests {
         let expected = 5.0_f64.sqrt() * 1e-3 + 1.644853626951472e-6 - 0.5e-12 / (5.0_f64.sqrt() * 1e-3);
         assert!((far.limit(0.95).unwrap() - expected).abs() < 1e-12, "{far:?} {expected:e}");
         assert!((far.best()[1] / 2e-3 - 1.0).abs() < 1e-14 && (far.gain() / 5e6 - 1.0).abs() < 1e-14, "{far:?}");
-        // At 1e5 standard deviations by the same: a probability to 1e-14 of 1e5, over a density of 0.1.
+        // At 1e5 standard deviations by the same. The probability is right to 1e-14 of that, 1e-9: over a density of 0.1 that is 1e-8 of a standard deviation.
         let farther = limit([1e-9; 2], [0.0, 1e5], 0.95) / 1e-9;
         assert!((farther - (1e5 + 1.644853626951472 - 0.5e-5)).abs() < 1e-8, "{farther}");
+        assert_eq!(limit([1e-6; 2], [0.0; 2], 0.0), 0.0);
         // Far above what residuals are in proportion to; and where one axis is not seen.
         assert_eq!(limit([1e-12; 2], [1e17, 0.0], 0.95), f64::INFINITY);
         let blind = posterior([f64::INFINITY, 1e-6], [0.0; 2], 0.0);

@@ -127,16 +127,6 @@ impl PhasedMotion {
         }
     }
 
-    /// Rate (rad per unit of time) at which `L` goes round the [pole](Self::pole); None on a torus, whose angles may be any basis of it.
-    pub(crate) fn precession_of_momentum(&self) -> Option<f64> {
-        let rate = match &self.solution {
-            Solution::Averaged { mean, .. } => mean.top().rate_about_axis(),
-            Solution::Torus(_) => return None,
-            Solution::Uniform(motion) => motion.precession_of_momentum(),
-        };
-        Some(rate * end_of(&self.axis()))
-    }
-
     /// The same in turns, to 32 digits where they are known.
     pub(crate) fn turns_per_time(&self) -> [DoubleDouble; 3] {
         match &self.solution {
@@ -146,13 +136,23 @@ impl PhasedMotion {
         }
     }
 
-    /// The pole of the angles `alpha` and `gamma`: of a principal axis of `s^IJ` that `L` goes round the end that is nearest to an axis of the frame, or Z if `L` stays.
-    pub(crate) fn pole(&self) -> Vector3<f64> {
-        let axis = self.axis();
-        axis * end_of(&axis)
+    /// Rate (rad per unit of time) at which the averaged `L` goes round the [pole](Self::pole), in the right-handed sense; None on a torus, whose angles may be any basis of it.
+    pub(crate) fn precession_of_momentum(&self) -> Option<f64> {
+        match &self.solution {
+            // Not minus zero where `L` stays.
+            Solution::Averaged { mean, .. } => Some(mean.top().rate_about_axis() * direction_of(&self.axis()) + 0.0),
+            Solution::Torus(_) => None,
+            Solution::Uniform(_) => Some(0.0),
+        }
     }
 
-    /// That axis, by either end.
+    /// The pole of the angles `alpha` and `gamma`: the principal axis of `s^IJ` that `L` goes round, directed so that its largest component is positive (of several equal ones the first), or Z if `L` stays.
+    pub(crate) fn pole(&self) -> Vector3<f64> {
+        let axis = self.axis();
+        axis * direction_of(&axis)
+    }
+
+    /// The same axis, with no choice of direction.
     fn axis(&self) -> Vector3<f64> {
         match &self.solution {
             Solution::Averaged { mean, given_from_principal } => given_from_principal.column(mean.top().axis()).into(),
@@ -221,7 +221,23 @@ impl PhasedMotion {
         self.truncation(t) + self.rounding(t)
     }
 }
-/// The sign of the end of an axis that is nearest to an axis of the frame.
-fn end_of(axis: &Vector3<f64>) -> f64 {
-    axis[axis.iamax()].signum()
+
+/// The sign of the first of the largest components of an axis; those that are equal to a millionth count as one, so that rounding does not choose.
+fn direction_of(axis: &Vector3<f64>) -> f64 {
+    let largest = axis.amax();
+    axis.iter().find(|component| component.abs() >= (1.0 - 1e-6) * largest).map_or(1.0, |component| component.signum())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounding_does_not_choose_the_direction_of_an_axis() {
+        for off in [-1e-15, 0.0, 1e-15] {
+            assert_eq!(direction_of(&Vector3::new(1.0 + off, -1.0, 0.0)), 1.0);
+            assert_eq!(direction_of(&Vector3::new(-1.0, 1.0 + off, 1.0 - off)), -1.0);
+            assert_eq!(direction_of(&Vector3::new(0.1, off, -0.9)), -1.0);
+        }
+    }
 }

@@ -79,7 +79,7 @@ mod tests {
         (numbers, rest)
     }
 
-    /// In the same order and the same style. Places have two digits, of which roundings may differ between processors: an error of 1e-12 with them by a thousandth, 0.005 of the page's units.
+    /// In the same order and the same style. Coordinates are written to 0.01. Another processor may round differently: at an error of 1e-12 by a thousandth of it, 0.005 on the page.
     /// After a change of the drawing, draw the picture anew and look at it.
     #[test]
     fn the_picture_of_the_readme_is_the_one_that_is_drawn() {

@@ -42,7 +42,7 @@ impl SpinAxisAngle {
     }
 
     /// Least, largest and mean angle (rad) so far. Extrema are found by the sign of the rate at 64 times a turn and then to
-    /// rounding; two that lie between neighbouring times, a plateau, are missed, which shifts the result by less than 1e-4.
+    /// 1e-14; two that lie between neighbouring times, a plateau, are missed, which shifts the result by less than 1e-4.
     pub(super) fn least_largest_mean(&self) -> [f64; 3] {
         [self.least, self.largest, self.integral / self.length]
     }
@@ -99,7 +99,7 @@ impl SpinAxisAngle {
     }
 
     /// Takes the extremum between two times at which the rate has different signs, by the rule of false position and halving in
-    /// turn. The angle is flat there: where the rate is 1e-6 of those around, a 64th of a turn apart, the angle is off by at most 1e-14.
+    /// turn. The angle is flat there: once the rate is 1e-6 of the rates at both ends, at most a 64th of a turn apart, the angle is within 1e-14 of its extremum.
     fn take_extremum(&mut self, motion: &AxisStateAt<'_>, a: &Place, b: &Place) -> Result<(), Error> {
         let (mut a, mut b) = (*a, *b);
         let enough = 1e-6 * (a.rate.abs() + b.rate.abs());

@@ -235,8 +235,8 @@ impl PulsarClock {
         &self.motion
     }
 
-    /// Mean rates (rad per unit of time) of the free precession, of `e_x` about `n` from the direction in which `n` goes round `L`, and of the precession of `L` about a principal axis of `s^IJ`, of which
-    /// the end counts that is nearest to an axis of the frame.
+    /// Mean rates (rad per unit of time) of the free precession, of `e_x` about `n` from the direction in which `n` goes round `L`, and of the precession of `L`. That is positive where `L`
+    /// goes in the right-handed sense round the principal axis of `s^IJ` that it circles, directed so that its largest component in the frame of the initial state is positive; zero where `L` stays.
     ///
     /// # Errors
     /// As for [`QuasiPeriodicMotion::new`]; [`Error::NotConverged`] where turns about `n` or of `L` are not counted.
@@ -526,7 +526,7 @@ mod tests {
         PulsarClock::new(&problem, &Beam::new(1.1, 0.4, 0.3), &Observer::at(1.2, -0.5), AveragingOrder::Second).unwrap()
     }
 
-    /// As for the motion, and by its documented sum for a star that is braked, one whose wobble is damped or excited, and both.
+    /// As for the motion; of a star that is braked, whose wobble is damped or excited, or both, its terms written out with the numbers of this star.
     #[test]
     fn what_a_clock_leaves_out() {
         let strength = 5e-4;

@@ -189,7 +189,7 @@ mod tests {
         }
     }
 
-    /// Far from the chord: a pulsar that has lost a third of its rotation, and one with a third derivative, of any frequency.
+    /// Of a pulsar that has lost a sixth of its rotation, and of fits with a second derivative, for frequencies of either sign.
     #[test]
     fn the_time_of_a_number_has_its_phase() {
         for (frequency, rate, second) in

@@ -196,7 +196,7 @@ impl Grid {
         Some([first?, second?, winding(self.third.iter().map(|state| angle(state, 0)))?])
     }
 
-    /// Whether the azimuth of `n` goes round between four neighbours, once in the positive sense: on the whole torus it does so as often in each.
+    /// Whether the azimuth of `n` winds once counter-clockwise round some cell of four neighbouring points. One sense is enough: the windings of all cells cancel on a torus, so that both occur equally often.
     fn surrounds_pole(&self) -> bool {
         let count = self.count;
         let azimuth = |k: usize, j: usize| {

@@ -236,7 +236,7 @@ mod tests {
         let exact = lines(&found, 1e-14, |state| state.axis.z);
         for part in [1e-11, 1e-10] {
             let with_noise = lines(&found, 1e-14, |state| state.axis.z + part * noise(state.axis.z));
-            // Eight times the largest of the coefficients at the edge, each some root of twelve times the number of points below the size of the noise.
+            // Eight times the largest of the coefficients at the edge, each about the size of the noise over the root of twelve times the number of points.
             assert!((8e-3 * part..0.2 * part).contains(&with_noise.least), "{part:e}: {:e}", with_noise.least);
             assert!(with_noise.left < 2.0 * part && exact.left < 1e-12, "{:e}", with_noise.left);
             assert!(with_noise.lines.len() > 10);

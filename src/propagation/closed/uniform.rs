@@ -165,12 +165,6 @@ impl UniformMotion<f64> {
         [turn.norm(), 0.0, about_axis]
     }
 
-    /// Rate (rad per unit of time) at which `L` goes round the [pole](Self::pole).
-    pub(crate) fn precession_of_momentum(&self) -> f64 {
-        let stays = self.momentum_is_constant || self.turn.cross(&self.problem.initial().momentum) == Vector3::zeros();
-        if stays { 0.0 } else { self.turn.norm() }
-    }
-
     /// The axis of the angles `alpha` and `gamma`: what `L` goes round, or Z if it stays.
     pub(crate) fn pole(&self) -> Vector3<f64> {
         if self.momentum_is_constant { Vector3::z() } else { self.turn.try_normalize(0.0).unwrap_or_else(Vector3::z) }
@@ -341,11 +335,8 @@ mod tests {
     #[test]
     fn states_by_turns_are_those_by_time() {
         for (motion, rate, ..) in steady() {
-            for found in [motion.rates()[0], motion.precession_of_momentum()] {
-                assert_relative_eq!(motion.pole() * found, Vector3::z() * rate, epsilon = 1e-13);
-            }
-            let free = UniformMotion::free(&motion.problem, (0.0, 1.0));
-            assert_eq!((free.precession_of_momentum(), free.pole()), (0.0, Vector3::z()));
+            assert_relative_eq!(motion.pole() * motion.rates()[0], Vector3::z() * rate, epsilon = 1e-13);
+            assert_eq!(UniformMotion::free(&motion.problem, (0.0, 1.0)).pole(), Vector3::z());
             let time = 3.7;
             let [turn, _, about_axis] = motion.rates().map(|rate| rate * time / TAU);
             let (found, expected) = (motion.state_after_turns([turn, about_axis]), motion.state(2.0 + time).unwrap());

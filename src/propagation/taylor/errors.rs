@@ -204,7 +204,7 @@ mod tests {
 
     const SPHEROID: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.8 };
 
-    /// A free star at rest in its frame, and the series of a rotation by the angle one of `n` and what is carried, about `L`, whose length is the inertia over the unit of time.
+    /// A free star, and the Taylor series of the rotation of `n` and of what is carried about a constant `L` at the rate `|L| / I^xx`, in the scaled unit of time.
     fn rotating<const V: usize>(momentum: Vector3<f64>) -> (TaylorErrors<V>, Vec<Columns<V>>) {
         let vectors = [Vector3::x(), momentum, Vector3::y()];
         let problem = Problem::unchecked(SPHEROID, Matrix3::zeros(), BodyState::from_vectors(vectors));

@@ -399,7 +399,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_are_those_since_the_start_and_at_most_two() {
+    fn errors_are_those_since_the_start_and_at_most_two_and_twice_the_strength() {
         let motion = motion([0.02, 0.01, -0.03], [0.3, -0.5, 2.0]);
         let near = motion.near([30.0, 5.0]).near([-7.0, 2.0]);
         for t in [-40.0, 0.0, 11.0] {

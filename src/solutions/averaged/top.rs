@@ -340,14 +340,14 @@ mod tests {
 
     const K: [f64; 3] = [4.5, 0.5, -0.5];
 
-    /// `l` and the frame about it turn at the rate `k l`: on both sides of each axis, and on the separatrix, before and after it passes the middle axis' equator.
+    /// `l` and the frame about it turn at the rate `k l`: on both sides of each axis, and on the separatrix, before and after `l` crosses the plane across the middle axis.
     #[test]
     fn frames_turn_at_the_rate_of_the_top() {
         // (k_1 - k_2) x^2 = (k_2 - k_3) z^2 is the separatrix.
         let [upper, lower] = [K[0] - K[1], K[1] - K[2]];
         let on_separatrix = |x: f64, y: f64, z: f64| {
             let l = Vector3::new(x * lower.sqrt(), y, z * upper.sqrt()).normalize();
-            // To the last bit, so that it is on neither side.
+            // Within what counts as the separatrix.
             let top = Top::new(K, &l);
             assert_eq!(top.complement(), 0.0, "{l}");
             top
@@ -377,7 +377,7 @@ mod tests {
                 }
             }
         }
-        // On the middle axis but for what squares lose, nothing moves.
+        // Nothing moves on the middle axis, nor where the squares of the other components underflow.
         assert_eq!(Top::new(K, &Vector3::new(1e-170, 1.0, 1e-170)).rates.slow, 0.0);
     }
 
