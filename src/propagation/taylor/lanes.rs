@@ -147,7 +147,7 @@ mod tests {
         let motion = |i: usize| SampledProblem {
             problem: axis_problem([0.02, 0.01, -0.03].map(|value| value * (1.0 + 0.1 * i as f64))),
             start: 0.0,
-            times: if i % 3 == 0 { &back[..] } else { &onwards },
+            times: if i.is_multiple_of(3) { &back[..] } else { &onwards },
             tolerance: 10_f64.powi(-7 - (i % 3) as i32),
         };
         let motions: Vec<_> = (0..31).map(motion).collect();
