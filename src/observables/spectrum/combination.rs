@@ -50,4 +50,10 @@ mod tests {
         assert_eq!(print(-2, 0), "-2 a'");
         assert_eq!(print(0, 0), "0");
     }
+
+    #[test]
+    fn a_frequency_that_is_not_in_a_combination_is_there_no_times() {
+        let combination = Combination { terms: vec![(2, "a'"), (-1, "g'")] };
+        assert_eq!(["a'", "g'", "l'"].map(|symbol| combination.multiple(symbol)), [2, -1, 0]);
+    }
 }
