@@ -4,9 +4,6 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::{AxisState, Problem, RigidSpheroid};
 use crate::euler_angles::{EulerAngles, EulerRates};
-use crate::lorentz_violation::PrincipalCoefficients;
-use crate::solutions::perturbation::Precession;
-use crate::solutions::steady::steady_precession_rate;
 
 /// Prolate.
 pub(crate) const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
@@ -28,12 +25,4 @@ pub(crate) fn problem(s: [f64; 3]) -> Problem<f64> {
 /// The same of `n` and `L` alone, from [`AXIS_STATE`].
 pub(crate) fn axis_problem(s: [f64; 3]) -> Problem<f64, AxisState<f64>> {
     Problem::new(STAR, tensor(s), AXIS_STATE).unwrap()
-}
-
-/// The star in steady precession about Z at the angle `beta`, with the spin `gamma-dot + alpha-dot cos beta`, and its rate `alpha-dot`.
-pub(crate) fn steady_precession(spin: f64, beta: f64) -> (Problem<f64>, f64) {
-    let s = PrincipalCoefficients::new([0.2, 0.2, -0.4]);
-    let rate = steady_precession_rate(Precession::Twofold, &STAR, &s, spin, beta).unwrap();
-    let rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * beta.cos() };
-    (Problem::from_angles(STAR, s.tensor(), &EulerAngles { beta, ..ANGLES }, &rates).unwrap(), rate)
 }

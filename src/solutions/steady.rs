@@ -81,3 +81,19 @@ pub fn steady_precession_rate<S: Real>(
         }
     }
 }
+
+#[cfg(test)]
+pub(crate) mod fixture {
+    use super::*;
+    use crate::dynamics::Problem;
+    use crate::dynamics::fixture::{ANGLES, STAR};
+    use crate::euler_angles::{EulerAngles, EulerRates};
+
+    /// The star in steady precession about Z at the angle `beta`, with the spin `gamma-dot + alpha-dot cos beta`, and its rate `alpha-dot`.
+    pub(crate) fn steady_precession(spin: f64, beta: f64) -> (Problem<f64>, f64) {
+        let s = PrincipalCoefficients::new([0.2, 0.2, -0.4]);
+        let rate = steady_precession_rate(Precession::Twofold, &STAR, &s, spin, beta).unwrap();
+        let rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * beta.cos() };
+        (Problem::from_angles(STAR, s.tensor(), &EulerAngles { beta, ..ANGLES }, &rates).unwrap(), rate)
+    }
+}

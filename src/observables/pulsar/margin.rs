@@ -92,45 +92,16 @@ impl<M: Motion<f64, State = BodyState<f64>>> Margin for ByStates<'_, M> {
 pub(super) mod tests {
     use core::cell::Cell;
 
-    use nalgebra::Matrix3;
-
     use super::*;
-    use crate::dynamics::RigidSpheroid;
+    use crate::dynamics::fixture::problem;
     use crate::observables::pulsar::edge_search::EdgeSearch;
     use crate::observables::pulsar::rate_bounds::RateBounds;
-
-    /// A star that turns about Z at the rate one.
-    struct Turned(RigidSpheroid<f64>, Matrix3<f64>);
-
-    impl Motion<f64> for Turned {
-        type State = BodyState<f64>;
-
-        fn spheroid(&self) -> &RigidSpheroid<f64> {
-            &self.0
-        }
-
-        fn coefficients(&self) -> &Matrix3<f64> {
-            &self.1
-        }
-
-        fn span(&self) -> (f64, f64) {
-            (0.0, 1.0)
-        }
-
-        fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
-            let equatorial_axis = Vector3::new(t.cos(), t.sin(), 0.0);
-            Ok(BodyState { axis: Vector3::z(), momentum: Vector3::z(), equatorial_axis })
-        }
-
-        fn error_estimate(&self, _: f64) -> f64 {
-            0.0
-        }
-    }
+    use crate::propagation::UniformMotion;
 
     /// A rate may be above the bound stated for it by rounding, a billionth.
     #[test]
     fn rates_keep_to_the_bounds_that_are_stated() {
-        let motion = Turned(RigidSpheroid::in_units_of_tc(1.1), Matrix3::zeros());
+        let motion = UniformMotion::free(&problem([0.0; 3]), (0.0, 1.0));
         let (beam, line_of_sight) = (Beam::new(0.5, 0.0, 0.3), Vector3::x());
         for place in 0..3 {
             let looked = |excess: f64| {

@@ -256,7 +256,8 @@ mod tests {
 
     use super::*;
     use crate::dynamics::RotationState;
-    use crate::dynamics::fixture::{STAR, steady_precession};
+    use crate::dynamics::fixture::STAR;
+    use crate::solutions::steady::fixture::steady_precession;
 
     /// The axis lies in the equator of `s` and precesses about its pole at the rate 1/4 without torque; a spin would need one.
     #[test]

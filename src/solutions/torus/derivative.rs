@@ -119,9 +119,10 @@ impl<'a> TorusDerivative<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::fixture::{ANGLES, RATES, STAR, steady_precession, tensor};
+    use crate::dynamics::fixture::{ANGLES, RATES, STAR, tensor};
     use crate::parameters::{Parameter, Parameters};
     use crate::propagation::Motion;
+    use crate::solutions::steady::fixture::steady_precession;
 
     fn derivatives(state: &BodyState<Dual64>) -> [Vector3<f64>; 3] {
         state.vectors().map(|v| v.map(|x| x.eps))
