@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::drawn::{Frame, Point, elements, frames, legend, number};
-use super::layout_tests::FIGURES;
+use super::fixtures::{Fixture, figure, fixtures};
 use super::{Figure, Table};
 
 /// Half a pixel of the PNG, in points. The picture is rounded to 0.01, and lines are simplified by 0.02.
@@ -161,8 +161,8 @@ fn assert_lines(figure: &Figure, frame: &Frame) -> usize {
 fn every_curve_of_every_figure_is_the_column_that_its_axes_and_legend_name() {
     let (mut count, mut spectra) = (0, 0);
     let own = ["line-atlas", "spin-down", "violation-residuals"];
-    let has_own_test = |figure: &&Figure| figure.name.ends_with("-regimes") || own.contains(&figure.name.as_str());
-    for figure in FIGURES.iter().filter(|figure| !has_own_test(figure)) {
+    let has_own_test = |figure: &&Fixture| figure.name.ends_with("-regimes") || own.contains(&figure.name);
+    for figure in fixtures().filter(|figure| !has_own_test(figure)) {
         let elements = elements(&figure.svg);
         let (lines, marks) = legend(&elements);
         let mut drawn = BTreeSet::new();
@@ -193,7 +193,7 @@ fn every_curve_of_every_figure_is_the_column_that_its_axes_and_legend_name() {
                     let rows: Vec<_> = table.rows.iter().map(|row| place(row, x, y)).collect();
                     let what = format!("{} {}: {}", figure.name, table.name, table.columns[y]);
                     // Pulses are drawn thick where m.n is above the level; grey lines join what has no gap between.
-                    let part = (figure.name.as_str(), style.1.as_str());
+                    let part = (figure.name, style.1.as_str());
                     let is_part = [("beam-alignment", "1.7"), ("pulse-series", "0.5")].contains(&part);
                     if is_part && figure.name == "beam-alignment" {
                         let edge = frame.levels[0];
@@ -238,7 +238,7 @@ fn every_curve_of_every_figure_is_the_column_that_its_axes_and_legend_name() {
             }
         }
         for table in &figure.tables {
-            for column in table.columns.iter().filter(|column| !is_not_a_curve(&figure.name, &table.name, column)) {
+            for column in table.columns.iter().filter(|column| !is_not_a_curve(figure.name, &table.name, column)) {
                 let is_drawn = drawn.contains(&(table.name.clone(), column.clone()));
                 assert!(is_drawn || table.rows.is_empty(), "{} {}: no curve is `{column}`", figure.name, table.name);
             }
@@ -250,7 +250,7 @@ fn every_curve_of_every_figure_is_the_column_that_its_axes_and_legend_name() {
 /// Curves stand in the order of the columns, with their names to the right; what free precession lacks falls with `s`, the rest does not.
 #[test]
 fn the_atlas_of_lines_is_its_tables() {
-    let figure = FIGURES.iter().find(|figure| figure.name == "line-atlas").expect("a figure");
+    let figure = figure("line-atlas");
     let elements = elements(&figure.svg);
     let frames = frames(&elements);
     assert_eq!((frames.len(), figure.tables.len()), (6, 9));

@@ -3,28 +3,26 @@
 use std::f64::consts::{PI, TAU};
 
 use super::drawn::{elements, frames};
-use super::layout_tests::{FIGURES, made_up_runs, scenes};
+use super::fixtures::{Fixture, OF_SCENES, OF_THE_PAPER, figure, fixtures, made_up_runs, scenes};
 use super::line_atlas;
-use super::{Figure, OF_A_SCENE, RECIPES, Table};
+use super::{OF_A_SCENE, Table};
 use crate::bench::work_precision::Row;
 use twofold_scene::columns::Column;
 use twofold_scene::scene_file::{Scene, Times};
 use twofold_scene::trajectory::{LinesWanted, write_csv, write_lines, write_pulses};
 
 /// The figures of the paper's examples and of the scenes, each with the scene and its name in the tables.
-fn drawn() -> Vec<(String, Scene, Vec<&'static Figure>)> {
-    let of_paper = FIGURES[..RECIPES.len()].iter().collect::<Vec<_>>();
+fn drawn() -> Vec<(String, Scene, Vec<&'static Fixture>)> {
     let examples = [("tp-1", "tp-I"), ("tp-2", "tp-II"), ("sp-1", "sp-I"), ("sp-2", "sp-II")];
     let mut drawn = Vec::new();
     for (scene, name) in examples {
-        let others: Vec<_> = of_paper
+        let others = OF_THE_PAPER
             .iter()
             .filter(|figure| figure.name == format!("motion-{scene}") || !figure.name.starts_with("motion"))
-            .copied()
             .collect();
         drawn.push((name.to_owned(), Scene::named(scene).unwrap(), others));
     }
-    for (figures, (name, scene)) in FIGURES[RECIPES.len()..].chunks(OF_A_SCENE.len()).zip(scenes()) {
+    for (figures, (name, scene)) in OF_SCENES.iter().zip(scenes()) {
         drawn.push((name.to_owned(), scene, figures.iter().collect()));
     }
     drawn
@@ -200,7 +198,7 @@ fn periods_and_lengths_are_those_of_the_pulses() {
 /// says.
 #[test]
 fn curves_with_mean_rates_keep_in_step_and_others_drift() {
-    let figure = FIGURES.iter().find(|figure| figure.name == "pulse-series").unwrap();
+    let figure = figure("pulse-series");
     let table = figure.tables.iter().find(|table| table.name == "tp-I-curves").unwrap();
     let pulses = |what: &str| figure.tables.iter().find(|table| table.name == format!("tp-I-{what}s")).unwrap();
     for what in ["period", "length"] {
@@ -303,7 +301,7 @@ fn levels_and_rates_are_where_they_belong() {
                     );
                 };
                 let is_of_paper = name.starts_with("tp-");
-                match figure.name.as_str() {
+                match figure.name {
                     "beam-alignment" => within(&frame.levels, &[scene.pulsar.unwrap().rho.cos()]),
                     "beam-alignment-spectra" if is_of_paper => within(&frame.uprights, &[turning, rotating]),
                     // An inset has its own, three times the mean rate.
@@ -322,7 +320,7 @@ fn levels_and_rates_are_where_they_belong() {
 /// Times of runs are in seconds, those of the picture in milliseconds.
 #[test]
 fn the_times_of_methods_are_in_the_unit_of_their_axis() {
-    let figure = FIGURES.iter().find(|figure| figure.name == "work-precision").unwrap();
+    let figure = figure("work-precision");
     let runs = made_up_runs();
     let mut compared = 0;
     for table in &figure.tables {
@@ -352,7 +350,7 @@ fn leading(text: &str) -> f64 {
 #[test]
 fn differences_in_captions_are_those_of_the_columns() {
     let mut compared = 0;
-    for figure in FIGURES.iter().filter(|figure| figure.name.starts_with("motion")) {
+    for figure in fixtures().filter(|figure| figure.name.starts_with("motion")) {
         let table = figure.tables.iter().find(|table| table.name == "angles").unwrap();
         for solution in ["printed", "corrected"] {
             let Some((_, says)) = figure.caption.says.split_once(&format!("perturbation, {solution}: up to ")) else {
@@ -406,7 +404,7 @@ fn parts_of_the_time_in_captions_are_those_of_the_columns() {
 /// Where both columns of the atlas meet, its amplitudes are those of `spectrum` for the same star, which names the lines by other rates; and so is the strongest.
 #[test]
 fn the_atlas_has_the_lines_of_spectrum() {
-    let figure = FIGURES.iter().find(|figure| figure.name == "line-atlas").unwrap();
+    let figure = figure("line-atlas");
     let problem = line_atlas::star(line_atlas::SCALE, line_atlas::WOBBLE).unwrap();
     let (state, spheroid) = (problem.initial(), problem.spheroid());
     let (angles, rates) = (state.angles().unwrap(), state.rates(spheroid).unwrap());

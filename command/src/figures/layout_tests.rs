@@ -1,92 +1,13 @@
 //! What a referee would send back: text that is cut off, too small, over other text, or not in the font.
 
-use std::sync::LazyLock;
-
-use rayon::prelude::*;
 use resvg::usvg::{Group, Node};
 
+use super::fixtures::{fixtures, of_scene};
 use super::style::CENTIMETRE;
-use super::{DRAWN, Figure, OF_A_SCENE, Subject, html, markup, png, work_precision};
-use crate::bench::method::Carries;
-use crate::bench::timing::Times;
-use crate::bench::work_precision::Row;
-use twofold_scene::scene_file::Scene;
+use super::{html, markup, png};
 
 /// Points in a CSS pixel, the unit of a resolved SVG.
 const POINTS: f32 = 0.75;
-
-/// Scenes unlike the paper's examples: other motions, one with constants, and physical stars.
-const SCENES: [&str; 5] = ["prolate", "through-the-pole", "sp-2", "b1937+21", "b1828-11"];
-
-/// The figures of the paper and of some scenes, drawn once.
-pub(super) static FIGURES: LazyLock<Vec<Figure>> = LazyLock::new(|| {
-    let mut figures = DRAWN.clone();
-    figures.par_extend(scenes().par_iter().flat_map(|(name, scene)| of_scene(name, scene)));
-    figures.push(work_precision(&made_up_runs()));
-    figures
-});
-
-/// The scenes with their names, in the order of their figures behind those of the paper.
-pub(super) fn scenes() -> Vec<(&'static str, Scene)> {
-    let built_in = SCENES.iter().map(|name| (*name, Scene::named(name).unwrap()));
-    let files = [("tilted", TILTED), ("tone", TONE), ("askew", ASKEW)];
-    built_in.chain(files.map(|(name, text)| (name, Scene::from_toml(name, text).unwrap()))).collect()
-}
-
-/// A physical star in free precession about Z, of which every line is known in closed form.
-const TONE: &str = r#"
-star = { mass = 1.4, radius = 12.0, oblateness = 1e-3, spin_frequency = 57.0 }
-lorentz_violation = { eigenvalues = [0.0, 0.0, 0.0] }
-# The rate is (1 + oblateness) 2 pi 57 / cos(beta): L is along Z.
-initial = { alpha = 0.4, beta = 0.3, gamma = 1.3, alpha_rate = 375.2601393880295, beta_rate = 0.0 }
-observer = { theta_o = 1.1, phi_o = 0.6, distance = 2.5 }
-pulsar = { chi = 0.7, delta = -0.8, rho = 0.5 }
-time = { start = -3.0, span = 2.0, samples = 3 }
-"#;
-
-/// A physical star without any symmetry.
-const ASKEW: &str = r#"
-star = { mass = 1.4, radius = 12.0, oblateness = 1e-3, spin_frequency = -57.0 }
-lorentz_violation.tensor = [[2e-5, 1.1e-5, -0.7e-5], [1.1e-5, -0.9e-5, 0.5e-5], [-0.7e-5, 0.5e-5, -1.4e-5]]
-initial = { alpha = 0.4, beta = 0.9, gamma = 1.3, alpha_rate = -380.0, beta_rate = 21.0 }
-observer = { theta_o = 1.1, phi_o = 0.6, distance = 2.5 }
-pulsar = { chi = 0.7, delta = -0.8, rho = 0.5 }
-time = { start = 12.0, span = 2.0, samples = 41 }
-"#;
-
-/// A physical star given by constants in a frame that is not the principal one, seen from a known distance, with a beam that never passes.
-const TILTED: &str = r#"
-star = { mass = 1.4, radius = 12.0, oblateness = 2e-5, spin_frequency = 50.0 }
-lorentz_violation.tensor = [[1e-9, 2e-10, 0.0], [2e-10, -3e-10, 1e-10], [0.0, 1e-10, -7e-10]]
-initial = { kind = "twofold", alpha_0 = 0.3, beta_0 = 0.7, amplitude = 0.001, phase = 0.0 }
-observer = { theta_o = 1.5, phi_o = 0.0, distance = 1.0 }
-pulsar = { chi = 0.1, rho = 0.05 }
-time = { span = 5.0, samples = 3 }
-"#;
-
-fn of_scene(name: &str, scene: &Scene) -> Vec<Figure> {
-    let motion = [Subject::of_scene(name, scene).unwrap()];
-    OF_A_SCENE.iter().map(|recipe| recipe.draw(&motion).unwrap()).collect()
-}
-
-/// Runs of more methods than there are.
-pub(super) fn made_up_runs() -> Vec<Row> {
-    let run = |scene: &str, carries, method: usize, i: i32| Row {
-        scene: scene.to_owned(),
-        method: format!("method {method} with a long name"),
-        carries,
-        setting: 0.0,
-        error: 10f64.powi(-2 * i),
-        times: Times { least: 1e-4 * f64::from(i) * (1 + method) as f64, median: 0.0 },
-        steps: 0,
-        evaluations: 0,
-    };
-    let scenes = ["tp-II", "nearly-free", "strongly-violated"];
-    let cases = scenes.iter().flat_map(|scene| Carries::ALL.map(|carries| (scene, carries)));
-    cases
-        .flat_map(|(scene, carries)| (0..9).flat_map(move |m| (1..8).map(move |i| run(scene, carries, m, i))))
-        .collect()
-}
 
 /// Texts with their boxes `[left, top, right, bottom]` in points, and their smallest letters.
 fn texts(group: &Group, found: &mut Vec<(String, [f32; 4], f32)>) {
@@ -109,7 +30,7 @@ fn texts(group: &Group, found: &mut Vec<(String, [f32; 4], f32)>) {
 #[test]
 fn text_is_whole_large_enough_and_apart() {
     let mut faults = Vec::new();
-    for figure in FIGURES.iter() {
+    for figure in fixtures() {
         let tree = png::tree(&figure.svg).unwrap();
         let (width, height) = (tree.size().width() * POINTS, tree.size().height() * POINTS);
         let columns = [8.6, 17.8].map(|centimetres| (centimetres * CENTIMETRE) as f32);
@@ -144,7 +65,7 @@ fn the_fonts_have_every_letter() {
         u32::from_str_radix(first, 16).unwrap()..=u32::from_str_radix(last, 16).unwrap()
     });
     let ranges: Vec<_> = ranges.collect();
-    for figure in FIGURES.iter() {
+    for figure in fixtures() {
         let tree = png::tree(&figure.svg).unwrap();
         let mut found = Vec::new();
         texts(tree.root(), &mut found);
@@ -157,7 +78,7 @@ fn the_fonts_have_every_letter() {
 
 #[test]
 fn data_are_numbers_in_columns_with_units() {
-    for figure in FIGURES.iter() {
+    for figure in fixtures() {
         assert!(!figure.tables.is_empty(), "{} has no data", figure.name);
         for table in &figure.tables {
             for column in &table.columns {
@@ -175,7 +96,7 @@ fn data_are_numbers_in_columns_with_units() {
 
 #[test]
 fn captions_close_their_marks() {
-    for figure in FIGURES.iter() {
+    for figure in fixtures() {
         for paragraph in figure.caption.paragraphs() {
             assert!(markup::is_balanced(paragraph), "{}: {paragraph}", figure.name);
             let html = html(paragraph);
@@ -196,9 +117,9 @@ fn captions_close_their_marks() {
 fn captions_name_what_is_drawn_and_nothing_else() {
     let (dashes, dots) = ("stroke-dasharray=\"5 2.5\"", "stroke-dasharray=\"1.2 1.8\"");
     let mut looked = 0;
-    for figure in FIGURES.iter().filter(|figure| figure.name != "work-precision") {
+    for figure in fixtures().filter(|figure| figure.name != "work-precision") {
         let caption = figure.caption.paragraphs().join(" ");
-        let kinds: &[(&str, &str)] = match figure.name.as_str() {
+        let kinds: &[(&str, &str)] = match figure.name {
             name if name.starts_with("motion") => {
                 &[("Eqs. (30)-(33) as printed", "perturbation, printed"), ("and corrected", "perturbation, corrected")]
             }
@@ -221,7 +142,7 @@ fn captions_name_what_is_drawn_and_nothing_else() {
 /// A number that has lost its digits tells nothing: 0.00, or a ratio of 1 for a star that is not a sphere.
 #[test]
 fn captions_have_numbers_with_digits() {
-    for figure in FIGURES.iter() {
+    for figure in fixtures() {
         let caption = figure.caption.paragraphs().map(super::plain).join(" ");
         for number in caption.split(|c: char| !(c.is_ascii_digit() || c == '.')).map(|word| word.trim_matches('.')) {
             let is_lost = number.contains('.') && number.chars().all(|c| c == '0' || c == '.');
@@ -234,14 +155,13 @@ fn captions_have_numbers_with_digits() {
 
 #[test]
 fn physical_stars_are_drawn_in_si() {
-    let scene = Scene::named("b1828-11").unwrap();
-    for figure in of_scene("b1828-11", &scene) {
+    for figure in of_scene("b1828-11") {
         for column in figure.tables.iter().flat_map(|table| &table.columns) {
             assert!(!column.contains("t_c") && !column.contains("I^xx"), "{}: `{column}`", figure.name);
         }
         let texts = figure.caption.paragraphs().join(" ");
         assert!(texts.contains("time in s."), "{}: {texts}", figure.name);
-        if let ("pulse-series", Some(table)) = (figure.name.as_str(), figure.tables.first()) {
+        if let ("pulse-series", Some(table)) = (figure.name, figure.tables.first()) {
             // What is taken off the lengths is named on their axis as in the panel.
             let label = figure.svg.split("length − ").nth(1).expect("a label");
             assert!(label[..80].contains(">W<"), "{}", &label[..80]);
@@ -249,8 +169,7 @@ fn physical_stars_are_drawn_in_si() {
             assert!((table.rows[0][1] * 2.468_871_714_7 - 1.0).abs() < 1e-7, "{:?}", table.rows[0]);
         }
     }
-    let tilted = of_scene("tilted", &Scene::from_toml("tilted.toml", TILTED).unwrap());
-    let motion = &tilted[0].caption.says;
+    let motion = &of_scene("tilted")[0].caption.says;
     assert!(
         motion.contains("its angles are those of the principal frame, which is not the frame of this file"),
         "{motion}"

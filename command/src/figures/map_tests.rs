@@ -2,7 +2,7 @@
 
 use super::curve_tests::{HALF_A_PIXEL, LABELS, assert_same, entry};
 use super::drawn::{Element, Frame, Path, Point, Text, elements, frames, holds, number, paths, texts};
-use super::layout_tests::FIGURES;
+use super::fixtures::figure;
 
 fn frames_with_titles(elements: &[Element]) -> Vec<(String, Frame)> {
     let frames = frames(elements);
@@ -17,7 +17,7 @@ fn frames_with_titles(elements: &[Element]) -> Vec<(String, Frame)> {
 /// The colours of the map are those that the scale beside it gives the numbers of the table; so are the lines and the rings.
 #[test]
 fn the_map_of_the_errors_is_its_table() {
-    let figure = FIGURES.iter().find(|figure| figure.name == "perturbation-regimes").expect("a figure");
+    let figure = figure("perturbation-regimes");
     let elements = elements(&figure.svg);
     let cells = elements.iter().filter_map(|element| match element {
         Element::Cell { corners, fill } => Some((*corners, fill.as_str())),
@@ -124,7 +124,7 @@ fn the_map_of_the_errors_is_its_table() {
 /// Where each method meets the error, up to the height at which the column of that method crosses it.
 #[test]
 fn the_map_of_the_methods_is_its_tables() {
-    let figure = FIGURES.iter().find(|figure| figure.name == "method-regimes").expect("a figure");
+    let figure = figure("method-regimes");
     let elements = elements(&figure.svg);
     let colours = elements.iter().enumerate().filter_map(|(i, element)| match (element, elements.get(i + 2)) {
         (Element::Cell { fill, .. }, Some(Element::Text(Text { words, .. }))) => Some((fill.clone(), words.clone())),

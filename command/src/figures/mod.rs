@@ -19,6 +19,8 @@ mod drawing;
 mod drawn;
 mod euler_angles;
 mod examples;
+#[cfg(test)]
+pub(crate) mod fixtures;
 mod golden;
 #[cfg(test)]
 mod layout_tests;
@@ -104,7 +106,3 @@ pub fn all() -> Result<Vec<Figure>, String> {
     let examples = examples()?;
     RECIPES.par_iter().map(|recipe| recipe.draw(&examples)).collect()
 }
-
-/// All of them, drawn once for the tests of this crate.
-#[cfg(test)]
-pub(crate) static DRAWN: std::sync::LazyLock<Vec<Figure>> = std::sync::LazyLock::new(|| all().expect("figures"));

@@ -2,7 +2,7 @@
 
 use super::curve_tests::{HALF_A_PIXEL, farthest};
 use super::drawn::{Ball, Element, Path, Point, arrows, elements, number, paths as drawn_paths, texts};
-use super::layout_tests::FIGURES;
+use super::fixtures::{figure, fixtures};
 use super::{Figure, Table, plain};
 
 /// Lines on a sphere: table, the three columns, colours before and behind the sphere.
@@ -56,8 +56,8 @@ fn paths(figure: &Figure, elements: &[Element]) -> Vec<(String, Vec<[f64; 3]>, &
 #[test]
 fn every_path_on_a_sphere_is_that_of_its_columns() {
     let mut count = 0;
-    for figure in FIGURES.iter() {
-        let (lengths, is_motion) = match figure.name.as_str() {
+    for figure in fixtures() {
+        let (lengths, is_motion) = match figure.name {
             "momentum-sphere" => ([1.16; 3], false),
             name if name.starts_with("motion") => ([1.22; 3], true),
             _ => continue,
@@ -114,7 +114,7 @@ fn vectors_in_pictures_of_frames_are_those_of_the_tables() {
         ("euler-angles-yzx", ["Y", "Z", "X"], [1.0; 3], BODY),
         ("beam-cone", ["X", "Y", "Z"], [0.85, 0.85, 1.08], &[("m", "m", 1.0), ("n", "n", 1.08)]),
     ] {
-        let figure = FIGURES.iter().find(|figure| figure.name == name).expect("a figure");
+        let figure = figure(name);
         let (elements, table) = (elements(&figure.svg), &figure.tables[0]);
         let ball = Ball::of(&elements, axes, lengths).expect("three axes");
         let vector = |name: &str| {

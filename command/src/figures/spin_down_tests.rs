@@ -2,18 +2,14 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::Table;
 use super::curve_tests::assert_same;
 use super::drawn::{Frame, elements, frames, paths};
-use super::layout_tests::FIGURES;
+use super::fixtures::figure;
 use super::spin_down::{self, Timed, sizes};
 use super::violation_residuals::{self, LIMIT, SIZES};
-use super::{Figure, Table};
 use twofold_scene::pulsar_timing::{PulsarScene, csv};
 use twofold_scene::scene_file::Scene;
-
-fn figure(name: &str) -> &'static Figure {
-    FIGURES.iter().find(|figure| figure.name == name).expect("a figure")
-}
 
 fn column(table: &Table, k: usize) -> Vec<f64> {
     table.rows.iter().map(|row| row[k]).collect()

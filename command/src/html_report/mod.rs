@@ -119,6 +119,7 @@ mod tests {
     use std::sync::LazyLock;
 
     use super::*;
+    use crate::figures::fixtures::OF_THE_PAPER;
     use twofold_verify::check::{Check, Measured, Outcome};
 
     /// A page of all checks, none of them run, two of which fail; and their ids.
@@ -134,7 +135,7 @@ mod tests {
         };
         let results: Vec<_> = twofold_verify::checks::all().into_iter().map(|check| (check, outcome(&check))).collect();
         let ids = results.iter().map(|(check, _)| check.id).collect();
-        let figures = crate::figures::DRAWN.clone();
+        let figures: Vec<Figure> = OF_THE_PAPER.iter().map(|fixture| (**fixture).clone()).collect();
         let golden = crate::figures::golden_tables(&figures).expect("numbers");
         let content = Content { results, seconds: 1.0, golden, figures, environment: environment() };
         (page(&content).expect("a page"), ids)
