@@ -289,7 +289,9 @@ fn levels_and_rates_are_where_they_belong() {
     let (turning, rotating) = (1.1 / 0.7_f64.cos(), 0.1);
     let mut looked = 0;
     for (name, scene, figures) in drawn() {
-        for figure in figures {
+        let asked =
+            |figure: &&Fixture| ["beam-alignment", "beam-alignment-spectra", "wave-spectra"].contains(&figure.name);
+        for figure in figures.into_iter().filter(asked) {
             for frame in frames(&elements(&figure.svg)).into_iter().filter(|frame| frame.heading == name) {
                 let within = |found: &[f64], expected: &[f64]| {
                     // Places are rounded to 0.01 pt, in frames of more than 50.

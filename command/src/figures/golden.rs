@@ -79,3 +79,59 @@ fn number(table: &Table, column: usize, pick: &str) -> Option<GoldenLine> {
     let name = if table.name.is_empty() { String::new() } else { format!("{}: ", table.name) };
     Some(GoldenLine::new(format!("{name}{} {place}", table.columns[column]), Printed::No, row[column]))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::{Caption, Figure};
+
+    fn figure(name: &str, table: &str, first: &str) -> Figure {
+        let mut table = Table::new(table, [first, "x [1]"]);
+        for row in [[1.0, 8.0], [2.0, -3.0], [4.0, 20.0], [7.0, 5.0]] {
+            table.push(row);
+        }
+        let caption =
+            Caption { shows: String::new(), parameters: String::new(), method: String::new(), says: String::new() };
+        Figure {
+            name: name.to_owned(),
+            paper_figure: None,
+            summary: String::new(),
+            caption,
+            tables: vec![table],
+            svg: String::new(),
+        }
+    }
+
+    #[test]
+    fn a_line_of_the_file_names_numbers_of_a_table() {
+        let asked = |first: &str, picks: &str| {
+            let figure = figure("motion", "", first);
+            let lines = numbers(&figure, &format!("figure_motion - 1 {picks}")).unwrap();
+            lines.into_iter().map(|line| (line.label, line.ours)).collect::<Vec<_>>()
+        };
+        let line = |label: &str, ours: f64| (label.to_owned(), ours);
+        let rows = [line("x [1] first", 8.0), line("x [1] last", 5.0), line("x [1] of line 3", 20.0)];
+        assert_eq!(asked("n_X [1]", "first last line=3"), rows);
+        let extremes = [line("x [1] least", -3.0), line("x [1] largest", 20.0)];
+        assert_eq!(asked("t [t_c]", "least most"), extremes);
+        assert_eq!(asked("t [t_c]", "at=5.0"), [line("x [1] at t = 4.000", 20.0)]);
+        assert_eq!(asked("beta_0 [rad]", "at=5.0"), [line("x [1] at 4.0000", 20.0)]);
+        // Nearest in the first column and in the logarithm of the second.
+        assert_eq!(asked("beta_0 [rad]", "of=4.1,20.5"), [line("x [1] at 4.0000, 2.0000e1", 20.0)]);
+        assert_eq!(asked("beta_0 [rad]", "of=2.5,6.0"), [line("x [1] at 1.0000, 8.0000e0", 8.0)]);
+    }
+
+    #[test]
+    fn digits_are_those_that_every_machine_has() {
+        for (name, digits) in [("spin-down", 6), ("method-regimes", 3), ("motion-tp-1", 9)] {
+            let lines = numbers(&figure(name, "lines", "t [d]"), "figure_x lines 0,1 last").unwrap();
+            assert_eq!(lines.iter().map(|line| line.digits).collect::<Vec<_>>(), [digits; 2]);
+            assert_eq!(
+                [lines[0].label.as_str(), lines[1].label.as_str()],
+                ["lines: t [d] at t = 7.000", "lines: x [1] at t = 7.000"]
+            );
+        }
+        assert!(numbers(&figure("motion", "", "t [d]"), "figure_motion other 1 last").is_none());
+        assert!(numbers(&figure("motion", "", "t [d]"), "figure_motion - 1 middle").is_none());
+    }
+}

@@ -175,3 +175,47 @@ pub(super) fn corrected_solution(
 pub(super) fn times(end: f64, count: usize) -> Vec<f64> {
     (0..=count).map(|i| if i == count { end } else { end * i as f64 / count as f64 }).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix3, Vector3};
+
+    use super::*;
+
+    fn subject(c: f64, eigenvalue: f64, momentum: f64, duration: f64) -> Subject {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.3 * 1.1, constant_c: c };
+        let s = Matrix3::from_diagonal(&(Vector3::new(1.0, 2.0, -3.0) * eigenvalue));
+        let (axis, equatorial_axis) = (Vector3::z(), Vector3::x());
+        let state = BodyState { axis, equatorial_axis, momentum: Vector3::new(0.28, 0.0, 0.96) * momentum };
+        let angles = EulerAngles { alpha: 0.0, beta: 0.0, gamma: 0.0 };
+        Subject::new("a star", Problem::new(spheroid, s, state).unwrap(), angles, duration).unwrap()
+    }
+
+    /// Parts of 600 rad at the rate of rotation, or of a swing; all of a motion that is shorter.
+    #[test]
+    fn a_figure_shows_so_much_rotation() {
+        let near = |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 1e-14, "{found} {expected}");
+        // |L| / I^xx, above sqrt(2 C |s| / I^xx), which is 0.13.
+        for (subject, rate) in [
+            (subject(0.8, 0.004, 1.7, 1e3), 1.7 / 1.3),
+            (subject(0.8, 0.004, 1.7, -1e3), -1.7 / 1.3),
+            (subject(0.8, 0.4, 0.01, 1e3), f64::sqrt(2.0 * 0.8 * 0.4 * f64::sqrt(14.0) / 1.3)),
+            (subject(-0.8, 0.4, 0.01, 1e3), f64::sqrt(2.0 * 0.8 * 0.4 * f64::sqrt(14.0) / 1.3)),
+        ] {
+            let Shown { angles, equatorial_axis, beam, waves, pulses } = subject.shown;
+            let rotation = [(angles, 240.0), (equatorial_axis, 60.0), (beam, 300.0), (waves, 150.0), (pulses, 600.0)];
+            for (shown, rotation) in rotation {
+                near(shown * rate, rotation);
+            }
+            near(subject.rotation_rate, rate.abs());
+            assert!(subject.state(0.999 * pulses).is_ok());
+        }
+        for duration in [0.1, -0.1] {
+            let Shown { angles, equatorial_axis, beam, waves, pulses } = subject(0.8, 0.004, 1.7, duration).shown;
+            assert_eq!([angles, equatorial_axis, beam, waves, pulses], [duration; 5]);
+        }
+        // A star at rest without a torque.
+        let at_rest = subject(0.8, 0.0, 0.0, -50.0);
+        assert_eq!([at_rest.rotation_rate, at_rest.shown.angles], [0.02, -50.0]);
+    }
+}

@@ -97,9 +97,28 @@ fn names(rows: &[Row]) -> Vec<&str> {
     names
 }
 
-/// The decades of milliseconds that hold all times.
+/// Ends of the axis of times (ms): a factor of 1.5 beyond those of runs whose error is shown.
 fn times(rows: &[Row]) -> (f64, f64) {
     let shown = rows.iter().filter(|row| row.error <= ERRORS.1).map(|row| row.times.least * 1e3);
     let (low, high) = shown.fold((f64::INFINITY, 0.0_f64), |(l, h), t| (l.min(t), h.max(t)));
     (low / 1.5, high * 1.5)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::fixtures::made_up_runs;
+
+    /// Nine methods take 0.1 ms times their place and the number of the run, 1 to 7; the first run has an error of 1e-2.
+    #[test]
+    fn the_axis_of_times_has_room_for_all_that_are_shown() {
+        let mut rows = made_up_runs();
+        let (low, high) = times(&rows);
+        assert!((low * 1.5 - 0.1).abs() < 1e-12 && (high / 1.5 - 6.3).abs() < 1e-12, "{low} {high}");
+        // What is not shown takes no room.
+        for row in rows.iter_mut().filter(|row| row.times.least > 3.45e-3) {
+            row.error = 0.011;
+        }
+        assert!((times(&rows).1 / 1.5 - 3.2).abs() < 1e-12, "{:?}", times(&rows));
+    }
 }
