@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::drawn::{elements, frames};
+use super::drawn::{assert_told, elements, frames};
 use super::fixtures::{Fixture, OF_SCENES, OF_THE_PAPER, figure, fixtures, made_up_runs, scenes};
 use super::line_atlas;
 use super::{OF_A_SCENE, Table};
@@ -444,5 +444,21 @@ fn the_atlas_has_the_lines_of_spectrum() {
         }
         let strongest = here[1..].iter().fold(0.0_f64, |most, x| most.max(*x));
         assert!((amplitudes[0] / strongest - 1.0).abs() < 1e-9, "{name}: {} and {strongest}", amplitudes[0]);
+    }
+}
+
+/// At the inclinations of the table nearest to 0.2 and 1.4.
+#[test]
+fn factors_in_the_caption_of_their_figure_are_those_of_the_curves() {
+    let figure = figure("bound-factor");
+    let says = &figure.caption.says;
+    for (before, row) in [("moves little: ", &figure.tables[0].rows[12]), ("about 1.4 (", &figure.tables[0].rows[107])]
+    {
+        assert_told(says, before, " at *β*", row[2], 2);
+        let at = format!("{before}{:.1} at *β*_{{0}} = ", row[2]);
+        assert_told(says, &at, ", where 1/cos", row[0], 2);
+        let where_ = format!("{at}{:.2}, where 1/cos *β*_{{0}} is ", row[0]);
+        let (_, rest) = says.split_once(&where_).expect(&where_);
+        assert!((rest[..3].parse::<f64>().unwrap() - 1.0 / row[0].cos()).abs() < 0.05, "{rest}");
     }
 }
