@@ -5,6 +5,7 @@ import io
 import pickle
 import warnings
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -340,6 +341,8 @@ def test_a_changed_parameter_is_seen(spread):
 
 REFUSED = [
     ({"WOBBLE": -0.5}, r"WOBBLE = -0.5 deg: allowed is 0 or more; .* WOBBLE = 0.5 deg and WOBPHASE = 210.0 deg"),
+    ({"WOBBLE": -0.5, "WOBPHASE": 200.0}, r"has WOBBLE = 0.5 deg and WOBPHASE = 20.0 deg"),
+    ({"WOBBLE": 70.0}, r"WOBBLE = 70 deg: allowed is below 70 deg, .*WOBCHI = 70 deg"),
     ({"WOBBLE": 75.0}, r"WOBBLE = 75 deg: allowed is below 70 deg, .*WOBCHI = 70 deg"),
     ({"WOBCHI": 179.0}, r"WOBBLE = 2 deg: allowed is below 1 deg"),
     ({"WOBCHI": 0.0}, r"WOBCHI = 0 deg: allowed is above 0 and below 180 deg"),
@@ -347,6 +350,8 @@ REFUSED = [
     ({"WOBPERIOD": 0.0}, r"WOBPERIOD = 0.0 d: allowed is above 0"),
     ({"WOBPERIOD": -3.0}, r"WOBPERIOD = -3.0 d: allowed is above 0"),
     ({"WOBPERIOD": float("nan")}, r"WOBPERIOD = nan d: allowed is above 0"),
+    ({"WOBPERIOD": float("inf")}, r"WOBPERIOD = inf d: allowed is above 0, and finite"),
+    ({"WOBPHASE": float("nan")}, r"precession_phase"),
     ({"WOBTORQUE": 1.5}, r"WOBTORQUE = 1.5: allowed is from 0 to 1"),
     ({"f1": -1e-6}, r"WOBPERIOD = 400 d: change of the rotation by the varying torque .* at most 0.01"),
 ]
@@ -367,8 +372,29 @@ def test_what_must_be_given(name):
 
 def test_an_epoch_must_be_given():
     lines = wobbling(f1=0.0).as_parfile().splitlines()
-    with pytest.raises(MissingParameter, match="PEPOCH has no value: WOBPHASE is that of this epoch"):
+    with pytest.raises(MissingParameter, match="PEPOCH has no value: WOBPHASE is that of this epoch") as error:
         model_of_par("\n".join(line for line in lines if not line.startswith(("PEPOCH", "F1"))))
+    assert (error.value.module, error.value.param) == ("Wobble", "PEPOCH")
+
+
+def test_a_rotation_without_f1_does_not_slow_down():
+    model = model_of("F0 2.5\n" + "".join(f"{name} {value}\n" for name, value in WOBBLE.items()))
+    assert "F1" not in model.params and model.components["Wobble"]._star().f1 == 0.0
+
+
+def test_derivatives_by_the_rotation_have_the_part_of_the_torque(spread):
+    model = wobbling()
+    delay, component, spin = model.delay(spread), model.components["Wobble"], model.components["Spindown"]
+    for name in ("F0", "F1"):
+        part = component.d_wobble_phase_d_param(spread, name, delay)
+        found = model.d_phase_d_param(spread, delay, name) - spin.d_phase_d_F(spread, name, delay)
+        largest = np.max(np.abs(part.value))
+        assert largest > 0.0 and np.max(np.abs((found - part).to_value(part.unit))) < 1e-5 * largest
+
+
+def test_a_star_without_a_wobble_is_one(spread):
+    model = wobbling(WOBBLE=0.0)
+    assert np.all(model.components["Wobble"].wobble_phase(spread, model.delay(spread)) == 0.0)
 
 
 def test_a_step_of_a_fit_that_leaves_the_model_is_refused(spread):
@@ -625,12 +651,13 @@ def test_stars_that_a_fit_may_try(spread):
         with pytest.raises(InvalidModelParameters, match=words):
             Residuals(spread, model)
     # A tenth of the rotation, and no more.
-    star = _Star(1.0, -1e-9, 0.01, 1.0, 1e-7, 0.0, 0.0)
+    star = _Star(2.0, -2e-9, 0.01, 1.0, 1e-7, 0.0, 0.0)
     star.check(np.array([1.0, -1e8, 5.0]))
     star.check(np.array([]))
     with pytest.raises(InvalidModelParameters, match=r"F1 t / F0 = 0.101 at an arrival time: allowed is at most 0.1 in size: PEPOCH nearer"):
         star.check(np.array([1.0, -1.01e8]))
-    assert _Beyond(star, np.array([])).turns.shape == (0,)
+    for torque in (0.0, 0.5):
+        assert _Beyond(replace(star, torque=torque), np.array([])).turns.shape == (0,)
 
 
 def test_parameters_that_are_no_numbers_or_unknown(spread):

@@ -55,7 +55,7 @@ class _Star:
                 f" WOBCHI = {degrees[1]} is from 0 or from 180 deg"
             )
         if not (self.rate > 0.0 and np.isfinite(self.rate)):
-            raise InvalidModelParameters(f"WOBPERIOD = {2 * np.pi / self.rate / DAY:.12g} d: allowed is above 0")
+            raise InvalidModelParameters(f"WOBPERIOD = {self._days():.12g} d: allowed is above 0, and finite")
         if not 0.0 <= self.torque <= 1.0:
             raise InvalidModelParameters(f"WOBTORQUE = {self.torque:.12g}: allowed is from 0 to 1")
         try:
@@ -69,13 +69,16 @@ class _Star:
                 torque_share=self.torque,
             )
         except twofold.Error as error:
-            raise InvalidModelParameters(f"WOBPERIOD = {2 * np.pi / self.rate / DAY:.12g} d: {error}") from error
+            raise InvalidModelParameters(f"WOBPERIOD = {self._days():.12g} d: {error}") from error
         if t is not None and t.size:
             lost = self.f1 / self.f0 * t[np.argmax(np.abs(t))]
             if not abs(lost) <= MOST_LOST:
                 raise InvalidModelParameters(
                     f"F1 t / F0 = {lost:.3g} at an arrival time: allowed is at most {MOST_LOST} in size: PEPOCH nearer"
                 )
+
+    def _days(self) -> float:
+        return 2.0 * np.pi / self.rate / DAY if self.rate else np.inf
 
 
 class _Beyond:
