@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::drawn::{assert_told, elements, frames};
-use super::fixtures::{Fixture, OF_SCENES, OF_THE_PAPER, figure, fixtures, made_up_runs, scenes};
+use super::fixtures::{self, Fixture, OF_SCENES, OF_THE_PAPER, figure, fixtures, made_up_runs, scenes};
 use super::line_atlas;
 use super::{OF_A_SCENE, Table};
 use crate::bench::work_precision::Row;
@@ -458,5 +458,69 @@ fn factors_in_the_caption_of_their_figure_are_those_of_the_curves() {
         assert_told(told, "", " at *β*", row[2], 2);
         assert_told(told, "*β*_{0} = ", ", where 1/cos", row[0], 2);
         assert_told(told, "where 1/cos *β*_{0} is ", after, 1.0 / row[0].cos(), 2);
+    }
+}
+
+fn extremes(table: &Table, column: usize) -> [f64; 2] {
+    let values = || table.rows.iter().map(|row| row[column]);
+    [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)]
+}
+
+#[test]
+fn ranges_in_captions_are_those_of_the_columns() {
+    let table = |figure: &'static str, name: &str| {
+        fixtures::figure(figure).tables.iter().find(|table| table.name == name).expect("a table")
+    };
+    let says = &figure("waves").caption.says;
+    for name in ["tp-I", "tp-II"] {
+        let (_, told) = says.split_once(&format!("For {name}, ")).unwrap();
+        for (column, before, after) in
+            [(1, "*h*_{+} is from ", " and *h*"), (2, "*h*_{×} from ", if name == "tp-I" { ". For" } else { "; the" })]
+        {
+            let [least, largest] = extremes(table("waves", name), column);
+            assert_told(told, before, " to ", least, 3);
+            let (_, told) = told.split_once(before).unwrap();
+            assert_told(told, " to ", after, largest, 3);
+        }
+    }
+    let says = &figure("pulse-series").caption.says;
+    for name in ["tp-I", "tp-II"] {
+        let (_, told) = says.split_once(&format!("{name}: ")).unwrap();
+        let [periods, lengths] = ["periods", "lengths"].map(|what| table("pulse-series", &format!("{name}-{what}")));
+        assert_told(told, "", " whole pulses", lengths.rows.len() as f64, 3);
+        for (what, table) in [("periods from ", periods), ("lengths from ", lengths)] {
+            let ([least, largest], (_, told)) = (extremes(table, 1), told.split_once(what).unwrap());
+            assert_told(told, "", " to ", least, 3);
+            assert_told(told, " to ", " *t*_{c}", largest, 3);
+        }
+    }
+    let (gaps, kept) =
+        (table("pulse-series", "tp-II-gaps").rows.len(), table("pulse-series", "tp-II-periods").rows.len());
+    assert_told(says, "*t*_{c} (", " of ", gaps as f64, 3);
+    assert_told(says, "(9 of ", " intervals left out", (gaps + kept) as f64, 3);
+}
+
+/// The strongest line of both polarizations, and what is said of others in that one, which is `h_+`.
+#[test]
+fn lines_in_the_caption_of_waves_are_those_of_the_tables() {
+    let figure = figure("wave-spectra");
+    for (name, [plus, cross]) in [("tp-I", [0, 1]), ("tp-II", [2, 3])] {
+        let (_, told) = figure.caption.says.split_once(&format!("line of {name} is in *h*_{{+}}: ")).unwrap();
+        let [plus, cross] = [plus, cross].map(|k| &figure.tables[k]);
+        let strongest = |is_one: &dyn Fn(&[f64]) -> bool| {
+            let rows = plus.rows.iter().filter(|row| is_one(row));
+            rows.max_by(|a, b| a[1].total_cmp(&b[1])).expect("a line")
+        };
+        let (first, third) = (strongest(&|_| true), strongest(&|row| row[2].abs() == 3.0));
+        assert!(first[1] > extremes(cross, 1)[1], "{name}");
+        assert_told(told, " at ", " rad/*t*_{c}, of an", first[0], 6);
+        assert_told(told, "of an amplitude of ", "; the strongest of", first[1], 3);
+        let (_, told) = told.split_once("third harmonic").unwrap();
+        assert_told(told, " at ", " rad/*t*_{c}, has", third[0], 6);
+        assert_told(told, "rad/*t*_{c}, has ", " of it", third[1] / first[1], 2);
+        if name == "tp-II" {
+            let slow = strongest(&|row| row[2] == 0.0 && row[4].abs() == 1.0);
+            assert_told(told, "*l* by itself has ", " of it", slow[1] / first[1], 2);
+        }
     }
 }
