@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::drawn::{assert_told, elements, frames};
-use super::fixtures::{self, Fixture, OF_SCENES, OF_THE_PAPER, figure, fixtures, made_up_runs, scenes};
+use super::drawn::{elements, frames};
+use super::fixtures::{Fixture, OF_SCENES, OF_THE_PAPER, figure, made_up_runs, scenes};
 use super::line_atlas;
 use super::{OF_A_SCENE, Table};
 use crate::bench::work_precision::Row;
@@ -12,7 +12,7 @@ use twofold_scene::scene_file::{Scene, Times};
 use twofold_scene::trajectory::{LinesWanted, write_csv, write_lines, write_pulses};
 
 /// The figures of the paper's examples and of the scenes, each with the scene and its name in the tables.
-fn drawn() -> Vec<(String, Scene, Vec<&'static Fixture>)> {
+pub(super) fn drawn() -> Vec<(String, Scene, Vec<&'static Fixture>)> {
     let examples = [("tp-1", "tp-I"), ("tp-2", "tp-II"), ("sp-1", "sp-I"), ("sp-2", "sp-II")];
     let mut drawn = Vec::new();
     for (scene, name) in examples {
@@ -56,7 +56,7 @@ fn run(scene: &Scene, group: &str, since_start: &[f64]) -> Columns {
     Columns::of(csv)
 }
 
-fn column(table: &Table, head: &str) -> usize {
+pub(super) fn column(table: &Table, head: &str) -> usize {
     table.columns.iter().position(|found| found == head).unwrap_or_else(|| panic!("{head} in {:?}", table.columns))
 }
 
@@ -341,68 +341,6 @@ fn the_times_of_methods_are_in_the_unit_of_their_axis() {
     assert!(compared > 300, "{compared}");
 }
 
-/// A number of a caption at the beginning of `text`, as `0.0025` or `2.5 × 10^{−7}`.
-fn leading(text: &str) -> f64 {
-    let mut words = text.split(' ');
-    let [mantissa, times, power] = [words.next(), words.next(), words.next()].map(|word| word.unwrap_or_default());
-    let power = power.strip_prefix("10^{").and_then(|power| power.split('}').next()).filter(|_| times == "×");
-    format!("{mantissa}e{}", power.unwrap_or("0")).replace('−', "-").parse().unwrap_or_else(|_| panic!("{text}"))
-}
-
-#[test]
-fn differences_in_captions_are_those_of_the_columns() {
-    let mut compared = 0;
-    for figure in fixtures().filter(|figure| figure.name.starts_with("motion")) {
-        let table = figure.tables.iter().find(|table| table.name == "angles").unwrap();
-        for solution in ["printed", "corrected"] {
-            let Some((_, says)) = figure.caption.says.split_once(&format!("perturbation, {solution}: up to ")) else {
-                assert!(!table.columns.iter().any(|head| head.contains(solution)), "{}", figure.caption.says);
-                continue;
-            };
-            let (of_alpha, rest) = says.split_once(" rad in *α* and ").unwrap();
-            let (of_beta, _) = rest.split_once(" rad in *β*").unwrap();
-            for (angle, said) in [("alpha", leading(of_alpha)), ("beta", leading(of_beta))] {
-                let [ours, theirs] = ["", &format!(" by perturbation {solution}")]
-                    .map(|by| column(table, &format!("{angle}{by} [rad]")));
-                let off = table.rows.iter().map(|row| (row[ours] - row[theirs]).abs()).fold(0.0, f64::max);
-                // Two digits.
-                assert!(
-                    (said - off).abs() <= 0.0501 * off,
-                    "{}: {said} rad in {angle}, {off} in the table",
-                    figure.name
-                );
-                compared += 1;
-            }
-        }
-    }
-    assert!(compared >= 16, "{compared}");
-}
-
-#[test]
-fn parts_of_the_time_in_captions_are_those_of_the_columns() {
-    let mut compared = 0;
-    for (name, scene, figures) in drawn() {
-        for figure in figures.into_iter().filter(|figure| figure.name == "beam-alignment") {
-            let Some(table) = figure.tables.iter().find(|table| table.name == name) else { continue };
-            let edge = scene.pulsar.unwrap().rho.cos();
-            let inside = table.rows.iter().filter(|row| row[column(table, "m.n [1]")] > edge).count();
-            let part = 100.0 * inside as f64 / table.rows.len() as f64;
-            let says = &figure.caption.says;
-            let Some((before, _)) = says.split_once(&format!(" % of the time for {name}")) else {
-                assert!(part == 0.0 || part == 100.0, "{name}: {part} % and `{says}`");
-                continue;
-            };
-            let words: Vec<_> = before.rsplit([',', ' ']).take(3).collect();
-            let number = words.into_iter().rev().skip_while(|word| word.parse::<f64>().is_err());
-            let said = leading(&number.collect::<Vec<_>>().join(" "));
-            // Two digits.
-            assert!((said - part).abs() <= 0.0501 * part, "{name}: {said} %, {part} % of the rows");
-            compared += 1;
-        }
-    }
-    assert!(compared >= 4, "{compared}");
-}
-
 /// Where both columns of the atlas meet, its amplitudes are those of `spectrum` for the same star, which names the lines by other rates; and so is the strongest.
 #[test]
 fn the_atlas_has_the_lines_of_spectrum() {
@@ -444,83 +382,5 @@ fn the_atlas_has_the_lines_of_spectrum() {
         }
         let strongest = here[1..].iter().fold(0.0_f64, |most, x| most.max(*x));
         assert!((amplitudes[0] / strongest - 1.0).abs() < 1e-9, "{name}: {} and {strongest}", amplitudes[0]);
-    }
-}
-
-/// At the inclinations of the table nearest to 0.2 and 1.4.
-#[test]
-fn factors_in_the_caption_of_their_figure_are_those_of_the_curves() {
-    let figure = figure("bound-factor");
-    let says = &figure.caption.says;
-    let rows = &figure.tables[0].rows;
-    for (before, row, after) in [("moves little: ", &rows[12], ". It"), ("about 1.4 (", &rows[107], "), and")] {
-        let (_, told) = says.split_once(before).expect("a phrase");
-        assert_told(told, "", " at *β*", row[2], 2);
-        assert_told(told, "*β*_{0} = ", ", where 1/cos", row[0], 2);
-        assert_told(told, "where 1/cos *β*_{0} is ", after, 1.0 / row[0].cos(), 2);
-    }
-}
-
-fn extremes(table: &Table, column: usize) -> [f64; 2] {
-    let values = || table.rows.iter().map(|row| row[column]);
-    [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)]
-}
-
-#[test]
-fn ranges_in_captions_are_those_of_the_columns() {
-    let table = |figure: &'static str, name: &str| {
-        fixtures::figure(figure).tables.iter().find(|table| table.name == name).expect("a table")
-    };
-    let says = &figure("waves").caption.says;
-    for name in ["tp-I", "tp-II"] {
-        let (_, told) = says.split_once(&format!("For {name}, ")).unwrap();
-        for (column, before, after) in
-            [(1, "*h*_{+} is from ", " and *h*"), (2, "*h*_{×} from ", if name == "tp-I" { ". For" } else { "; the" })]
-        {
-            let [least, largest] = extremes(table("waves", name), column);
-            assert_told(told, before, " to ", least, 3);
-            let (_, told) = told.split_once(before).unwrap();
-            assert_told(told, " to ", after, largest, 3);
-        }
-    }
-    let says = &figure("pulse-series").caption.says;
-    for name in ["tp-I", "tp-II"] {
-        let (_, told) = says.split_once(&format!("{name}: ")).unwrap();
-        let [periods, lengths] = ["periods", "lengths"].map(|what| table("pulse-series", &format!("{name}-{what}")));
-        assert_told(told, "", " whole pulses", lengths.rows.len() as f64, 3);
-        for (what, table) in [("periods from ", periods), ("lengths from ", lengths)] {
-            let ([least, largest], (_, told)) = (extremes(table, 1), told.split_once(what).unwrap());
-            assert_told(told, "", " to ", least, 3);
-            assert_told(told, " to ", " *t*_{c}", largest, 3);
-        }
-    }
-    let (gaps, kept) =
-        (table("pulse-series", "tp-II-gaps").rows.len(), table("pulse-series", "tp-II-periods").rows.len());
-    assert_told(says, "*t*_{c} (", " of ", gaps as f64, 3);
-    assert_told(says, "(9 of ", " intervals left out", (gaps + kept) as f64, 3);
-}
-
-/// The strongest line of both polarizations, and what is said of others in that one, which is `h_+`.
-#[test]
-fn lines_in_the_caption_of_waves_are_those_of_the_tables() {
-    let figure = figure("wave-spectra");
-    for (name, [plus, cross]) in [("tp-I", [0, 1]), ("tp-II", [2, 3])] {
-        let (_, told) = figure.caption.says.split_once(&format!("line of {name} is in *h*_{{+}}: ")).unwrap();
-        let [plus, cross] = [plus, cross].map(|k| &figure.tables[k]);
-        let strongest = |is_one: &dyn Fn(&[f64]) -> bool| {
-            let rows = plus.rows.iter().filter(|row| is_one(row));
-            rows.max_by(|a, b| a[1].total_cmp(&b[1])).expect("a line")
-        };
-        let (first, third) = (strongest(&|_| true), strongest(&|row| row[2].abs() == 3.0));
-        assert!(first[1] > extremes(cross, 1)[1], "{name}");
-        assert_told(told, " at ", " rad/*t*_{c}, of an", first[0], 6);
-        assert_told(told, "of an amplitude of ", "; the strongest of", first[1], 3);
-        let (_, told) = told.split_once("third harmonic").unwrap();
-        assert_told(told, " at ", " rad/*t*_{c}, has", third[0], 6);
-        assert_told(told, "rad/*t*_{c}, has ", " of it", third[1] / first[1], 2);
-        if name == "tp-II" {
-            let slow = strongest(&|row| row[2] == 0.0 && row[4].abs() == 1.0);
-            assert_told(told, "*l* by itself has ", " of it", slow[1] / first[1], 2);
-        }
     }
 }

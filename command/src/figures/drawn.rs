@@ -125,15 +125,6 @@ pub(super) fn number(words: &str) -> Option<f64> {
     }
 }
 
-/// The number of a caption between two phrases is this one, rounded to so many digits.
-pub(super) fn assert_told(caption: &str, before: &str, after: &str, expected: f64, digits: usize) {
-    let (_, rest) = caption.split_once(before).unwrap_or_else(|| panic!("no `{before}` in {caption}"));
-    let (told, _) = rest.split_once(after).unwrap_or_else(|| panic!("no `{after}` behind `{before}`"));
-    let found = number(&told.replace(['{', '}'], "")).unwrap_or_else(|| panic!("`{told}` behind `{before}`"));
-    let rounded: f64 = format!("{expected:.*e}", digits - 1).parse().unwrap();
-    assert!((found / rounded - 1.0).abs() < 1e-12, "`{before}{told}{after}`, expected {rounded}");
-}
-
 /// An axis: its label, and the way from the page to the numbers.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Scale {

@@ -9,6 +9,8 @@ mod axes;
 mod beam_cone;
 mod bound_factor;
 mod caption;
+#[cfg(test)]
+mod caption_tests;
 mod contour;
 #[cfg(test)]
 mod curve_tests;

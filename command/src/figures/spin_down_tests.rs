@@ -2,16 +2,16 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::Table;
 use super::curve_tests::assert_same;
-use super::drawn::{Frame, assert_told, elements, frames, paths};
+use super::drawn::{Frame, elements, frames, paths};
 use super::fixtures::figure;
 use super::spin_down::{self, Timed, sizes};
 use super::violation_residuals::{self, LIMIT, SIZES};
-use super::{Figure, Table};
 use twofold_scene::pulsar_timing::{PulsarScene, csv};
 use twofold_scene::scene_file::Scene;
 
-fn column(table: &Table, k: usize) -> Vec<f64> {
+pub(super) fn column(table: &Table, k: usize) -> Vec<f64> {
     table.rows.iter().map(|row| row[k]).collect()
 }
 
@@ -180,59 +180,4 @@ fn violation_adds_the_difference_of_residuals() {
     assert!(torque > 1e8 * rms, "{torque:e} {rms:e}");
     let file = twofold_scene::scene_file::built_in(spin_down::SCENE).expect("a scene");
     assert!(file.toml.contains(&format!("alpha_2 = {LIMIT:e} ")));
-}
-
-/// Root mean square and largest size.
-fn rms_and_largest(values: &[f64]) -> [f64; 2] {
-    let squares: f64 = values.iter().map(|x| x * x).sum();
-    [(squares / values.len() as f64).sqrt(), values.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()))]
-}
-
-#[test]
-fn the_caption_of_spin_down_has_the_numbers_of_its_tables() {
-    let Figure { tables, caption, .. } = figure("spin-down");
-    let says = &caption.says;
-    let [total, geometry, rate, width] = [1, 3, 4, 5].map(|k| column(&tables[0], k));
-    let ([rms, largest], [of_geometry, most]) = (rms_and_largest(&total), rms_and_largest(&geometry));
-    assert_told(says, "makes residuals of ", " ms (root mean square)", rms, 2);
-    assert_told(says, "(root mean square), ", " ms at most", largest, 2);
-    assert_told(says, "; geometry makes ", " ms", of_geometry, 2);
-    assert_told(says, "; geometry makes 0.051 ms, ", " ms at most", most, 2);
-    let ends = |values: &[f64]| {
-        values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)))
-    };
-    let ((slow, fast), (narrow, wide)) = (ends(&rate), ends(&width));
-    assert_told(says, "frequency changes by ", " % of itself", 100.0 * (fast / slow - 1.0).abs(), 1);
-    assert_told(says, "the beam width from ", " to ", narrow, 3);
-    assert_told(says, " to ", " ms. Before", wide, 3);
-    let [absent, once, twice] = &tables[1].rows[..] else { panic!("three lines") };
-    assert_told(says, "have lines of ", " ms at 500 d", once[1], 3);
-    assert_told(says, "500 d and of ", " ms at 250 d", twice[1], 2);
-    assert_told(says, "in the rate these are ", " and ", once[2], 3);
-    assert_told(says, "in the rate these are 0.668 and ", " × 10^{−15} Hz/s", twice[2], 3);
-    assert_told(says, "in the width ", " and ", once[3], 2);
-    assert_told(says, "in the width 1.3 and ", " ms. A biaxial", twice[3], 2);
-    assert_told(says, "but none of ", " d: a line", absent[0], 3);
-    assert_told(says, "a line fitted there has ", " ms. Stairs", absent[1], 1);
-    assert_told(&caption.parameters, "*F*1 = ", " Hz/s", -3.6568e-13, 5);
-    assert_told(&caption.shows, "Green bars: ", " d, the period of the free precession", once[0], 3);
-    assert_told(&caption.shows, "of the free precession, and ", " d, half of it", twice[0], 3);
-}
-
-#[test]
-fn the_caption_of_the_residuals_by_violation_has_the_numbers_of_its_table() {
-    let Figure { tables, caption, .. } = figure("violation-residuals");
-    let says = &caption.says;
-    let [torque, geometry, least, middle, most, direct] =
-        [1, 2, 3, 4, 5, 6].map(|k| rms_and_largest(&column(&tables[0], k)));
-    // The table is in seconds.
-    assert_told(says, "Lorentz violation adds ", " ps (root mean square)", least[0] / 1e-12, 2);
-    assert_told(says, "(root mean square), ", " ps at most", least[1] / 1e-12, 2);
-    assert_told(says, "The torque makes ", " ms", torque[0] / 1e-3, 2);
-    assert_told(says, "The torque makes 9.1 ms, ", " times as much", torque[0] / least[0], 2);
-    assert_told(says, "geometry makes ", " ms", geometry[0] / 1e-3, 2);
-    assert_told(says, "grows as *s*: ", " ns at", middle[0] / 1e-9, 2);
-    assert_told(says, "10^{2} times the limit, ", " μs at", most[0] / 1e-6, 2);
-    assert_told(says, "the direct part is only ", " ps (", direct[0] / 1e-12, 2);
-    assert_told(says, "the direct part is only 0.11 ps (", " ps at", direct[1] / 1e-12, 2);
 }
