@@ -5,7 +5,7 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 
 use num_traits::{One, Zero};
 
-use crate::numerics::rounding::{quick_two_sum, two_product, two_sum};
+use crate::numerics::rounding::{add_pairs, multiply_pairs, two_product, two_sum};
 use crate::numerics::scalar::{Real, Scalar};
 
 /// `2 pi - TAU`.
@@ -69,10 +69,7 @@ impl Add for DoubleDouble {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
-        let (high, lost) = two_sum(self.high, other.high);
-        let (low, lost_low) = two_sum(self.low, other.low);
-        let (high, lost) = quick_two_sum(high, lost + low);
-        let (high, low) = quick_two_sum(high, lost + lost_low);
+        let [high, low] = add_pairs(self.into(), other.into());
         Self { high, low }
     }
 }
@@ -102,8 +99,7 @@ impl Mul for DoubleDouble {
     type Output = Self;
 
     fn mul(self, other: Self) -> Self {
-        let (product, lost) = two_product(self.high, other.high);
-        let (high, low) = quick_two_sum(product, lost + (self.high * other.low + self.low * other.high));
+        let [high, low] = multiply_pairs(self.into(), other.into(), two_product(self.high, other.high));
         Self { high, low }
     }
 }

@@ -10,6 +10,7 @@ pub(crate) mod four_lanes;
 pub(crate) mod fused;
 pub(crate) mod gauss;
 pub(crate) mod hermite;
+pub(crate) mod pairs;
 pub(crate) mod polynomial;
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod registers;

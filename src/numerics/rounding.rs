@@ -1,9 +1,11 @@
 //! Error-free sums and products: what a rounded operation lost, as a number.
 //!
-//! Both are identities of real numbers whose second part is zero, so that they act on duals as well: what is lost carries no
+//! They are identities of real numbers whose second part is zero, so that they act on duals as well: what is lost carries no
 //! derivative beyond rounding.
+//!
+//! Unevaluated sums of two numbers have twice the digits. Their own sums and products are here, for single numbers and for registers of them.
 
-use core::ops::{Add, Sub};
+use core::ops::{Add, Mul, Sub};
 
 use crate::numerics::scalar::Scalar;
 
@@ -28,6 +30,26 @@ pub(crate) fn two_product<S: Scalar>(a: S, b: S) -> (S, S) {
     let ((a_high, a_low), (b_high, b_low)) = (split(a), split(b));
     let lost = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
     (product, lost)
+}
+
+/// The sum of two sums.
+#[inline(always)]
+pub(crate) fn add_pairs<S: Copy + Add<Output = S> + Sub<Output = S>>(a: [S; 2], b: [S; 2]) -> [S; 2] {
+    let (high, lost) = two_sum(a[0], b[0]);
+    let (low, lost_low) = two_sum(a[1], b[1]);
+    let (high, lost) = quick_two_sum(high, lost + low);
+    let (high, low) = quick_two_sum(high, lost + lost_low);
+    [high, low]
+}
+
+/// The product of two sums, from the exact product of their larger parts.
+#[inline(always)]
+pub(crate) fn multiply_pairs<S>(a: [S; 2], b: [S; 2], (product, lost): (S, S)) -> [S; 2]
+where
+    S: Copy + Add<Output = S> + Sub<Output = S> + Mul<Output = S>,
+{
+    let (high, low) = quick_two_sum(product, lost + (a[0] * b[1] + a[1] * b[0]));
+    [high, low]
 }
 
 /// Veltkamp's splitting into two halves of 26 bits.

@@ -4,7 +4,8 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
 
 use super::TorusSolution;
-use super::flow::{Axes, DOUBLE, Integrals, derivative, joined, tangents};
+use super::flow::{Axes, Integrals, derivative, joined, tangents};
+use super::flow_series::DOUBLE;
 use crate::dynamics::{BodyState, Problem, RotationState};
 use crate::error::Error;
 use crate::numerics::angle::about;

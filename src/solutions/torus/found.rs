@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::flow::{Axes, DOUBLE, Integrals, tangents};
+use super::flow::{Axes, Integrals, tangents};
+use super::flow_series::DOUBLE;
 use super::walk::lattice;
 use super::ways::ClosedWays;
 use crate::dynamics::{Problem, RigidSpheroid, RotationState};

@@ -36,6 +36,7 @@
 mod angles;
 mod derivative;
 mod flow;
+mod flow_series;
 mod found;
 mod fourier;
 mod phase;

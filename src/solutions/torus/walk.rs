@@ -5,7 +5,8 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use super::flow::{Axes, COARSE, Integrals, apart, tangents};
+use super::flow::{Axes, Integrals, apart, tangents};
+use super::flow_series::COARSE;
 use super::ways::{Search, half_turn};
 
 /// Series along the flow of `K` from the start, and along that of `H` from each point on it.
@@ -297,7 +298,7 @@ impl<'a> Walk<'a> {
 mod tests {
     use nalgebra::Matrix3;
 
-    use super::super::flow::DOUBLE;
+    use super::super::flow_series::DOUBLE;
     use super::*;
     use crate::dynamics::{BodyState, Problem, RigidSpheroid};
     use crate::solutions::torus::TorusSolution;

@@ -13,6 +13,7 @@
 use nalgebra::{Matrix6x2, Vector2, Vector3};
 
 use super::flow::{Axes, Integrals, apart, tangents};
+use super::flow_series::FlowScalar;
 use crate::numerics::angle::about;
 use crate::numerics::scalar::Real;
 
@@ -52,7 +53,7 @@ pub(super) struct ClosedWays<S> {
     pub(super) slow: HalfWay<S>,
 }
 
-impl<S: Real> ClosedWays<S> {
+impl<S: FlowScalar> ClosedWays<S> {
     /// Closed ways near given times: to the plane, and half of the fast and of the slow way. None where there are none.
     pub(super) fn near(
         integrals: &Integrals<S>,
@@ -132,7 +133,7 @@ pub(super) struct Search<'a, S> {
     rate: f64,
 }
 
-impl<'a, S: Real> Search<'a, S> {
+impl<'a, S: FlowScalar> Search<'a, S> {
     pub(super) fn new(integrals: &'a Integrals<S>, unit: f64) -> Self {
         Self { integrals, unit, rate: unit * integrals.inverse_inertia() }
     }
@@ -227,7 +228,7 @@ fn step_to_zero<S: Real>([by_h, by_k]: [Vector2<S>; 2], left: Vector2<S>, rate: 
 
 #[cfg(test)]
 mod tests {
-    use super::super::flow::DOUBLE;
+    use super::super::flow_series::DOUBLE;
     use super::super::walk::lattice;
     use super::*;
     use crate::solutions::torus::plane::tests::BODY;

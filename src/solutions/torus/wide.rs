@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::flow::{Axes, DOUBLE, DOUBLE_DOUBLE, Integrals};
+use super::flow::{Axes, Integrals};
+use super::flow_series::{DOUBLE, DOUBLE_DOUBLE};
 use super::found::Torus;
 use super::phase::{Phase, phases};
 use super::solution::rate_of_ways;

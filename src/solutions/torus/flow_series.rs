@@ -1,0 +1,284 @@
+//! Taylor series of a flow of the integrals.
+
+use nalgebra::{Matrix3, Vector3};
+use num_dual::Dual64;
+
+use super::flow::{Axes, derivative};
+use crate::numerics::arithmetic::{LoadStore, Padded, plain};
+use crate::numerics::double_double::DoubleDouble;
+use crate::numerics::fused::{detect_fused, run_fused};
+use crate::numerics::pairs::Pairs;
+use crate::numerics::scalar::{Real, length};
+
+/// Steps are whole multiples of one over this.
+const STEPS_IN_ONE: f64 = 1_048_576.0;
+
+/// Order of the series, and the size of its last two terms in a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Precision {
+    order: usize,
+    last_terms: f64,
+    /// What counts as zero of a distance.
+    pub(super) rounding: f64,
+}
+
+/// For doubles and dual numbers of doubles, of which derivatives are as exact as values: against what they are in the first terms.
+pub(super) const DOUBLE: Precision = Precision { order: 26, last_terms: 1e-17, rounding: 2e-16 };
+
+/// For a first look.
+pub(super) const COARSE: Precision = Precision { order: 14, last_terms: 1e-9, rounding: 2e-16 };
+
+/// For double-double numbers.
+pub(super) const DOUBLE_DOUBLE: Precision = Precision { order: 44, last_terms: 1e-33, rounding: 1e-31 };
+
+/// Coefficients of `n`, `L` and `u` of one order.
+type Terms<S> = [Padded<S>; 3];
+
+/// A flow near one of its points.
+#[derive(Debug, Clone)]
+pub(super) struct FlowSeries<S> {
+    terms: Vec<Terms<S>>,
+    /// Parameter up to which the last two terms are small enough.
+    pub(super) step: f64,
+}
+
+/// A number of the flow, whose vectors are multiplied by the instructions that the processor has for them.
+pub(super) trait FlowScalar: Real {
+    /// [`add_terms`] by these instructions.
+    fn add_terms(slopes: &[Matrix3<Self>; 2], order: usize, terms: &mut Vec<Terms<Self>>);
+}
+
+impl FlowScalar for f64 {
+    fn add_terms(slopes: &[Matrix3<f64>; 2], order: usize, terms: &mut Vec<Terms<f64>>) {
+        match detect_fused() {
+            Some(fused) => run_fused(
+                fused,
+                #[inline(always)]
+                || add_terms(fused, slopes, order, terms),
+            ),
+            None => add_terms(plain(), slopes, order, terms),
+        }
+    }
+}
+
+impl FlowScalar for DoubleDouble {
+    fn add_terms(slopes: &[Matrix3<DoubleDouble>; 2], order: usize, terms: &mut Vec<Terms<DoubleDouble>>) {
+        match detect_fused() {
+            Some(fused) => run_fused(
+                fused,
+                #[inline(always)]
+                || add_terms(Pairs(fused), slopes, order, terms),
+            ),
+            None => add_terms(plain(), slopes, order, terms),
+        }
+    }
+}
+
+impl FlowScalar for Dual64 {
+    fn add_terms(slopes: &[Matrix3<Dual64>; 2], order: usize, terms: &mut Vec<Terms<Dual64>>) {
+        add_terms(plain(), slopes, order, terms);
+    }
+}
+
+/// What a sum of products of terms takes from one order: both cyclic permutations of each vector.
+#[derive(Clone, Copy)]
+struct Factors<P> {
+    n: P,
+    momentum: P,
+    u: P,
+    /// Angular velocity and `b n`.
+    turn: P,
+    pull: P,
+}
+
+/// A matrix of which values are diagonal.
+struct NearlyDiagonal<A: LoadStore> {
+    columns: [A::Vector; 3],
+    diagonal: A::Vector,
+    /// Differences of the diagonal: `(m v) x v` is those times the products of the other two components of `v`.
+    differences: A::Vector,
+}
+
+impl<A: LoadStore> NearlyDiagonal<A> {
+    #[inline(always)]
+    fn new(v: A, m: &Matrix3<A::Scalar>) -> Self {
+        let [x, y, z] = [0, 1, 2].map(|j| Padded::from(Vector3::from(m.column(j))));
+        Self {
+            columns: [v.load(&x), v.load(&y), v.load(&z)],
+            diagonal: v.load(&m.diagonal().into()),
+            differences: v.load(&Vector3::new(m.m22 - m.m33, m.m33 - m.m11, m.m11 - m.m22).into()),
+        }
+    }
+
+    #[inline(always)]
+    fn times(&self, v: A, of: A::Vector) -> A::Vector {
+        if A::Scalar::HAS_DERIVATIVES { v.combine(&self.columns, of) } else { v.mul(self.diagonal, of) }
+    }
+}
+
+/// Adds the terms of all orders to the first, by `dn/dx = (a L) x n`, `dL/dx = (a L) x L + (b n) x n`, `du/dx = (a L) x u`.
+#[inline(always)]
+fn add_terms<A: LoadStore>(v: A, [a, b]: &[Matrix3<A::Scalar>; 2], order: usize, terms: &mut Vec<Terms<A::Scalar>>) {
+    let has_derivatives = A::Scalar::HAS_DERIVATIVES;
+    let matrices = [NearlyDiagonal::new(v, a), NearlyDiagonal::new(v, b)];
+    let mut factors = Vec::with_capacity(order);
+    for order in 0..order {
+        let [n, momentum, u] = &terms[order];
+        let (n, momentum, u) = (v.load(n), v.load(momentum), v.load(u));
+        factors.push(Factors {
+            n: v.permuted(n),
+            momentum: v.permuted(momentum),
+            u: v.permuted(u),
+            turn: v.permuted(matrices[0].times(v, momentum)),
+            pull: v.permuted(matrices[1].times(v, n)),
+        });
+        // Sums of the first and of the second products of vector products; of `L`, where the matrices are diagonal, of the products of its components and of those of `n`.
+        let mut n = [v.zero(); 2];
+        let mut u = [v.zero(); 2];
+        let mut momentum = [v.zero(); 2];
+        for (first, second) in factors.iter().zip(factors.iter().rev()) {
+            n[0] = v.mul_add(v.yzx(first.turn), v.zxy(second.n), n[0]);
+            n[1] = v.mul_add(v.zxy(first.turn), v.yzx(second.n), n[1]);
+            u[0] = v.mul_add(v.yzx(first.turn), v.zxy(second.u), u[0]);
+            u[1] = v.mul_add(v.zxy(first.turn), v.yzx(second.u), u[1]);
+            if has_derivatives {
+                momentum[0] = v.mul_add(v.yzx(first.turn), v.zxy(second.momentum), momentum[0]);
+                momentum[1] = v.mul_add(v.zxy(first.turn), v.yzx(second.momentum), momentum[1]);
+                momentum[0] = v.mul_add(v.yzx(first.pull), v.zxy(second.n), momentum[0]);
+                momentum[1] = v.mul_add(v.zxy(first.pull), v.yzx(second.n), momentum[1]);
+            } else {
+                momentum[0] = v.mul_add(v.yzx(first.momentum), v.zxy(second.momentum), momentum[0]);
+                momentum[1] = v.mul_add(v.yzx(first.n), v.zxy(second.n), momentum[1]);
+            }
+        }
+        let momentum = if has_derivatives {
+            v.sub(momentum[0], momentum[1])
+        } else {
+            v.mul_add(momentum[0], matrices[0].differences, v.mul(momentum[1], matrices[1].differences))
+        };
+        let along = (order + 1) as f64;
+        terms.push([
+            v.store(v.divide(v.sub(n[0], n[1]), along)),
+            v.store(v.divide(momentum, along)),
+            v.store(v.divide(v.sub(u[0], u[1]), along)),
+        ]);
+    }
+}
+
+impl<S: FlowScalar> FlowSeries<S> {
+    /// About a point, by the coefficients `a` and `b` of the flow.
+    pub(super) fn new(
+        slopes: &[Matrix3<S>; 2],
+        start: &Axes<S>,
+        Precision { order, last_terms, .. }: Precision,
+    ) -> Self {
+        let mut terms = Vec::with_capacity(order + 1);
+        terms.push(start.map(Padded::from));
+        S::add_terms(slopes, order, &mut terms);
+        let mut series = Self { terms, step: 0.0 };
+        series.step = series.longest_step(last_terms);
+        series
+    }
+
+    /// The parameter up to which the last two terms are small enough.
+    fn longest_step(&self, last_terms: f64) -> f64 {
+        let order = self.terms.len() - 1;
+        let unit = length(&self.terms[0][1].vector().map(S::re));
+        let size = |order: usize, part: fn(S) -> f64| {
+            let [n, momentum, u] = self.term(order).map(|v| length(&v.map(part)));
+            n.max(u).max(momentum / unit)
+        };
+        let least_of_both = |smallest: f64, part: fn(S) -> f64| {
+            [order - 1, order].into_iter().fold(f64::INFINITY, |least, order| {
+                let ratio = smallest.max(f64::MIN_POSITIVE) / size(order, part).max(f64::MIN_POSITIVE);
+                least.min(ratio.powf(1.0 / order as f64))
+            })
+        };
+        let mut step = least_of_both(last_terms, S::re);
+        if S::HAS_DERIVATIVES {
+            // Derivatives may have multiples of the frequencies that values have.
+            let first = (0..3).map(|order| size(order, derivative) * step.min(1.0).powi(order as i32));
+            step = step.min(least_of_both(last_terms * first.fold(0.0, f64::max), derivative));
+        }
+        // Of so few bits that steps add up exactly.
+        (step * STEPS_IN_ONE).floor().max(1.0) / STEPS_IN_ONE
+    }
+
+    /// The terms of an order.
+    pub(super) fn term(&self, order: usize) -> Axes<S> {
+        self.terms[order].map(|v| v.vector())
+    }
+
+    /// What changes up to a parameter.
+    pub(super) fn change(&self, step: f64) -> Axes<S> {
+        let step = S::from_f64(step);
+        let mut sum = [Vector3::zeros(); 3];
+        for terms in self.terms[1..].iter().rev() {
+            for (sum, term) in sum.iter_mut().zip(terms) {
+                *sum = (*sum + term.vector()) * step;
+            }
+        }
+        sum
+    }
+
+    /// The axes at a parameter.
+    pub(super) fn at(&self, step: f64) -> Axes<S> {
+        let (start, change) = (self.term(0), self.change(step));
+        core::array::from_fn(|i| start[i] + change[i])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SLOPES: [[f64; 3]; 2] = [[0.9, 1.1, 0.7], [0.3, -0.2, 0.05]];
+    const START: [[f64; 3]; 3] = [[0.36, 0.48, 0.8], [1.2, -0.7, 2.1], [0.8, -0.6, 0.0]];
+
+    fn series<S: FlowScalar>(precision: Precision) -> FlowSeries<S> {
+        let number = |x: f64| S::from_f64(x);
+        let slopes = SLOPES.map(|m| Matrix3::from_diagonal(&Vector3::from(m).map(number)));
+        FlowSeries::new(&slopes, &START.map(|v| Vector3::from(v).map(number)), precision)
+    }
+
+    /// Largest difference of a term from that of another series, in units of the term's size.
+    fn apart<S: FlowScalar, T: FlowScalar>(a: &FlowSeries<S>, b: &FlowSeries<T>) -> f64 {
+        let terms = a.terms.iter().zip(&b.terms).flat_map(|(a, b)| a.iter().zip(b));
+        let off =
+            terms.map(|(a, b)| (a.vector().map(S::re) - b.vector().map(T::re)).norm() / a.vector().map(S::re).norm());
+        off.fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn terms_are_the_same_by_any_instructions() {
+        let (single, double) = (series::<f64>(DOUBLE), series::<DoubleDouble>(DOUBLE_DOUBLE));
+        assert_eq!((single.terms.len(), double.terms.len()), (27, 45));
+        // Rounding grows by some units with each of 26 orders.
+        assert!(apart(&single, &double) < 1e-14, "{:e}", apart(&single, &double));
+        assert!(apart(&series::<Dual64>(DOUBLE), &double) < 1e-14);
+        let slopes = SLOPES.map(|m| Matrix3::from_diagonal(&Vector3::from(m).map(DoubleDouble::from)));
+        let mut plainly = vec![START.map(|v| Padded::from(Vector3::from(v).map(DoubleDouble::from)))];
+        add_terms(plain(), &slopes, 44, &mut plainly);
+        for (a, b) in plainly.iter().flatten().zip(double.terms.iter().flatten()) {
+            assert_eq!(a.vector(), b.vector());
+        }
+    }
+
+    /// `dn/dx = (a L) x n`, `dL/dx = (a L) x L + (b n) x n`, `du/dx = (a L) x u`, by differences of fourth order.
+    #[test]
+    fn the_series_solves_its_equations() {
+        let series = series::<f64>(DOUBLE);
+        let [a, b] = SLOPES.map(|m| Matrix3::from_diagonal(&Vector3::from(m)));
+        let (x, h) = (0.6 * series.step, 1e-3 * series.step);
+        let [n, momentum, u] = series.at(x);
+        let turn = a * momentum;
+        let expected = [turn.cross(&n), turn.cross(&momentum) + (b * n).cross(&n), turn.cross(&u)];
+        let along = |k: f64| series.at(x + k * h);
+        for (i, expected) in expected.iter().enumerate() {
+            let found =
+                (along(1.0)[i] - along(-1.0)[i]) * (2.0 / 3.0 / h) - (along(2.0)[i] - along(-2.0)[i]) / (12.0 * h);
+            // Rounding over h, and h^4 times a fifth derivative of some (2 momentum)^5.
+            assert!((found - expected).norm() < 1e-11 * momentum.norm(), "{i}: {found} {expected}");
+        }
+    }
+}
