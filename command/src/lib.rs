@@ -1,6 +1,5 @@
 //! The command `twofold`: arguments, progress, figures, report.
 
-pub mod bench;
 pub mod commands;
 mod compare;
 pub mod figures;

@@ -5,7 +5,7 @@ import os
 from dataclasses import dataclass
 from fractions import Fraction
 
-DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "command", "data")
+DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools", "bench", "data")
 LONG = 1e6
 
 
@@ -27,10 +27,10 @@ def rows(file):
 
 
 def read_scenes(duration=1000):
-    ends = {row[0]: [Fraction(x) for x in row[2:]] for row in rows("bench_states.csv") if float(row[1]) == duration}
-    parts = {row[0]: [Fraction(x) for x in row[2:]] for row in rows("bench_long.csv") if float(row[1]) == LONG}
+    ends = {row[0]: [Fraction(x) for x in row[2:]] for row in rows("states.csv") if float(row[1]) == duration}
+    parts = {row[0]: [Fraction(x) for x in row[2:]] for row in rows("long.csv") if float(row[1]) == LONG}
     late = {name: [high + low for high, low in zip(v[::2], v[1::2])] for name, v in parts.items()}
-    numbers = ((row[0], [float(x) for x in row[1:]]) for row in rows("bench_scenes.csv"))
+    numbers = ((row[0], [float(x) for x in row[1:]]) for row in rows("scenes.csv"))
     return [Scene(name, v[0], v[1:4], v[4:], ends[name], late.get(name)) for name, v in numbers]
 
 

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use twofold::Scalar;
 use twofold::dynamics::{Problem, RotationState};
 use twofold::propagation::Motion;
-use twofold_command::bench::timing::clock;
+use twofold_bench::timing::clock;
 use twofold_verify::double_double::DoubleDouble;
 
 /// The argument of the program at a place, from zero, or what is taken without one.

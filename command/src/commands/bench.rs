@@ -3,11 +3,11 @@
 use super::output_folder::OutputFolder;
 use super::progress::Progress;
 use super::{Failure, note, print, tell};
-use crate::bench::table::{self, Results};
-use crate::bench::{Effort, growth, overhead, scaling, work_precision};
 use crate::figures;
 use clap::Args;
 use std::path::PathBuf;
+use twofold_bench::table::{self, Results};
+use twofold_bench::{Effort, growth, overhead, scaling, work_precision};
 
 #[derive(Args)]
 pub(crate) struct BenchArgs {

@@ -6,7 +6,7 @@ use super::drawn::{elements, frames};
 use super::fixtures::{Fixture, OF_SCENES, OF_THE_PAPER, figure, made_up_runs, scenes};
 use super::line_atlas;
 use super::{OF_A_SCENE, Table};
-use crate::bench::work_precision::Row;
+use twofold_bench::work_precision::Row;
 use twofold_scene::columns::Column;
 use twofold_scene::scene_file::{Scene, Times};
 use twofold_scene::trajectory::{LinesWanted, write_csv, write_lines, write_pulses};

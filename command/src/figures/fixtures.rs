@@ -4,9 +4,9 @@ use std::ops::Deref;
 use std::sync::{Arc, LazyLock};
 
 use super::{Figure, OF_A_SCENE, RECIPES, Recipe, Subject, examples, work_precision};
-use crate::bench::method::Carries;
-use crate::bench::timing::Times;
-use crate::bench::work_precision::Row;
+use twofold_bench::method::Carries;
+use twofold_bench::timing::Times;
+use twofold_bench::work_precision::Row;
 use twofold_scene::scene_file::Scene;
 
 /// Scenes unlike the paper's examples: other motions, one with constants, and physical stars.

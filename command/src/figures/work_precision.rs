@@ -2,9 +2,9 @@
 
 use super::Figure;
 use super::drawing::*;
-use crate::bench::method::Carries;
-use crate::bench::table::methods;
-use crate::bench::work_precision::{Row, front};
+use twofold_bench::method::Carries;
+use twofold_bench::table::methods;
+use twofold_bench::work_precision::{Row, front};
 
 const NAME: &str = "work-precision";
 

@@ -117,6 +117,15 @@ fn stored<A: LoadStore, const V: usize>(a: A, vectors: &Vectors<A::Vector, V>) -
     stored
 }
 
+#[inline(always)]
+fn loaded<A: LoadStore, const V: usize>(a: A, stored: &Vectors<Padded<A::Scalar>, V>) -> Vectors<A::Vector, V> {
+    let mut vectors = [a.zero(); V];
+    for i in 0..V {
+        vectors[i] = a.load(&stored[i]);
+    }
+    vectors
+}
+
 impl<S: Real, const V: usize> Steps<S, V> {
     #[inline(always)]
     fn kept<A: LoadStore<Scalar = S>>(setup: &ScaledProblem<S, V>, a: A) -> Result<Self, Error> {
@@ -180,7 +189,13 @@ impl<S: Real, const V: usize> Steps<S, V> {
     #[inline(always)]
     fn sum<A: LoadStore<Scalar = S>>(&self, setup: &ScaledProblem<S, V>, a: A, step: usize, t: S) -> [Padded<S>; V] {
         let series = self.series(step);
-        setup.sum(a, |k| series[k].each_ref().map(|v| a.load(v)), &self.starts[step], t)
+        setup.sum(
+            a,
+            #[inline(always)]
+            |k| loaded(a, &series[k]),
+            &self.starts[step],
+            t,
+        )
     }
 
     /// Index of the step that holds a time since the start. Steps are much alike, so that it is near to where it would be

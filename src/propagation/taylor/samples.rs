@@ -115,19 +115,32 @@ pub(super) fn visited<A: LoadStore, T, const V: usize>(
 ) -> Result<Samples<T>, Error> {
     let mut samples = Samples::with_room(times.len(), setup.order);
     let mut errors = (estimates == ErrorEstimates::Wanted).then(|| TaylorErrors::of(setup));
-    setup.drive().run(a, LIMIT, |step, series| {
-        samples.step_count += 1;
-        if let Some(errors) = &mut errors {
-            let h = step.length * setup.direction() / setup.scale.time;
-            let error = errors.step(series, |v| a.store(*v).vector().map(A::Scalar::re), h);
-            samples.take_errors(setup, times, step, &error);
-        }
-        samples.take(setup, times, step, |time| {
-            let t = A::Scalar::from_f64(time);
-            state(setup.sum(a, |k| series[k], &step.start, t).map(|v| v.vector()), t)
-        });
-        Ok(())
-    })?;
+    // A closure that is not inlined has the vector instructions one by one, as calls.
+    setup.drive().run(
+        a,
+        LIMIT,
+        #[inline(always)]
+        |step, series| {
+            samples.step_count += 1;
+            if let Some(errors) = &mut errors {
+                let h = step.length * setup.direction() / setup.scale.time;
+                let error = errors.step(series, |v| a.store(*v).vector().map(A::Scalar::re), h);
+                samples.take_errors(setup, times, step, &error);
+            }
+            samples.take(
+                setup,
+                times,
+                step,
+                #[inline(always)]
+                |time| {
+                    let t = A::Scalar::from_f64(time);
+                    let vectors = setup.sum(a, |k| series[k], &step.start, t);
+                    state(vectors.map(|v| v.vector()), t)
+                },
+            );
+            Ok(())
+        },
+    )?;
     Ok(samples)
 }
 

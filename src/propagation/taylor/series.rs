@@ -311,6 +311,19 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
     }
 }
 
+/// `sum h + next`. A function and not a closure, which is not always inlined and then has no vector instructions.
+#[inline(always)]
+fn times_plus<A: Arithmetic, const V: usize>(
+    a: A,
+    sum: &mut Vectors<A::Vector, V>,
+    h: A::Vector,
+    next: Vectors<A::Vector, V>,
+) {
+    for i in 0..V {
+        sum[i] = a.mul_add(sum[i], h, next[i]);
+    }
+}
+
 /// Change of the vectors over the time `h` (the same in each component), in units of the series, by its coefficients: the sum
 /// without its constant term, which the caller adds last. `coefficient` gives those up to `order`.
 #[inline(always)]
@@ -324,11 +337,6 @@ pub(super) fn change<A: Arithmetic, const V: usize>(
     let zero = [a.zero(); V];
     let (mut even, mut odd) = (zero, zero);
     let square = a.mul(h, h);
-    let times_square_plus = |sum: &mut Vectors<A::Vector, V>, next: Vectors<A::Vector, V>| {
-        for (sum, next) in sum.iter_mut().zip(next) {
-            *sum = a.mul_add(*sum, square, next);
-        }
-    };
     let mut k = order;
     if k.is_multiple_of(2) {
         even = coefficient(k);
@@ -336,8 +344,8 @@ pub(super) fn change<A: Arithmetic, const V: usize>(
     }
     // `k` is odd: pairs of an odd and an even coefficient, down to the third and second.
     while k > 2 {
-        times_square_plus(&mut odd, coefficient(k));
-        times_square_plus(&mut even, coefficient(k - 1));
+        times_plus(a, &mut odd, square, coefficient(k));
+        times_plus(a, &mut even, square, coefficient(k - 1));
         k -= 2;
     }
     let first = coefficient(1);

@@ -3,10 +3,10 @@
 
 use std::io::{self, BufRead as _, Write as _};
 
-use twofold_command::bench::method::{MANY_SCENES, METHODS, Method, SAMPLED, WITH_PULSES};
-use twofold_command::bench::scaling::set_up;
-use twofold_command::bench::scene::{BenchScene, DURATION};
-use twofold_command::bench::{Effort, timing::clock};
+use twofold_bench::method::{MANY_SCENES, METHODS, Method, SAMPLED, WITH_PULSES};
+use twofold_bench::scaling::set_up;
+use twofold_bench::scene::{BenchScene, DURATION};
+use twofold_bench::{Effort, timing::clock};
 
 /// Length of a long motion (t_c).
 const LONG: f64 = 1e6;

@@ -12,8 +12,8 @@ use std::hint::black_box;
 use twofold::observables::Observer;
 use twofold::observables::pulsar::{Beam, pulse_train};
 use twofold::propagation::{Motion, TaylorMotion};
-use twofold_command::bench::method::{MANY_SCENES, METHODS};
-use twofold_command::bench::scene::BenchScene;
+use twofold_bench::method::{MANY_SCENES, METHODS};
+use twofold_bench::scene::BenchScene;
 
 /// Length of the motions (t_c), and their tolerance.
 const DURATION: f64 = 100.0;

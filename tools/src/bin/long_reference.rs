@@ -1,7 +1,7 @@
 //! Reference states of tp-II at 1e2 to 1e7 t_c, by the Taylor series over double-double numbers:
 //!
 //! ```sh
-//! cargo run --release -p twofold-tools --bin long_reference > command/data/bench_long.csv
+//! cargo run --release -p twofold-tools --bin long_reference > tools/bench/data/long.csv
 //! ```
 //!
 //! Half an hour on one core; less with `RUSTFLAGS="-C target-feature=+fma"`. The motion is made of stretches of 25,000 t_c,
@@ -11,7 +11,7 @@
 use std::io::Write as _;
 
 use twofold::numerics::scalar::{Scalar, length};
-use twofold_command::bench::scene::BenchScene;
+use twofold_bench::scene::BenchScene;
 use twofold_tools::LongMotion;
 use twofold_verify::double_double::DoubleDouble;
 
@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut out = std::io::stdout().lock();
     writeln!(
         out,
-        "# tp-II of bench_scenes.csv by the Taylor series over double-double numbers (tools/src/bin/long_reference.rs);"
+        "# tp-II of scenes.csv by the Taylor series over double-double numbers (tools/src/bin/long_reference.rs);"
     )?;
     writeln!(
         out,

@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release -p twofold-tools --bin long_times [LONGEST, default 1e7 t_c]`: some minutes.
 //!
-//! Numerical methods and averaged motion along tp-II against the reference of command/data/bench_long.csv; closed forms against themselves in
+//! Numerical methods and averaged motion along tp-II against the reference of tools/bench/data/long.csv; closed forms against themselves in
 //! double-double numbers, along motions that they are made for.
 
 use nalgebra::{Matrix3, Vector3};
@@ -11,9 +11,9 @@ use twofold::numerics::scalar::{Real, Scalar};
 use twofold::numerics::straight_line::{Slope, order};
 use twofold::propagation::{AveragedMotion, Motion, SymmetricMotion, TorusMotion, UniformMotion};
 use twofold::solutions::averaged::AveragingOrder;
-use twofold_command::bench::growth::{self, references};
-use twofold_command::bench::scene::BenchScene;
-use twofold_command::bench::{Effort, growth::METHODS};
+use twofold_bench::growth::{self, references};
+use twofold_bench::scene::BenchScene;
+use twofold_bench::{Effort, growth::METHODS};
 use twofold_tools::argument;
 use twofold_verify::check::largest;
 use twofold_verify::double_double::DoubleDouble;

@@ -9,7 +9,7 @@ use twofold::dynamics::first_integrals::first_integrals;
 use twofold::dynamics::{AxisState, Problem};
 use twofold::numerics::straight_line::order;
 use twofold::propagation::ErrorEstimates;
-use twofold_command::bench::scene::BenchScene;
+use twofold_bench::scene::BenchScene;
 use twofold_tools::argument;
 use twofold_verify::double_double::DoubleDouble;
 use twofold_verify::error_scenes::ErrorScene;

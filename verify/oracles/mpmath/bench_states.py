@@ -2,7 +2,7 @@
 
     python3 verify/oracles/mpmath/bench_states.py
 
-writes command/data/bench_scenes.csv, the exact initial values, and command/data/bench_states.csv, n, L and e_x at t = 10, 100
+writes tools/bench/data/scenes.csv, the exact initial values, and tools/bench/data/states.csv, n, L and e_x at t = 10, 100
 and 1000 t_c in 30 digits. Every number of a scene is a double written out in full, so that a program that reads it has the
 same scene to the last bit. The equations are (I^xx = C = 1)
 
@@ -30,7 +30,7 @@ from gmpy2 import mpfr
 
 gmpy2.get_context().precision = 180
 DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "data")
-OUT = os.path.join(DATA, "..", "..", "command", "data")
+OUT = os.path.join(DATA, "..", "..", "tools", "bench", "data")
 TIMES = [10, 100, 1000]
 
 
@@ -147,13 +147,13 @@ def main():
     with Pool(os.cpu_count()) as pool:
         references = pool.map(reference, found, chunksize=1)
     components = [f"{v}_{i}" for v in ("n", "l", "ex") for i in "xyz"]
-    with open(os.path.join(OUT, "bench_scenes.csv"), "w") as file:
-        file.write("# Initial values of the reference motions in bench_states.csv, doubles written out in full; I^xx = C = 1, L in I^xx/t_c.\n")
+    with open(os.path.join(OUT, "scenes.csv"), "w") as file:
+        file.write("# Initial values of the reference motions in states.csv, doubles written out in full; I^xx = C = 1, L in I^xx/t_c.\n")
         file.write("scene,inertia_ratio,s_xx,s_yy,s_zz," + ",".join(components) + "\n")
         for name, inertia, s, n, l, e in found:
             file.write(",".join([name, *(repr(float(x)) for x in [inertia, *s, *n, *l, *e])]) + "\n")
-    with open(os.path.join(OUT, "bench_states.csv"), "w") as file:
-        file.write("# Motions of bench_scenes.csv by Taylor series of order 44 in 54 digits (verify/oracles/mpmath/bench_states.py), 30 digits; t in t_c.\n")
+    with open(os.path.join(OUT, "states.csv"), "w") as file:
+        file.write("# Motions of scenes.csv by Taylor series of order 44 in 54 digits (verify/oracles/mpmath/bench_states.py), 30 digits; t in t_c.\n")
         file.write("scene,t," + ",".join(components) + "\n")
         for name, states in references:
             for t, state in zip(TIMES, states):

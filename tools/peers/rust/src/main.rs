@@ -19,7 +19,7 @@ struct Scene {
 }
 
 fn scenes() -> Vec<Scene> {
-    let text = include_str!("../../../../command/data/bench_scenes.csv");
+    let text = include_str!("../../../../tools/bench/data/scenes.csv");
     let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
     let scene = |row: &str| {
         let (name, numbers) = row.split_once(',').expect("a row of numbers");

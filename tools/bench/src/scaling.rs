@@ -11,10 +11,12 @@ use super::overhead::TOLERANCE;
 use super::scene::{BenchScene, DURATION};
 use super::timing::{Times, in_turn};
 
+/// The time of so many outputs or scenes, or on so many cores.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Row {
+pub struct Row {
     /// What is counted: `outputs`, `scenes` or `cores`.
     pub of: &'static str,
+    /// How many.
     pub count: usize,
     /// Least time of the whole (s).
     pub least: f64,
@@ -33,7 +35,7 @@ const SPREAD: usize = 1600;
 const TOGETHER: usize = 16;
 
 /// All of them on tp-II and scenes near it; `done` hears which part is over.
-pub(crate) fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, String> {
+pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, String> {
     let scene = BenchScene::named("tp-II");
     let mut outputs: Vec<_> = OUTPUTS.iter().map(|count| || sampled(&scene, *count)).collect();
     let times = in_turn(&mut outputs, effort.rounds.min(20), |part| done(part / 3.0))?;

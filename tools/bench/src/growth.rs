@@ -57,7 +57,7 @@ pub struct Row {
 
 /// Reference states of tp-II: times and `n`.
 pub fn references() -> Vec<(f64, Vector3<DoubleDouble>)> {
-    let rows = rows(include_str!("../../data/bench_long.csv")).into_iter();
+    let rows = rows(include_str!("../data/long.csv")).into_iter();
     // Each component is the sum of two doubles, which are what their decimals are nearest to.
     let component = |v: &[DoubleDouble], i: usize| DoubleDouble::sum_of(v[i].high(), v[i + 1].high());
     let row = |v: Vec<DoubleDouble>| (v[0].high(), Vector3::new(component(&v, 1), component(&v, 3), component(&v, 5)));

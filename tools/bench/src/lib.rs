@@ -5,13 +5,13 @@
 
 pub mod growth;
 pub mod method;
-pub(crate) mod overhead;
+pub mod overhead;
 mod runge_kutta;
 pub mod scaling;
 pub mod scene;
-pub(crate) mod table;
+pub mod table;
 pub mod timing;
-pub(crate) mod work_precision;
+pub mod work_precision;
 
 /// How much is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]

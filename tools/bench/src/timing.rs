@@ -14,10 +14,12 @@ pub fn clock() -> f64 {
     }
 }
 
+/// Times of one case.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Times {
+pub struct Times {
     /// The least (s): what others on the machine disturbed least.
     pub least: f64,
+    /// The middle one (s).
     pub median: f64,
 }
 
@@ -29,7 +31,7 @@ impl Times {
 }
 
 /// Runs every case once to warm up, then `rounds` times each, in turn; `done` hears the part of the rounds that is over.
-pub(crate) fn in_turn<R>(
+pub fn in_turn<R>(
     cases: &mut [impl FnMut() -> Result<R, String>],
     rounds: usize,
     done: impl FnMut(f64),

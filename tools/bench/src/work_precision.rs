@@ -8,14 +8,19 @@ use super::timing::{Times, in_turn};
 /// One run of one method on one scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
+    /// Name of the scene.
     pub scene: String,
+    /// Name of the method.
     pub method: String,
+    /// What it carries.
     pub carries: Carries,
     /// Tolerance or step.
     pub setting: f64,
     /// Largest error of a component of `n`, `L / |L|` and, where it is carried, `e_x` at the end.
     pub error: f64,
+    /// Its times.
     pub times: Times,
+    /// How many steps it took.
     pub steps: usize,
     /// Right-hand sides, coefficients of series, or rotations and kicks.
     pub evaluations: usize,

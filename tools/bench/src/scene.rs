@@ -25,7 +25,7 @@ pub struct BenchScene {
 impl BenchScene {
     /// The seven scenes.
     pub fn all() -> Vec<Self> {
-        let states = rows(include_str!("../../data/bench_states.csv"));
+        let states = rows(include_str!("../data/states.csv"));
         let scene = |(name, v): (String, Vec<DoubleDouble>)| {
             let exact: Vec<f64> = v.iter().map(|x| x.high()).collect();
             let vector = |i: usize| Vector3::new(exact[i], exact[i + 1], exact[i + 2]);
@@ -41,7 +41,7 @@ impl BenchScene {
                 name,
             }
         };
-        rows(include_str!("../../data/bench_scenes.csv")).into_iter().map(scene).collect()
+        rows(include_str!("../data/scenes.csv")).into_iter().map(scene).collect()
     }
 
     /// The scene called `name`.

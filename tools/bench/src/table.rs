@@ -6,11 +6,16 @@ use super::method::{BASELINE, Carries};
 use super::work_precision::{self, ERRORS, ratios, time_at};
 use super::{growth, overhead, scaling};
 
+/// All that is measured.
 #[derive(Debug, Clone, Default)]
 pub struct Results {
+    /// Times against errors.
     pub work_precision: Vec<work_precision::Row>,
+    /// Errors along long motions.
     pub growth: Vec<growth::Row>,
+    /// What comes on top of a motion.
     pub overhead: Vec<overhead::Row>,
+    /// Times by the number of outputs, scenes and cores.
     pub scaling: Vec<scaling::Row>,
     /// Time before the first step (s).
     pub set_up: f64,
@@ -68,7 +73,7 @@ fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
 }
 
 /// Times (ms) at equal errors, and their ratios to the baseline.
-pub fn work_precision(rows: &[work_precision::Row]) -> String {
+fn work_precision(rows: &[work_precision::Row]) -> String {
     let errors: Vec<_> = ERRORS.iter().map(|error| format!("{error:.0e}")).collect();
     let header: Vec<_> = ["scene", "method"].into_iter().chain(errors.iter().map(String::as_str)).collect();
     let mut text = String::new();
@@ -98,7 +103,7 @@ pub fn work_precision(rows: &[work_precision::Row]) -> String {
     text
 }
 
-pub fn growth(rows: &[growth::Row]) -> String {
+fn growth(rows: &[growth::Row]) -> String {
     let mut lines: Vec<_> = rows
         .iter()
         .map(|row| {
@@ -118,7 +123,7 @@ pub fn growth(rows: &[growth::Row]) -> String {
     markdown(&["method", "time [t_c]", "energy", "K", "phase"], &lines)
 }
 
-pub fn overhead(rows: &[overhead::Row]) -> String {
+fn overhead(rows: &[overhead::Row]) -> String {
     let cells = |row: &overhead::Row| {
         vec![row.what.to_owned(), row.carries.to_string(), time(row.times.least), format!("{:.2}", row.ratio)]
     };
@@ -128,7 +133,7 @@ pub fn overhead(rows: &[overhead::Row]) -> String {
     )
 }
 
-pub fn scaling(rows: &[scaling::Row]) -> String {
+fn scaling(rows: &[scaling::Row]) -> String {
     let cells = |row: &scaling::Row| vec![row.of.to_owned(), row.count.to_string(), time(row.least), time(row.each)];
     markdown(&["number of", "", "least time", "of each"], &rows.iter().map(cells).collect::<Vec<_>>())
 }
