@@ -39,7 +39,7 @@ impl DoubleDouble {
         products[0] + products[1] + products[2]
     }
 
-    /// The quotient: two steps of long division.
+    /// The quotient by long division: two digits and a correction.
     pub(crate) fn over(self, divisor: Self) -> Self {
         let first = self.high / divisor.high;
         let rest = self + divisor * Self::from(-first);

@@ -3,7 +3,7 @@
 //! They are identities of real numbers whose second part is zero, so that they act on duals as well: what is lost carries no
 //! derivative beyond rounding.
 //!
-//! Unevaluated sums of two numbers have twice the digits. Their own sums and products are here, for single numbers and for registers of them.
+//! Sums and products of double-double numbers are here too, for single numbers and for registers of them.
 
 use core::ops::{Add, Mul, Sub};
 
@@ -32,7 +32,7 @@ pub(crate) fn two_product<S: Scalar>(a: S, b: S) -> (S, S) {
     (product, lost)
 }
 
-/// The sum of two sums.
+/// Adds two double-double numbers, each `[high, low]`.
 #[inline(always)]
 pub(crate) fn add_pairs<S: Copy + Add<Output = S> + Sub<Output = S>>(a: [S; 2], b: [S; 2]) -> [S; 2] {
     let (high, lost) = two_sum(a[0], b[0]);
@@ -42,7 +42,7 @@ pub(crate) fn add_pairs<S: Copy + Add<Output = S> + Sub<Output = S>>(a: [S; 2], 
     [high, low]
 }
 
-/// The product of two sums, from the exact product of their larger parts.
+/// Multiplies two double-double numbers, given the exact product of their high parts.
 #[inline(always)]
 pub(crate) fn multiply_pairs<S>(a: [S; 2], b: [S; 2], (product, lost): (S, S)) -> [S; 2]
 where

@@ -5,7 +5,7 @@ import os
 from dataclasses import dataclass
 from fractions import Fraction
 
-DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools", "bench", "data")
+DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "bench", "data")
 LONG = 1e6
 
 

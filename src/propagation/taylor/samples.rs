@@ -115,7 +115,7 @@ pub(super) fn visited<A: LoadStore, T, const V: usize>(
 ) -> Result<Samples<T>, Error> {
     let mut samples = Samples::with_room(times.len(), setup.order);
     let mut errors = (estimates == ErrorEstimates::Wanted).then(|| TaylorErrors::of(setup));
-    // A closure that is not inlined has the vector instructions one by one, as calls.
+    // A closure that is not inlined is compiled without AVX2, and each vector operation becomes a call.
     setup.drive().run(
         a,
         LIMIT,

@@ -311,7 +311,7 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
     }
 }
 
-/// `sum h + next`. A function and not a closure, which is not always inlined and then has no vector instructions.
+/// `sum h + next`. A function and not a closure: one that is not inlined is compiled without AVX2.
 #[inline(always)]
 fn times_plus<A: Arithmetic, const V: usize>(
     a: A,

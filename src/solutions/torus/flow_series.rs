@@ -42,7 +42,7 @@ pub(super) struct FlowSeries<S> {
     pub(super) step: f64,
 }
 
-/// A number of the flow, whose vectors are multiplied by the instructions that the processor has for them.
+/// A scalar with the fastest vector arithmetic that the processor has for it.
 pub(super) trait FlowScalar: Real {
     /// [`add_terms`] by these instructions.
     fn add_terms(slopes: &[Matrix3<Self>; 2], order: usize, terms: &mut Vec<Terms<Self>>);
@@ -91,7 +91,7 @@ struct Factors<P> {
     pull: P,
 }
 
-/// A matrix of which values are diagonal.
+/// A matrix whose values are diagonal; its derivatives need not be.
 struct NearlyDiagonal<A: LoadStore> {
     columns: [A::Vector; 3],
     diagonal: A::Vector,
@@ -130,9 +130,10 @@ fn add_terms<A: LoadStore>(v: A, [a, b]: &[Matrix3<A::Scalar>; 2], order: usize,
             momentum: v.permuted(momentum),
             u: v.permuted(u),
             turn: v.permuted(matrices[0].times(v, momentum)),
-            pull: v.permuted(matrices[1].times(v, n)),
+            pull: if has_derivatives { v.permuted(matrices[1].times(v, n)) } else { v.permuted(n) },
         });
-        // Sums of the first and of the second products of vector products; of `L`, where the matrices are diagonal, of the products of its components and of those of `n`.
+        // Each cross product as two sums, of its positive and of its negative products. Without derivatives those for `L` are of
+        // the products of its own components and of those of `n`.
         let mut n = [v.zero(); 2];
         let mut u = [v.zero(); 2];
         let mut momentum = [v.zero(); 2];
@@ -264,21 +265,36 @@ mod tests {
         }
     }
 
-    /// `dn/dx = (a L) x n`, `dL/dx = (a L) x L + (b n) x n`, `du/dx = (a L) x u`, by differences of fourth order.
-    #[test]
-    fn the_series_solves_its_equations() {
-        let series = series::<f64>(DOUBLE);
-        let [a, b] = SLOPES.map(|m| Matrix3::from_diagonal(&Vector3::from(m)));
+    /// Largest of what is left of `dn/dx = (a L) x n`, `dL/dx = (a L) x L + (b n) x n`, `du/dx = (a L) x u`, by differences of fourth order, over `L`.
+    fn left<S: FlowScalar>(slopes: &[Matrix3<S>; 2], start: &Axes<S>, part: fn(S) -> f64) -> f64 {
+        let series = FlowSeries::new(slopes, start, DOUBLE);
         let (x, h) = (0.6 * series.step, 1e-3 * series.step);
         let [n, momentum, u] = series.at(x);
-        let turn = a * momentum;
-        let expected = [turn.cross(&n), turn.cross(&momentum) + (b * n).cross(&n), turn.cross(&u)];
-        let along = |k: f64| series.at(x + k * h);
-        for (i, expected) in expected.iter().enumerate() {
-            let found =
-                (along(1.0)[i] - along(-1.0)[i]) * (2.0 / 3.0 / h) - (along(2.0)[i] - along(-2.0)[i]) / (12.0 * h);
-            // Rounding over h, and h^4 times a fifth derivative of some (2 momentum)^5.
-            assert!((found - expected).norm() < 1e-11 * momentum.norm(), "{i}: {found} {expected}");
+        let (turn, pull) = (slopes[0] * momentum, slopes[1] * n);
+        let rates = [turn.cross(&n), turn.cross(&momentum) + pull.cross(&n), turn.cross(&u)];
+        let difference = |k: f64, i: usize| (series.at(x + k * h)[i] - series.at(x - k * h)[i]).map(part);
+        let off = (0..3).map(|i| {
+            let found = difference(1.0, i) * (2.0 / 3.0 / h) - difference(2.0, i) / (12.0 * h);
+            (found - rates[i].map(part)).norm()
+        });
+        off.fold(0.0, f64::max) / momentum.map(S::re).norm()
+    }
+
+    /// Bounds are rounding over `h`, and `h^4` times a fifth derivative of some `(2 L)^5`.
+    #[test]
+    fn the_series_solves_its_equations() {
+        let slopes = SLOPES.map(|m| Matrix3::from_diagonal(&Vector3::from(m)));
+        let start = START.map(Vector3::from);
+        let found = left(&slopes, &start, Real::re);
+        assert!(found < 1e-11, "{found:e}");
+        // Values are diagonal, derivatives are any.
+        let by_parameter = Matrix3::new(0.3, -0.7, 0.2, -0.7, 0.1, 0.9, 0.2, 0.9, -0.4);
+        let changing = |v: f64, by: f64| Dual64::new(v, by);
+        let slopes = slopes.map(|m| m.zip_map(&(by_parameter + m * 0.4), changing));
+        let start = start.map(|v| v.zip_map(&Vector3::new(0.2, -0.5, 0.8), changing));
+        for (part, bound) in [(Real::re as fn(Dual64) -> f64, 1e-11), (derivative, 1e-10)] {
+            let found = left(&slopes, &start, part);
+            assert!(found < bound, "{found:e}");
         }
     }
 }

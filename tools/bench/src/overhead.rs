@@ -37,11 +37,11 @@ const PARAMETERS: [Parameter; 10] = [
 /// Something beside a motion, or a motion over other numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// Which.
+    /// Name of the case.
     pub what: &'static str,
-    /// Of which motion.
+    /// What its motion carries.
     pub carries: Carries,
-    /// Its times.
+    /// Run times.
     pub times: Times,
     /// Over the least time of the bare motion of the same `carries`, or of the state at its end where that is what the row is of.
     pub ratio: f64,

@@ -11,7 +11,7 @@ use super::overhead::TOLERANCE;
 use super::scene::{BenchScene, DURATION};
 use super::timing::{Times, in_turn};
 
-/// The time of so many outputs or scenes, or on so many cores.
+/// Time for a number of outputs, scenes or cores.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     /// What is counted: `outputs`, `scenes` or `cores`.

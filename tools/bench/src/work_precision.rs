@@ -18,7 +18,7 @@ pub struct Row {
     pub setting: f64,
     /// Largest error of a component of `n`, `L / |L|` and, where it is carried, `e_x` at the end.
     pub error: f64,
-    /// Its times.
+    /// Run times.
     pub times: Times,
     /// How many steps it took.
     pub steps: usize,

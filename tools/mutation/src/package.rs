@@ -11,13 +11,19 @@ pub struct Package {
     pub features: &'static [&'static str],
 }
 
-const PACKAGES: [Package; 4] = [
+const PACKAGES: [Package; 5] = [
     Package { name: "twofold", sources: "src/", tested_by: &["twofold"], features: &[] },
     Package {
         name: "twofold-scene",
         sources: "scene/src/",
         tested_by: &["twofold-scene", "twofold-command"],
         features: &["twofold-scene/parquet"],
+    },
+    Package {
+        name: "twofold-bench",
+        sources: "tools/bench/src/",
+        tested_by: &["twofold-bench", "twofold-command"],
+        features: &[],
     },
     Package { name: "twofold-command", sources: "command/src/", tested_by: &["twofold-command"], features: &[] },
     Package { name: "twofold-python", sources: "python/src/", tested_by: &[], features: &[] },
