@@ -4,9 +4,9 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
 
 use super::flow::{Axes, derivative};
-use crate::numerics::arithmetic::{Arithmetic, LoadStore, Padded, plain};
+use crate::numerics::arithmetic::{Arithmetic, Componentwise, LoadStore, Padded, plain};
 use crate::numerics::double_double::DoubleDouble;
-use crate::numerics::fused::{detect_fused, run_fused};
+use crate::numerics::fused::{Fused, detect_fused, run_fused};
 use crate::numerics::pairs::Pairs;
 use crate::numerics::scalar::{Real, length};
 
@@ -42,41 +42,38 @@ pub(super) struct FlowSeries<S> {
     pub(super) step: f64,
 }
 
-/// A scalar with the fastest vector arithmetic that the processor has for it.
+/// A scalar with vector arithmetic in the registers of a processor.
 pub(super) trait FlowScalar: Real {
-    /// [`add_terms`] by these instructions.
-    fn add_terms(slopes: &[Matrix3<Self>; 2], order: usize, terms: &mut Vec<Terms<Self>>);
+    /// Arithmetic of its vectors.
+    type Registers: LoadStore<Scalar = Self>;
+
+    fn registers(fused: Fused) -> Self::Registers;
 }
 
 impl FlowScalar for f64 {
-    fn add_terms(slopes: &[Matrix3<f64>; 2], order: usize, terms: &mut Vec<Terms<f64>>) {
-        match detect_fused() {
-            Some(fused) => run_fused(
-                fused,
-                #[inline(always)]
-                || add_terms(fused, slopes, order, terms),
-            ),
-            None => add_terms(plain(), slopes, order, terms),
-        }
+    type Registers = Fused;
+
+    #[inline(always)]
+    fn registers(fused: Fused) -> Fused {
+        fused
     }
 }
 
 impl FlowScalar for DoubleDouble {
-    fn add_terms(slopes: &[Matrix3<DoubleDouble>; 2], order: usize, terms: &mut Vec<Terms<DoubleDouble>>) {
-        match detect_fused() {
-            Some(fused) => run_fused(
-                fused,
-                #[inline(always)]
-                || add_terms(Pairs(fused), slopes, order, terms),
-            ),
-            None => add_terms(plain(), slopes, order, terms),
-        }
+    type Registers = Pairs<Fused>;
+
+    #[inline(always)]
+    fn registers(fused: Fused) -> Pairs<Fused> {
+        Pairs(fused)
     }
 }
 
 impl FlowScalar for Dual64 {
-    fn add_terms(slopes: &[Matrix3<Dual64>; 2], order: usize, terms: &mut Vec<Terms<Dual64>>) {
-        add_terms(plain(), slopes, order, terms);
+    type Registers = Componentwise<Dual64>;
+
+    #[inline(always)]
+    fn registers(_: Fused) -> Componentwise<Dual64> {
+        plain()
     }
 }
 
@@ -168,7 +165,14 @@ impl<S: FlowScalar> FlowSeries<S> {
     ) -> Self {
         let mut terms = Vec::with_capacity(order + 1);
         terms.push(start.map(Padded::from));
-        S::add_terms(slopes, order, &mut terms);
+        match detect_fused() {
+            Some(fused) => run_fused(
+                fused,
+                #[inline(always)]
+                || add_terms(S::registers(fused), slopes, order, &mut terms),
+            ),
+            None => add_terms(plain(), slopes, order, &mut terms),
+        }
         let mut series = Self { terms, step: 0.0 };
         series.step = series.longest_step(last_terms);
         series
