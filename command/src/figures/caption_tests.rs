@@ -13,7 +13,7 @@ fn told(text: &str) -> f64 {
 }
 
 /// Numbers of a caption, in its order: the text before and after each, what it is, and to how many digits.
-fn assert_told(mut caption: &str, numbers: &[(&str, &str, f64, usize)]) {
+pub(super) fn assert_told(mut caption: &str, numbers: &[(&str, &str, f64, usize)]) {
     for &(before, after, expected, digits) in numbers {
         let (_, rest) = caption.split_once(before).unwrap_or_else(|| panic!("no `{before}` in {caption}"));
         let (words, _) = rest.split_once(after).unwrap_or_else(|| panic!("no `{after}` in {rest}"));
@@ -23,12 +23,12 @@ fn assert_told(mut caption: &str, numbers: &[(&str, &str, f64, usize)]) {
     }
 }
 
-fn table(figure_name: &str, name: &str) -> &'static Table {
+pub(super) fn table(figure_name: &str, name: &str) -> &'static Table {
     figure(figure_name).tables.iter().find(|table| table.name == name).expect("a table")
 }
 
 /// The least and the largest number of a column.
-fn extremes(table: &Table, column: usize) -> [f64; 2] {
+pub(super) fn extremes(table: &Table, column: usize) -> [f64; 2] {
     let values = || table.rows.iter().map(|row| row[column]);
     [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)]
 }

@@ -50,6 +50,8 @@ mod sphere_tests;
 mod spin_down;
 #[cfg(test)]
 mod spin_down_tests;
+#[cfg(test)]
+mod statement_tests;
 mod style;
 mod subject;
 mod svg;

@@ -8,7 +8,7 @@ use super::drawing::*;
 use twofold_verify::paper_examples::{COEFFICIENTS, SPIN, spheroid};
 
 /// Values of `l.(s l)` between those of the three axes.
-const LEVELS: [f64; 7] = [-0.037, -0.03, -0.02, -0.01, 0.002, 0.013, 0.017];
+pub(super) const LEVELS: [f64; 7] = [-0.037, -0.03, -0.02, -0.01, 0.002, 0.013, 0.017];
 
 /// Tilt of the angular momentum from the middle axis in the motion near the separatrix (rad).
 const TILT: f64 = 0.05;
@@ -47,7 +47,7 @@ fn near_separatrix() -> Result<Subject, String> {
 }
 
 /// The two closed lines with `l.(s l) = h`: below the middle eigenvalue about the axis of the smallest, above about that of the largest.
-fn contour(h: f64) -> Vec<Vec<Vector3<f64>>> {
+pub(super) fn contour(h: f64) -> [Vec<Vector3<f64>>; 2] {
     let [largest, middle, smallest] = [COEFFICIENTS.xx, COEFFICIENTS.yy, COEFFICIENTS.zz];
     let about_z = h < middle;
     let (own, a, b) = if about_z { (smallest, largest, middle) } else { (largest, middle, smallest) };
@@ -62,11 +62,11 @@ fn contour(h: f64) -> Vec<Vec<Vector3<f64>>> {
             })
             .collect()
     };
-    vec![line(1.0), line(-1.0)]
+    [line(1.0), line(-1.0)]
 }
 
 /// The two great circles through the middle axis that separate motion about the largest from motion about the smallest.
-fn separatrix() -> [Vec<Vector3<f64>>; 2] {
+pub(super) fn separatrix() -> [Vec<Vector3<f64>>; 2] {
     let (x, z) = ((COEFFICIENTS.yy - COEFFICIENTS.zz).sqrt(), (COEFFICIENTS.xx - COEFFICIENTS.yy).sqrt());
     [1.0, -1.0].map(|sign| arc(&Vector3::y(), &Vector3::new(x, 0.0, sign * z).normalize(), 0.0, std::f64::consts::TAU))
 }

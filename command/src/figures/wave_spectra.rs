@@ -181,7 +181,8 @@ fn findings(subject: &Subject, both: &Both) -> String {
         significant(first.amplitude, 3)
     );
     if let Some(third) = strongest.iter().find(|line| multiple(line, "alpha'") == 3) {
-        says += &format!("; the strongest of the third harmonic, {}, has {} of it", name(third), part(third));
+        says +=
+            &format!("; the strongest of the third harmonic of {symbol}, {}, has {} of it", name(third), part(third));
     }
     let slow = strongest.iter().find(|line| multiple(line, "l'") == 1 && multiple(line, "alpha'") == 0);
     if let Some(slow) = slow {

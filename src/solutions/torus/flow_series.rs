@@ -299,4 +299,50 @@ mod tests {
             assert!(found < bound, "{found:e}");
         }
     }
+
+    /// Size at the step of the sixteen terms after the last, over that of the whole change at the step, at most at one.
+    fn left_out<S: FlowScalar>(
+        slopes: &[Matrix3<S>; 2],
+        start: &Axes<S>,
+        precision: Precision,
+        part: fn(S) -> f64,
+    ) -> f64 {
+        let (order, step) = (precision.order, FlowSeries::new(slopes, start, precision).step);
+        let longer = FlowSeries::new(slopes, start, Precision { order: order + 16, ..precision });
+        let unit = longer.term(0)[1].map(S::re).norm();
+        let size = |orders: core::ops::RangeInclusive<usize>, x: f64| {
+            let mut sum = [Vector3::zeros(); 3];
+            for k in orders {
+                (0..3).for_each(|i| sum[i] += longer.term(k)[i].map(part) * x.powi(k as i32));
+            }
+            sum[0].norm().max(sum[1].norm() / unit).max(sum[2].norm())
+        };
+        size(order + 1..=order + 16, step) / size(0..=order, step.min(1.0))
+    }
+
+    /// Terms fall by some 1 / 30 from the last one on: of the order of the series over `L` times the step.
+    #[test]
+    fn steps_are_as_long_as_the_precision_allows() {
+        let slopes = SLOPES.map(|m| Matrix3::from_diagonal(&Vector3::from(m).map(DoubleDouble::from)));
+        let start = START.map(|v| Vector3::from(v).map(DoubleDouble::from));
+        for (precision, last_terms) in [(DOUBLE, 1e-17), (COARSE, 1e-9), (DOUBLE_DOUBLE, 1e-33)] {
+            let found = left_out(&slopes, &start, precision, Real::re) / last_terms;
+            assert!((0.02..0.05).contains(&found), "{precision:?}: {found:e}");
+        }
+        // Derivatives by slopes and by the start, of any size, over steps below and above one.
+        let changing = |v: f64, by: f64| Dual64::new(v, by);
+        let by_parameter = Matrix3::new(0.3, -0.7, 0.2, -0.7, 0.1, 0.9, 0.2, 0.9, -0.4);
+        for (of_slopes, of_start) in [(1.0, 0.0), (1e3, 0.0), (1e-3, 0.0), (0.0, 1.0), (0.0, 1e-3), (1.0, 1.0)] {
+            for factor in [0.01, 1.0, 100.0] {
+                let slopes = SLOPES.map(|m| {
+                    let values = Matrix3::from_diagonal(&Vector3::from(m)) * factor;
+                    values.zip_map(&(by_parameter * (of_slopes * factor)), changing)
+                });
+                let start =
+                    START.map(|v| Vector3::from(v).zip_map(&(Vector3::new(0.2, -0.5, 0.8) * of_start), changing));
+                let found = left_out(&slopes, &start, DOUBLE, derivative) / 1e-17;
+                assert!((0.01..0.06).contains(&found), "{of_slopes} {of_start} {factor}: {found:e}");
+            }
+        }
+    }
 }

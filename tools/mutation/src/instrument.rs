@@ -7,8 +7,9 @@ use std::process::Command;
 
 use serde_json::{Value, json};
 
+use crate::campaign::earlier;
 use crate::edit::{Edit, Origin, Site, apply};
-use crate::package::Package;
+use crate::package::{Package, is_among};
 use crate::sites::{self, Constants, Fault};
 
 /// One source file with what was found in it.
@@ -25,21 +26,23 @@ struct Source {
 /// The module that chooses the variant, put into the rewritten crate.
 const SWITCH: &str = include_str!("switch.txt");
 
-/// Rewrites the sources of one package of the tree. Files whose path does not begin with `prefix` get no variants.
+/// Rewrites the sources of one package of the tree. Files whose path begins with none of the `prefixes` get no variants, nor those that the record has
+/// as settled, but if ANEW is set.
 ///
 /// Writes `mutants.json` into the tree and returns the number of variants that compile.
-pub fn instrument(tree: &Path, package: &Package, prefix: &str) -> Result<usize, String> {
+pub fn instrument(tree: &Path, package: &Package, prefixes: &str) -> Result<usize, String> {
     let mut files = Vec::new();
     walk(&tree.join(package.sources), &mut files)?;
     files.sort();
     let tests = modules_of_tests(&files)?;
+    let settled = if std::env::var_os("ANEW").is_none() { earlier::settled(tree)? } else { HashSet::new() };
     files.retain(|file| !tests.contains(file));
     let mut constants: HashMap<String, Vec<String>> = HashMap::new();
     let mut sources = Vec::new();
     for path in files {
         let text = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
         let below = path.strip_prefix(tree).expect("in the tree").to_string_lossy().to_string();
-        if !below.starts_with(prefix) {
+        if !is_among(&below, prefixes) || settled.contains(&below) {
             continue;
         }
         for name in sites::constants(&text).map_err(|e| format!("{below}: {e}"))? {

@@ -1,5 +1,5 @@
-//! `mutation instrument TREE PREFIX` rewrites a copy of the tree so that every mutant of a package's files that begin so is in one build;
-//! `mutation run TREE SECONDS PREFIX` finds which tests reach each and runs those against it. See `scripts/mutation`.
+//! `mutation instrument TREE PREFIXES` rewrites a copy of the tree so that every mutant of a package's files that begin so is in one build;
+//! `mutation run TREE SECONDS PREFIXES` finds which tests reach each and runs those against it. See `scripts/mutation`.
 #![forbid(unsafe_code)]
 
 mod campaign;
@@ -16,16 +16,16 @@ use package::Package;
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let outcome = match arguments.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
-        ["instrument", tree, prefix] => Package::of(prefix)
-            .and_then(|package| instrument::instrument(Path::new(tree), package, prefix))
+        ["instrument", tree, prefixes] => Package::of_all(prefixes)
+            .and_then(|package| instrument::instrument(Path::new(tree), package, prefixes))
             .map(|count| println!("{count} mutants in one build: {tree}/mutants.json")),
-        ["run", tree, seconds, prefix] => match seconds.parse() {
+        ["run", tree, seconds, prefixes] => match seconds.parse() {
             Ok(budget) => {
-                Package::of(prefix).and_then(|package| campaign::run(Path::new(tree), package, budget, prefix))
+                Package::of_all(prefixes).and_then(|package| campaign::run(Path::new(tree), package, budget, prefixes))
             }
             Err(_) => Err(format!("seconds per mutant: {seconds} is not a number")),
         },
-        _ => Err("usage: mutation instrument TREE PREFIX | run TREE SECONDS PREFIX".into()),
+        _ => Err("usage: mutation instrument TREE PREFIXES | run TREE SECONDS PREFIXES".into()),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -30,8 +30,18 @@ const PACKAGES: [Package; 5] = [
 ];
 
 impl Package {
+    /// The package of the files that begin in one of these ways, which are separated by spaces.
+    pub fn of_all(prefixes: &str) -> Result<&'static Self, String> {
+        let mut packages = prefixes.split_whitespace().map(Self::of).collect::<Result<Vec<_>, _>>()?;
+        packages.dedup_by_key(|package| package.name);
+        match packages[..] {
+            [package] => Ok(package),
+            _ => Err(format!("`{prefixes}`: not in one package")),
+        }
+    }
+
     /// The package with a file, or with files that begin so.
-    pub fn of(file: &str) -> Result<&'static Self, String> {
+    fn of(file: &str) -> Result<&'static Self, String> {
         let found = PACKAGES.iter().find(|package| file.starts_with(package.sources));
         found.ok_or_else(|| {
             let all: Vec<&str> = PACKAGES.iter().map(|package| package.sources).collect();
@@ -45,4 +55,9 @@ impl Package {
         let kept = parts.iter().filter(|part| !["mod", "lib"].contains(part));
         std::iter::once("crate").chain(kept.copied()).collect::<Vec<_>>().join("::")
     }
+}
+
+/// Whether a file begins in one of these ways, which are separated by spaces.
+pub fn is_among(file: &str, prefixes: &str) -> bool {
+    prefixes.split_whitespace().any(|prefix| file.starts_with(prefix))
 }

@@ -115,6 +115,9 @@ struct Visitor<'a> {
 /// A variant: what is said of it, and its code.
 type Variant = (String, String);
 
+/// A variant that is left: its place at its site, its number in the build, and its code.
+type Numbered = (usize, u32, String);
+
 // What is written in place of what, in turn.
 const ASSIGNMENTS: &str = "+= -= -= += *= /= /= *=";
 const OPERATORS: &str = "+ - - + * / / * % / << >> >> <<";
@@ -168,7 +171,7 @@ impl<'a> Visitor<'a> {
     }
 
     /// Enters a site: its index, and the variants that are left with their numbers.
-    fn enter(&mut self, range: (usize, usize), variants: Vec<Variant>) -> Option<(usize, Vec<(usize, u32, String)>)> {
+    fn enter(&mut self, range: (usize, usize), variants: Vec<Variant>) -> Option<(usize, Vec<Numbered>)> {
         if variants.is_empty() {
             return None;
         }
@@ -192,7 +195,7 @@ impl<'a> Visitor<'a> {
     }
 
     /// A chain of choices that ends with the code as it was.
-    fn choice(variants: &[(usize, u32, String)], otherwise: &str) -> String {
+    fn choice(variants: &[Numbered], otherwise: &str) -> String {
         let mut text = String::new();
         for (k, number, code) in variants {
             text += &format!("if crate::mutation::active({number}) {{\u{1}{k};{code}\u{2}}} else ");

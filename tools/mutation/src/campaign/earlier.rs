@@ -6,7 +6,20 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::score::{NOT_CAUGHT, RECORD, contents, place};
+use super::score::{NOT_CAUGHT, RECORD, contents, hash_without_tests, place};
+
+/// Files of the tree, not yet rewritten, that have not changed since the record and of which nothing is left.
+pub fn settled(tree: &Path) -> Result<HashSet<String>, String> {
+    let record = fs::read_to_string(RECORD).map_err(|e| format!("{RECORD}: {e}"))?;
+    let is_settled = |line: &&str| {
+        // As in the header of the record: the last three are left.
+        let fields: Vec<&str> = line.split(',').collect();
+        let [file, content, .., lives, open, unreached] = fields[..] else { return false };
+        let text = fs::read_to_string(tree.join(file)).unwrap_or_default();
+        [lives, open, unreached] == ["0"; 3] && hash_without_tests(&text) == content
+    };
+    Ok(record.lines().skip(1).filter(is_settled).filter_map(|line| Some(line.split_once(',')?.0.to_string())).collect())
+}
 
 /// Begins the results of a tree with those of the record, for sources of the same content: what was caught is; what was not is to be run. That
 /// tests have gone, or a line of the list of equivalent mutants, is not seen: then ANEW is to be set.

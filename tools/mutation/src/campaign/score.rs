@@ -8,6 +8,7 @@ use std::process::Command;
 use serde_json::Value;
 
 use super::listed;
+use crate::package::is_among;
 
 /// Columns of the record.
 const HEADER: &str = "file,content,date,mutants,caught,equivalent,lives,open,unreached";
@@ -29,7 +30,7 @@ pub fn contents(tree: &Path, mutants: &[Value]) -> Result<HashMap<String, String
 }
 
 /// FNV-1a of what stands before the module of tests.
-fn hash_without_tests(text: &str) -> String {
+pub fn hash_without_tests(text: &str) -> String {
     let code = text.split("\n#[cfg(test)]\nmod ").next().unwrap_or(text);
     let hash = code
         .trim_end()
@@ -51,7 +52,7 @@ const KINDS: [&str; 6] = ["caught", "equivalent", "lives", "open", "unreached", 
 type Counts = [usize; 6];
 
 /// Prints the score, writes `missed.txt`, and puts the files that were run whole into `tools/mutation/record.csv` of the folder above.
-pub fn write(tree: &Path, prefix: &str, mutants: &[Value]) -> Result<(), String> {
+pub fn write(tree: &Path, prefixes: &str, mutants: &[Value]) -> Result<(), String> {
     let (equivalent, edited) = (listed::equivalent(mutants), listed::edited(mutants));
     let mut last: HashMap<u64, Value> = HashMap::new();
     for result in super::lines(&tree.join("results.jsonl"))? {
@@ -88,7 +89,7 @@ pub fn write(tree: &Path, prefix: &str, mutants: &[Value]) -> Result<(), String>
     fs::write(tree.join("missed.txt"), &missed).map_err(|e| e.to_string())?;
     if total[5] == 0 {
         // With the record, which is read against it. Those of other files stay.
-        let is_of_another = |line: &&str| line.split('\t').nth(1).is_some_and(|file| !file.starts_with(prefix));
+        let is_of_another = |line: &&str| line.split('\t').nth(1).is_some_and(|file| !is_among(file, prefixes));
         let old = fs::read_to_string(NOT_CAUGHT).map_err(|e| format!("{NOT_CAUGHT}: {e}"))?;
         let others: String = old.lines().filter(is_of_another).map(|line| format!("{line}\n")).collect();
         fs::write(NOT_CAUGHT, others + &missed).map_err(|e| format!("{NOT_CAUGHT}: {e}"))?;
