@@ -82,9 +82,8 @@ impl Epoch {
         let fraction = DoubleDouble::sum(days.high - whole, self.fraction) + days.low.into();
         let more = fraction.high.floor();
         let fraction = (fraction.high - more) + fraction.low;
-        let day = self.day + whole as i64 + more as i64;
-        // A negative remainder below the rounding of one.
-        if fraction >= 1.0 { Self { day: day + 1, fraction: 0.0 } } else { Self { day, fraction: fraction.max(0.0) } }
+        // It may be negative by less than the rounding of one.
+        Self { day: self.day + whole as i64 + more as i64, fraction: fraction.max(0.0) }
     }
 }
 
@@ -161,12 +160,30 @@ mod tests {
         assert!(high == 1e12 && low.abs() < 1e-11, "{high} {low:e}");
     }
 
+    /// Days go up and down over a midnight, and what is below the rounding of a fraction stays on its side or is none.
+    #[test]
+    fn a_fraction_is_below_one() {
+        for (start, days, expected) in [
+            ("5.0", [-1e-20, 0.0], ("5.0", 0.0)),
+            ("5.5", [-0.5, -1e-20], ("5.0", 0.0)),
+            ("5.75", [0.25, 0.0], ("6.0", 0.0)),
+            ("5.75", [0.25, -1.5e-16], ("5.75", 0.25)),
+            ("5.75", [-0.875, 0.0], ("4.875", 0.0)),
+            ("5.75", [2.5, 1e-17], ("8.25", 0.0)),
+        ] {
+            let found = epoch(start).with_days(DoubleDouble::from(days));
+            let (day, off) = (epoch(expected.0).day(), found.fraction() - epoch(expected.0).fraction() - expected.1);
+            assert!(found.day() == day && off.abs() < 2e-16 && found.fraction() < 1.0, "{start} {days:?}: {found:?}");
+        }
+    }
+
     #[test]
     fn what_is_no_date_is_refused() {
         for text in ["", ".5", "5.", "-1", "+5", "1e5", "nan", "inf", "5.5.5", "10000001", "99999999999999999999", " 1"]
         {
             assert!(text.parse::<Epoch>().is_err(), "{text}");
         }
+        assert!(matches!("5.".parse::<Epoch>(), Err(Error::Unsupported { what: "epoch (MJD)", .. })));
         assert!(Epoch::new(0, f64::NAN).is_err() && Epoch::new(0, -0.5).is_err());
         assert!(Epoch::new(i64::MAX, -9.223_372_036_854_776e18).is_err());
         for seconds in [f64::NAN, f64::INFINITY, 1e300, -1e300] {

@@ -133,7 +133,7 @@ pub fn principal_frame_with_derivatives<S: Real>(
         return Ok((PrincipalCoefficients::new([xx, yy, zz].map(S::from_f64)), rotation));
     }
     let PrincipalCoefficients { xx, yy, zz } = frame.coefficients;
-    let size = xx.abs().max(zz.abs());
+    let size = xx.max(-zz);
     // Each pass doubles the order of the derivatives that are right.
     for _ in 0..3 {
         let turned = rotation * tensor * rotation.transpose();
@@ -181,7 +181,7 @@ pub fn principal_frame_along(
         principal_frame(&tensor.map(|entry| entry.re))?;
     let PrincipalCoefficients { xx, yy, zz } = coefficients;
     Error::ensure(
-        xx - zz > 1e-12 * xx.abs().max(zz.abs()),
+        xx - zz > 1e-12 * xx.max(-zz),
         "difference of two eigenvalues of s^IJ",
         xx - zz,
         "above 1e-12 of the largest, if derivatives are wanted",
@@ -209,7 +209,7 @@ pub fn principal_frame_along(
 /// Relative error of derivatives by what [`principal_frame_along`] makes of the eigenvalues: see there.
 pub(crate) fn error_of_principal_frame_along(PrincipalCoefficients { xx, yy, zz }: PrincipalCoefficients<f64>) -> f64 {
     let (gap, spread) = ((xx - yy).min(yy - zz), xx - zz);
-    if gap <= TAKEN_FOR_EQUAL * spread { gap / spread } else { f64::EPSILON * xx.abs().max(zz.abs()) / gap }
+    if gap <= TAKEN_FOR_EQUAL * spread { gap / spread } else { f64::EPSILON * xx.max(-zz) / gap }
 }
 
 /// How near a symmetric tensor `s^IJ` is to one with two equal eigenvalues.
@@ -319,6 +319,9 @@ mod tests {
         assert!(fourth(&rotation) > 1.0);
         let defect = rotation * rotation.transpose() - Matrix3::identity();
         assert!(fourth(&defect) < 1e-9 * fourth(&rotation), "{:e}", fourth(&defect));
+        let turned = rotation * tensor * rotation.transpose();
+        let beside = turned - Matrix3::from_diagonal(&turned.diagonal());
+        assert!(fourth(&beside) < 1e-9 * fourth(&rotation), "{:e}", fourth(&beside));
     }
 
     #[test]
@@ -329,8 +332,55 @@ mod tests {
             ([3.0, -4.0 + 2e-8, -4.0], 2e-8 / 7.0),
             ([0.03, 0.01, -0.04], f64::EPSILON * 0.04 / 0.02),
             ([5.0, 3.0, -4.0], f64::EPSILON * 5.0 / 2.0),
+            ([-1.0, -3.0, -4.0], f64::EPSILON * 4.0),
         ] {
             assert!((error(values) / expected - 1.0).abs() < 1e-6, "{values:?}");
+        }
+    }
+
+    /// Equal eigenvalues are told by the largest in size, and the difference is told.
+    #[test]
+    fn derivatives_want_eigenvalues_apart() {
+        let dual = |values: [f64; 3]| Matrix3::from_diagonal(&Vector3::from(values)).map(Dual64::from_re);
+        let near = |gap: f64| [[1.0, 1.0 - gap, -10.0], [10.0, 1.0, 1.0 - gap], [-1.0, -1.0 - gap, -10.0]];
+        for (values, is_refused) in near(5e-12).map(|v| (v, true)).into_iter().chain(near(2e-11).map(|v| (v, false))) {
+            let found = principal_frame_with_derivatives(&dual(values));
+            assert_eq!(found.is_err(), is_refused, "{values:?}");
+        }
+        // No sum of two eigenvalues, nor one of them, counts.
+        for values in [[1.0, 0.3, -1.0], [2.0, 1.0, 0.0], [0.0, -1.0, -2.0], [1.0, 0.0, -2.0]] {
+            assert!(principal_frame_with_derivatives(&dual(values)).is_ok(), "{values:?}");
+        }
+        for size in [1.0, -1.0, 0.02] {
+            let values = |gap: f64| dual([size, size, size - gap * size.abs()]);
+            assert!(principal_frame_along(&values(3e-12)).is_ok());
+            match principal_frame_along(&values(5e-13)) {
+                Err(Error::Domain { value, .. }) => {
+                    assert!((value / (5e-13 * size.abs()) - 1.0).abs() < 1e-3, "{value:e}")
+                }
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+
+    /// Two eigenvalues are taken for equal by their difference over the spread; their axes keep apart, whichever part of the derivative is not symmetric.
+    #[test]
+    fn equal_eigenvalues_are_those_within_their_share_of_the_spread() {
+        let slope = Matrix3::new(0.3, 0.1, 0.2, -1.1, 0.6, 0.4, 1.4, -0.3, -0.2);
+        let along = |values: [f64; 3], slope: &Matrix3<f64>| {
+            principal_frame_along(&Matrix3::from_diagonal(&Vector3::from(values)).zip_map(slope, Dual64::new)).unwrap()
+        };
+        for (gap, is_equal) in [(5e-10, true), (1e-9, false)] {
+            for values in [[0.03, 0.03 - gap, -0.04], [0.04, -0.03 + gap, -0.03]] {
+                let (found, frame) = along(values, &slope);
+                let differences = [(found.xx - found.yy).re, (found.yy - found.zz).re];
+                assert_eq!(differences.contains(&0.0), is_equal, "{values:?}: {differences:?}");
+                let (other, _) = along(values, &((slope + slope.transpose()) / 2.0));
+                assert_eq!([found.xx, found.yy, found.zz], [other.xx, other.yy, other.zz]);
+                let turn = frame.map(|entry| entry.eps) * frame.map(|entry| entry.re).transpose();
+                let (i, j) = if differences[0] < differences[1] { (0, 1) } else { (1, 2) };
+                assert_eq!(turn[(i, j)].abs() < 1e-12, is_equal, "{values:?}: {turn}");
+            }
         }
     }
 

@@ -279,13 +279,14 @@ mod tests {
     /// `eta |v| sin(lambda) = 1 / |cos psi|` with a uniform `psi`: the quantile is `1 / cos(q pi/2)` turned about.
     #[test]
     fn at_a_known_angle_the_azimuth_alone_is_random() {
-        for lambda in [0.3_f64, 1.7] {
+        for lambda in [0.3_f64, 1.7, -0.3, 4.0] {
+            let sine = lambda.sin().abs();
             let one = EtaDistribution::from_speeds([(0.5, 1.0)]).unwrap().seen_at(lambda).unwrap();
             for probability in [0.05, 0.5, 0.95] {
-                let expected = 2.0 / (lambda.sin() * ((1.0 - probability) * FRAC_PI_2).sin());
+                let expected = 2.0 / (sine * ((1.0 - probability) * FRAC_PI_2).sin());
                 assert!((one.quantile(probability).unwrap() / expected - 1.0).abs() < 1e-13, "{lambda} {probability}");
             }
-            assert!((one.root_mean_square() * 0.5 * lambda.sin() - 2f64.sqrt()).abs() < 1e-14);
+            assert!((one.root_mean_square() * 0.5 * sine - 2f64.sqrt()).abs() < 1e-14);
         }
     }
 

@@ -206,3 +206,88 @@ impl Parameters<f64> {
         parameters.iter().map(|parameter| parameter.value(self)).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::RotationState;
+    use crate::dynamics::fixture::{ANGLES, RATES, STAR};
+
+    fn parameters() -> Parameters<f64> {
+        let s = Matrix3::new(0.03, 0.002, -0.004, 0.002, 0.01, 0.005, -0.004, 0.005, -0.02);
+        let sight = Parameters {
+            chi: 0.4,
+            delta: -0.2,
+            rho: 0.3,
+            theta_o: 1.1,
+            phi_o: 0.6,
+            ..Parameters::new(STAR, s, ANGLES, RATES)
+        };
+        Parameters { bulge: -0.7, s_scale: 2.5, strain_scale: 1.5, ..sight }
+    }
+
+    #[test]
+    fn a_change_of_a_parameter_is_that_of_its_value() {
+        let start = parameters();
+        for parameter in Parameter::OF_MOTION.into_iter().chain(Parameter::OF_SIGHT).chain(Parameter::FITTED) {
+            let start = if parameter == Parameter::Spin { start.holding_spin() } else { start };
+            let moved = start.moved(&[parameter], &[0.01]);
+            let change = moved.values(&[parameter])[0] - start.values(&[parameter])[0];
+            assert!((change - 0.01).abs() < 1e-15, "{parameter:?}: {change}");
+            // Of the combinations of s each keeps the two others.
+            let others = [Parameter::SAxial, Parameter::SAsymmetry, Parameter::STrace];
+            for other in others.into_iter().filter(|other| others.contains(&parameter) && *other != parameter) {
+                let change = moved.values(&[other])[0] - start.values(&[other])[0];
+                assert!(change.abs() < 1e-16, "{parameter:?} changes {other:?} by {change}");
+            }
+        }
+        // The tensor is multiplied by what its factor is: 3 / 2.5.
+        let scaled = start.moved(&[Parameter::SScale], &[0.5]).coefficients;
+        assert!((scaled - start.coefficients * 1.2).amax() < 1e-16);
+    }
+
+    #[test]
+    fn lifted_numbers_are_the_same() {
+        for start in [parameters(), parameters().holding_spin()] {
+            let lifted: Parameters<Dual64> = start.lifted();
+            let problem = lifted.problem().unwrap();
+            let [found, expected] = [problem.initial().vectors().map(|v| v.map(|x| x.re)), start.state().vectors()];
+            assert_eq!(found, expected);
+            assert_eq!((problem.bulge().re, lifted.spin().re), (-0.7, start.spin()));
+        }
+        assert_eq!(Parameters::new(STAR, Matrix3::zeros(), ANGLES, RATES).strain_unit, 1.0);
+    }
+
+    /// Keys are what scenes and commands call them.
+    #[test]
+    fn names_are_found_again() {
+        let keys = [(Parameter::BetaRate, "beta_rate", "beta'"), (Parameter::S(1, 0), "s_xy", "s^XY")];
+        for (parameter, key, symbol) in keys {
+            assert_eq!((parameter.key(), parameter.symbol()), (key, symbol));
+        }
+        for parameter in Parameter::FITTED {
+            assert_eq!(Parameter::named(parameter.key()), Some(parameter));
+        }
+        assert_eq!(Parameter::named("beta'"), None);
+    }
+
+    #[test]
+    fn fits_stay_within_what_is_possible() {
+        let (pi, near) = (core::f64::consts::PI, 1e-6);
+        for (parameter, limits) in [
+            (Parameter::Beta, (Some(0.0), Some(pi))),
+            (Parameter::Rho, (Some(near), Some(pi - near))),
+            (Parameter::Oblateness, (Some(-0.999), Some(1.0))),
+            (Parameter::Spin, (None, None)),
+        ] {
+            assert_eq!(parameter.limits(), limits, "{parameter:?}");
+        }
+        // A radian, or the largest of the rates of alpha and beta and of the spin.
+        let of = |alpha: f64, beta: f64, spin: f64| {
+            let rates = EulerRates { alpha, beta, gamma: spin - alpha * ANGLES.beta.cos() };
+            Parameter::GammaRate.range(&Parameters::new(STAR, Matrix3::zeros(), ANGLES, rates))
+        };
+        assert_eq!((Parameter::Chi.range(&parameters()), of(-3.0, 0.1, 0.2), of(0.1, -3.0, 0.2)), (1.0, 3.0, 3.0));
+        assert!((of(0.1, 0.2, -3.0) - 3.0).abs() < 1e-15);
+    }
+}

@@ -231,6 +231,8 @@ fn direction_of(axis: &Vector3<f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dynamics::fixture::{STAR, problem, tensor};
+    use crate::propagation::Motion;
 
     #[test]
     fn rounding_does_not_choose_the_direction_of_an_axis() {
@@ -238,6 +240,51 @@ mod tests {
             assert_eq!(direction_of(&Vector3::new(1.0 + off, -1.0, 0.0)), 1.0);
             assert_eq!(direction_of(&Vector3::new(-1.0, 1.0 + off, 1.0 - off)), -1.0);
             assert_eq!(direction_of(&Vector3::new(0.1, off, -0.9)), -1.0);
+        }
+    }
+
+    /// A turn of `L` about itself in 2 pi I^xx / |L|, and back about `n` by the oblateness; nothing goes round with `L`.
+    #[test]
+    fn a_free_motion_is_uniform_at_any_time() {
+        let problem = problem([0.0; 3]);
+        let motion = PhasedMotion::exact(&problem, 1e12).unwrap();
+        assert!(matches!(motion.solution, Solution::Uniform(_)));
+        assert_eq!(motion.precession_of_momentum(), Some(0.0));
+        let BodyState { axis, momentum, .. } = problem.initial();
+        let spin = momentum.dot(axis) / STAR.inertia_zz;
+        let rates = [momentum.norm() / STAR.inertia_xx, -STAR.oblateness() * spin];
+        assert!(
+            (motion.rates()[0] / rates[0] - 1.0).abs() < 1e-15 && (motion.rates()[2] / rates[1] - 1.0).abs() < 1e-15
+        );
+        for t in [[12.5, 0.25], [-3e3, 1e-14], [1e3, 7.5]] {
+            let turns = motion.turns(t);
+            for (turns, rate) in [turns[0], turns[2]].into_iter().zip(rates) {
+                let expected = rate * (t[0] + t[1]) / TAU;
+                assert!((turns.whole as f64 + turns.fraction - expected).abs() < 1e-15 * (1.0 + expected.abs()));
+                assert!(turns.fraction.abs() <= 0.5);
+            }
+            let by_series = problem.taylor((0.0, t[0] + t[1]), 1e-16).unwrap().state(t[0] + t[1]).unwrap();
+            for (found, expected) in motion.state(t).vectors().iter().zip(by_series.vectors()) {
+                assert!((found - expected).amax() < 1e-12 * (1.0 + t[0].abs() / 1e3), "{found} {expected}");
+            }
+        }
+        // Seconds that are below the rounding of a long time turn it on.
+        let [first, later] = [[1e9, 0.0], [1e9, 1e-8]].map(|t| motion.turns(t)[0].fraction);
+        assert!(((later - first) * TAU / rates[0] / 1e-8 - 1.0).abs() < 1e-6);
+    }
+
+    /// `L` on the middle axis has no torus beside it: a motion of weak torque is the averaged one to rounding, one of a strong torque is refused.
+    #[test]
+    fn without_a_torus_a_motion_is_averaged_or_refused() {
+        for (strength, is_there) in [(1e-10, true), (0.02, false)] {
+            let (axis, equatorial_axis) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.8, 0.0, -0.6));
+            let start = BodyState { axis, momentum: Vector3::y() * 1.7, equatorial_axis };
+            let problem = Problem::new(STAR, tensor([1.0, 0.5, -1.5]) * strength, start).unwrap();
+            match PhasedMotion::exact(&problem, 1.0).map(|motion| motion.solution) {
+                Ok(Solution::Averaged { .. }) => assert!(is_there),
+                Err(Error::NotConverged { .. }) => assert!(!is_there),
+                _ => panic!("{strength}: another motion, or refused for another reason"),
+            }
         }
     }
 }

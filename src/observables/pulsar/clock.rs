@@ -267,16 +267,12 @@ impl PulsarClock {
     /// stretched time leaves out, what angles that are off by `C |s| I^xx / |L|^2` do to the lateness by the varying torque, and what a `C` that does not fall would add to the precession of `L`; of a damped wobble what it changes of the rates by `C`.
     pub fn truncation(&self, t: f64) -> f64 {
         let of_motion = self.motion.truncation(t) / self.turns.rate(&self.motion);
-        if self.time.is_uniform() && self.time.precession().damping == 0.0 {
-            return of_motion;
-        }
         let state = self.motion.problem.initial();
         let precession = self.strength() * state.momentum.norm() / self.motion.problem.spheroid().inertia_xx;
         let slowed = self.time.braking().rate * t * t;
         // Rates by a rigid C go with the square of the wobble, times 3 / 2 that of L and less than 3 / 2 that about n; the tilt is that of a wobble right to the strength.
-        let Precession { wobble, damping, .. } = *self.time.precession();
-        let now = self.time.precession().wobble_at(t);
-        let damped = if damping == 0.0 { 0.0 } else { 3.0 * (now.sin().powi(2) - wobble.sin().powi(2)) * t };
+        let (wobble, now) = (self.time.precession().wobble, self.time.precession().wobble_at(t));
+        let damped = 3.0 * (now.sin().powi(2) - wobble.sin().powi(2)) * t;
         let tilt = self.strength() * (now - wobble).abs();
         let rigid = (precession * (slowed.abs() + damped.abs()) + tilt) / self.turns.rate(&self.motion);
         of_motion + self.time.truncation(t) + self.time.error_by_angles(self.strength()) + rigid

@@ -132,3 +132,13 @@ pub(super) fn apart<S: Real>(a: &Axes<S>, b: &Axes<S>, unit: f64) -> f64 {
 pub(super) fn derivative<S: Real>(x: S) -> f64 {
     cast::<S, Dual64>(x).map_or(0.0, |dual| dual.eps)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_without_derivatives_have_none() {
+        assert_eq!((derivative(2.5), derivative(Dual64::new(2.5, -0.7))), (0.0, -0.7));
+    }
+}
