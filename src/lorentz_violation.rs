@@ -376,7 +376,8 @@ mod tests {
                 let differences = [(found.xx - found.yy).re, (found.yy - found.zz).re];
                 assert_eq!(differences.contains(&0.0), is_equal, "{values:?}: {differences:?}");
                 let (other, _) = along(values, &((slope + slope.transpose()) / 2.0));
-                assert_eq!([found.xx, found.yy, found.zz], [other.xx, other.yy, other.zz]);
+                let slopes = |values: PrincipalCoefficients<Dual64>| [values.xx, values.yy, values.zz].map(|x| x.eps);
+                assert_eq!(slopes(found), slopes(other));
                 let turn = frame.map(|entry| entry.eps) * frame.map(|entry| entry.re).transpose();
                 let (i, j) = if differences[0] < differences[1] { (0, 1) } else { (1, 2) };
                 assert_eq!(turn[(i, j)].abs() < 1e-12, is_equal, "{values:?}: {turn}");
