@@ -82,8 +82,9 @@ impl Epoch {
         let fraction = DoubleDouble::sum(days.high - whole, self.fraction) + days.low.into();
         let more = fraction.high.floor();
         let fraction = (fraction.high - more) + fraction.low;
-        // It may be negative by less than the rounding of one.
-        Self { day: self.day + whole as i64 + more as i64, fraction: fraction.max(0.0) }
+        let day = self.day + whole as i64 + more as i64;
+        // A negative remainder below the rounding of one.
+        if fraction >= 1.0 { Self { day: day + 1, fraction: 0.0 } } else { Self { day, fraction: fraction.max(0.0) } }
     }
 }
 
@@ -170,10 +171,19 @@ mod tests {
             ("5.75", [0.25, -1.5e-16], ("5.75", 0.25)),
             ("5.75", [-0.875, 0.0], ("4.875", 0.0)),
             ("5.75", [2.5, 1e-17], ("8.25", 0.0)),
+            ("5.0", [1.0, -1e-20], ("6.0", 0.0)),
+            ("5.0", [-1.0, -1e-20], ("4.0", 0.0)),
         ] {
             let found = epoch(start).with_days(DoubleDouble::from(days));
             let (day, off) = (epoch(expected.0).day(), found.fraction() - epoch(expected.0).fraction() - expected.1);
             assert!(found.day() == day && off.abs() < 2e-16 && found.fraction() < 1.0, "{start} {days:?}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn a_midnight_less_a_picosecond_is_written_as_that_midnight() {
+        for (seconds, text) in [([86_400.0, -1e-12], "6.0"), ([-86_400.0, -1e-12], "4.0")] {
+            assert_eq!(epoch("5.0").after(seconds).expect("a date").to_string(), text);
         }
     }
 

@@ -241,6 +241,18 @@ mod tests {
                 assert!(change.abs() < 1e-16, "{parameter:?} changes {other:?} by {change}");
             }
         }
+        let by_field = [
+            (Parameter::Chi, Parameters { chi: start.chi + 0.01, ..start }),
+            (Parameter::Delta, Parameters { delta: start.delta + 0.01, ..start }),
+            (Parameter::Rho, Parameters { rho: start.rho + 0.01, ..start }),
+            (Parameter::ThetaO, Parameters { theta_o: start.theta_o + 0.01, ..start }),
+            (Parameter::PhiO, Parameters { phi_o: start.phi_o + 0.01, ..start }),
+            (Parameter::AlphaRate, Parameters { alpha_rate: start.alpha_rate + 0.01, ..start }),
+            (Parameter::BetaRate, Parameters { beta_rate: start.beta_rate + 0.01, ..start }),
+        ];
+        for (parameter, expected) in by_field {
+            assert_eq!(start.moved(&[parameter], &[0.01]), expected, "{parameter:?}");
+        }
         // The tensor is multiplied by what its factor is: 3 / 2.5.
         let scaled = start.moved(&[Parameter::SScale], &[0.5]).coefficients;
         assert!((scaled - start.coefficients * 1.2).amax() < 1e-16);
@@ -254,6 +266,8 @@ mod tests {
             let [found, expected] = [problem.initial().vectors().map(|v| v.map(|x| x.re)), start.state().vectors()];
             assert_eq!(found, expected);
             assert_eq!((problem.bulge().re, lifted.spin().re), (-0.7, start.spin()));
+            let sight = [lifted.chi, lifted.delta, lifted.rho, lifted.theta_o, lifted.phi_o].map(|x| x.re);
+            assert_eq!(sight, [0.4, -0.2, 0.3, 1.1, 0.6]);
         }
         assert_eq!(Parameters::new(STAR, Matrix3::zeros(), ANGLES, RATES).strain_unit, 1.0);
     }

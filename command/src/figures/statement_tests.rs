@@ -38,11 +38,11 @@ fn the_spectra_of_the_beam_have_the_lines_that_are_named() {
     let near_its_line = |row: &&Vec<f64>| (row[0] / slow("tp-II")[0] - 1.0).abs() < 0.1;
     let strongest = lines("tp-II").rows.iter().find(near_its_line).expect("a line");
     assert_eq!(multiples(strongest), [0.0, 0.0, -1.0]);
-    assert_says("beam-alignment-spectra", "tp-I has it too, but 600 times weaker");
-    assert!((lines("tp-I").rows[0][1] / slow("tp-I")[1] / 600.0 - 1.0).abs() < 0.1);
+    assert_says("beam-alignment-spectra", "tp-I has it too, but some 640 times weaker");
+    assert!((lines("tp-I").rows[0][1] / slow("tp-I")[1] / 640.0 - 1.0).abs() < 0.02);
 }
 
-/// The rates of a caption are the frequencies of lines, those of tp-I with the signs of a motion to the right about Z.
+/// The rates of a caption are the frequencies of lines of `m.n`.
 #[test]
 fn mean_rates_in_captions_are_frequencies_of_lines() {
     for figure_name in ["beam-alignment-spectra", "wave-spectra"] {
@@ -106,37 +106,56 @@ fn power(name: &str, beta_0: f64, parameters: [f64; 2]) -> f64 {
     (b[2] / a[2]).ln() / (b[1] / a[1]).ln()
 }
 
+/// Where the error is eight times what is left at the smallest `A`, that is an eighth of it, and changes a power between two rows by up to 0.1 or so.
 #[test]
-fn errors_of_perturbation_grow_as_the_caption_says() {
-    let near = |found: f64, expected: f64| assert!((found - expected).abs() < 0.15, "{found}, expected {expected}");
-    let ratio = |beta_0: f64| error("single-printed", beta_0, 0.01)[2] / error("single-corrected", beta_0, 0.01)[2];
-    assert_says("perturbation-regimes", "printed twofold solution grows as *A*,");
-    assert_says("perturbation-regimes", "that of the corrected one as the square of *A*");
-    for beta_0 in [0.7, 1.1, 1.5] {
-        near(power("twofold-printed", beta_0, [1e-3, 1e-2]), 1.0);
-        near(power("twofold-corrected", beta_0, [3e-2, 1e-1]), 2.0);
+fn errors_of_twofold_precession_grow_as_the_caption_says() {
+    assert_says("perturbation-regimes", "Up to an *A* of 0.03 the error of the printed twofold solution grows as *A*,");
+    assert_says(
+        "perturbation-regimes",
+        "up to 0.3 that of the corrected one as the square of *A*, each from where it is above",
+    );
+    let cases = [("twofold-printed", 1.0, [1e-3, 3e-3, 1e-2]), ("twofold-corrected", 2.0, [1e-2, 3e-2, 1e-1])];
+    for (name, expected, amplitudes) in cases {
+        let mut compared = 0;
+        for beta_0 in [0.35, 0.5, 0.65, 0.8, 0.95, 1.1, 1.25, 1.4] {
+            let rest = error(name, beta_0, 1e-4)[2];
+            for from in amplitudes.into_iter().filter(|from| error(name, beta_0, *from)[2] > 8.0 * rest) {
+                let found = power(name, beta_0, [from, 3.0 * from]);
+                assert!((found - expected).abs() < 0.25, "{name} {beta_0} {from}: {found}");
+                compared += 1;
+            }
+        }
+        assert!(compared >= 16, "{name}: {compared}");
     }
     assert_says(
         "perturbation-regimes",
-        "some multiple of the square of *s*, which for the corrected one vanishes towards *β*_{0} = π/2",
+        "some 10^{−4} for inclinations up to 0.8; of the corrected solution it vanishes towards",
     );
-    // A tenth of the examples' s.
-    let square = (0.1 * (COEFFICIENTS.xx - COEFFICIENTS.zz)).powi(2);
-    for beta_0 in [0.2, 0.35, 0.5] {
+    for beta_0 in [0.2, 0.35, 0.5, 0.65, 0.8] {
         let least = ["twofold-printed", "twofold-corrected"].map(|name| error(name, beta_0, 1e-4)[2]);
-        assert!(least.iter().all(|least| *least > 3.0 * square && *least < 10.0 * square), "{least:?}, {square}");
+        assert!(least.iter().all(|least| (1e-4..4e-4).contains(least)), "{beta_0}: {least:?}");
     }
-    assert!(error("twofold-corrected", 1.5, 1e-4)[2] < 1e-3 * square);
+    assert!(error("twofold-corrected", 1.5, 1e-4)[2] < 1e-7);
+}
+
+#[test]
+fn errors_of_single_precession_grow_as_the_caption_says() {
     assert_says("perturbation-regimes", "corrected single solution grows as the square of the asymmetry");
-    assert_says(
-        "perturbation-regimes",
-        "has a further error, proportional to the asymmetry, which is small near *β*_{0} = 0 and the larger part about *β*_{0} = 1",
-    );
     for beta_0 in [0.35, 0.7, 1.0, 1.1] {
-        near(power("single-corrected", beta_0, [0.015, 0.05]), 2.0);
+        let found = power("single-corrected", beta_0, [0.015, 0.05]);
+        assert!((found - 2.0).abs() < 0.15, "{beta_0}: {found}");
     }
-    near(power("single-printed", 1.0, [0.01, 0.016]), 1.0);
-    assert!(ratio(0.05) < 1.05 && ratio(1.0) > 5.0);
+    assert_says("perturbation-regimes", "half of the asymmetry at *β*_{0} = 1 and less at smaller inclinations");
+    let further = |beta_0: f64, asymmetry: f64| {
+        let [printed, corrected] = ["single-printed", "single-corrected"].map(|name| error(name, beta_0, asymmetry));
+        [(printed[2] - corrected[2]) / printed[1], printed[2] / corrected[2]]
+    };
+    for asymmetry in [0.01, 0.02, 0.03, 0.05] {
+        let [share, ratio] = further(1.0, asymmetry);
+        assert!((share - 0.5).abs() < 0.08 && ratio > 2.0, "{asymmetry}: {share} {ratio}");
+        let shares = [0.2, 0.5, 0.7, 0.9].map(|beta_0| further(beta_0, asymmetry)[0]);
+        assert!(shares.is_sorted() && shares[3] < share && shares[0] < 0.1 * share, "{asymmetry}: {shares:?} {share}");
+    }
     assert_says("perturbation-regimes", "At the asymmetry of sp-I the correction takes a quarter off an error of 0.03");
     let [printed, corrected] = ["single-printed", "single-corrected"].map(|name| error(name, 0.7, 1.0 / 11.0)[2]);
     assert!((printed - 0.03).abs() < 0.002 && (corrected / printed - 0.75).abs() < 0.02, "{printed} {corrected}");
@@ -165,13 +184,18 @@ fn errors_of_methods_grow_as_the_caption_says() {
     assert!(rows("tilted").all(|row| row[4].min(row[5]) > 0.09));
     assert_says(
         "method-regimes",
-        "at first drifts by 0.03*xt*/*t*_{c}, the corrected one by 0.001 to 0.006 of *xt*/*t*_{c}",
+        "from 10 *t*_{c} until its error is 0.002, the printed single solution drifts by 0.03*xt*/*t*_{c}",
     );
-    for row in rows("single").filter(|row| row[0] < 1.01e-3 && row[1] > 10.0) {
-        let [corrected, printed] = [row[4], row[5]].map(|error| error / (row[0] * row[1]));
-        // At first: up to an error of 0.002.
-        assert!(row[4] > 2e-3 || (0.001..0.006).contains(&corrected), "{row:?}");
-        assert!(row[5] > 2e-3 || (0.025..0.036).contains(&printed), "{row:?}");
+    assert_says("method-regimes", "the corrected one by 0.0015 to 0.004 of *xt*/*t*_{c}");
+    let (mut of_printed, mut of_corrected) = (Vec::new(), Vec::new());
+    for row in rows("single").filter(|row| row[0] < 1.01e-3 && row[1] > 9.9) {
+        let drift = |error: f64| (error <= 2e-3).then_some(error / (row[0] * row[1]));
+        of_corrected.extend(drift(row[4]));
+        of_printed.extend(drift(row[5]));
+    }
+    for (drifts, [low, high]) in [(of_printed, [0.025, 0.036]), (of_corrected, [0.0014, 0.0041])] {
+        let outside: Vec<_> = drifts.iter().filter(|drift| **drift < low || **drift > high).collect();
+        assert!(outside.is_empty() && drifts.len() > 40, "{outside:?} of {}", drifts.len());
     }
 }
 

@@ -267,12 +267,16 @@ impl PulsarClock {
     /// stretched time leaves out, what angles that are off by `C |s| I^xx / |L|^2` do to the lateness by the varying torque, and what a `C` that does not fall would add to the precession of `L`; of a damped wobble what it changes of the rates by `C`.
     pub fn truncation(&self, t: f64) -> f64 {
         let of_motion = self.motion.truncation(t) / self.turns.rate(&self.motion);
+        if self.time.is_uniform() && self.time.precession().damping == 0.0 {
+            return of_motion;
+        }
         let state = self.motion.problem.initial();
         let precession = self.strength() * state.momentum.norm() / self.motion.problem.spheroid().inertia_xx;
         let slowed = self.time.braking().rate * t * t;
         // Rates by a rigid C go with the square of the wobble, times 3 / 2 that of L and less than 3 / 2 that about n; the tilt is that of a wobble right to the strength.
-        let (wobble, now) = (self.time.precession().wobble, self.time.precession().wobble_at(t));
-        let damped = 3.0 * (now.sin().powi(2) - wobble.sin().powi(2)) * t;
+        let Precession { wobble, damping, .. } = *self.time.precession();
+        let now = self.time.precession().wobble_at(t);
+        let damped = if damping == 0.0 { 0.0 } else { 3.0 * (now.sin().powi(2) - wobble.sin().powi(2)) * t };
         let tilt = self.strength() * (now - wobble).abs();
         let rigid = (precession * (slowed.abs() + damped.abs()) + tilt) / self.turns.rate(&self.motion);
         of_motion + self.time.truncation(t) + self.time.error_by_angles(self.strength()) + rigid
@@ -549,7 +553,10 @@ mod tests {
             }
         }
         let undisturbed = precessing(strength);
-        assert_eq!(undisturbed.truncation(1e3), undisturbed.motion.truncation(1e3) / turns);
+        for t in [1e3, -1e3] {
+            assert_eq!(undisturbed.truncation(t), undisturbed.motion.truncation(t) / turns);
+        }
+        assert!(undisturbed.truncation(f64::INFINITY) > 0.0);
         // A motion near a time is that of the clock.
         let near = Near { clock: &undisturbed, t: [1e3, 1e-3] };
         assert_eq!(near.error_estimate(5.0), undisturbed.motion.error_estimate(1005.0));

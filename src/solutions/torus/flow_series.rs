@@ -251,6 +251,7 @@ mod tests {
     fn terms_are_the_same_by_any_instructions() {
         let (single, double) = (series::<f64>(DOUBLE), series::<DoubleDouble>(DOUBLE_DOUBLE));
         assert_eq!((single.terms.len(), double.terms.len()), (27, 45));
+        assert_eq!(series::<f64>(COARSE).terms.len(), 15);
         let mut plainly = vec![START.map(|v| Padded::from(Vector3::from(v)))];
         add_terms(plain(), &SLOPES.map(|m| Matrix3::from_diagonal(&Vector3::from(m))), 26, &mut plainly);
         for (a, b) in plainly.iter().flatten().zip(single.terms.iter().flatten()) {
@@ -320,7 +321,8 @@ mod tests {
         size(order + 1..=order + 16, step) / size(0..=order, step.min(1.0))
     }
 
-    /// Terms fall by some 1 / 30 from the last one on: of the order of the series over `L` times the step.
+    /// The terms after the last fall by a ratio `q`, from one of the size of the last: `q / (1 - q)` of it is left out. At these steps `q` is 0.02 to 0.05: the step is a fraction of that
+    /// at which the series converges, so small that its last term is rounding.
     #[test]
     fn steps_are_as_long_as_the_precision_allows() {
         let slopes = SLOPES.map(|m| Matrix3::from_diagonal(&Vector3::from(m).map(DoubleDouble::from)));

@@ -110,7 +110,7 @@ pub fn run(tree: &Path, package: &Package, budget: f64, prefixes: &str) -> Resul
             });
         }
     });
-    score::write(tree, prefixes, &mutants)
+    score::write(tree, &mutants)
 }
 
 /// Places of a mutant that tests are remembered for: its function and its file.

@@ -37,25 +37,27 @@ pub fn instrument(tree: &Path, package: &Package, prefixes: &str) -> Result<usiz
     let tests = modules_of_tests(&files)?;
     let settled = if std::env::var_os("ANEW").is_none() { earlier::settled(tree)? } else { HashSet::new() };
     files.retain(|file| !tests.contains(file));
-    let mut constants: HashMap<String, Vec<String>> = HashMap::new();
+    let mut definitions: HashMap<String, Vec<Option<String>>> = HashMap::new();
     let mut sources = Vec::new();
     for path in files {
         let text = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
         let below = path.strip_prefix(tree).expect("in the tree").to_string_lossy().to_string();
-        if !is_among(&below, prefixes) || settled.contains(&below) {
-            continue;
-        }
+        let is_rewritten = is_among(&below, prefixes) && !settled.contains(&below);
         for name in sites::constants(&text).map_err(|e| format!("{below}: {e}"))? {
-            constants.entry(name).or_default().push(package.module_of(&below));
+            let module = is_rewritten.then(|| package.module_of(&below));
+            definitions.entry(name).or_default().push(module);
         }
-        sources.push(Source { path, text, faults: faults_of(&below)?, ..Source::default() });
+        if is_rewritten {
+            sources.push(Source { path, text, faults: faults_of(&below)?, ..Source::default() });
+        }
     }
-    constants.retain(|_, modules| modules.len() == 1);
-    let with_path = |(name, modules): (String, Vec<String>)| {
-        let path = format!("{}::{}", modules[0], sites::function_of(&name));
-        (name, path)
+    // Those with one definition in the whole package, which is rewritten: they are called by their names alone.
+    let with_path = |(name, modules): (String, Vec<Option<String>>)| {
+        let [Some(module)] = &modules[..] else { return None };
+        let path = format!("{module}::{}", sites::function_of(&name));
+        Some((name, path))
     };
-    let constants: Constants = constants.into_iter().map(with_path).collect();
+    let constants: Constants = definitions.into_iter().filter_map(with_path).collect();
     let mut dropped: HashSet<u32> = HashSet::new();
     prepare(tree, package)?;
     for round in 1..=40 {

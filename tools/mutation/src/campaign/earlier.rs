@@ -22,17 +22,27 @@ pub fn settled(tree: &Path) -> Result<HashSet<String>, String> {
 }
 
 /// Begins the results of a tree with those of the record, for sources of the same content: what was caught is; what was not is to be run. That
-/// tests have gone, or a line of the list of equivalent mutants, is not seen: then ANEW is to be set.
+/// tests have gone, a line of the list of equivalent mutants, or that there is a new operator or fault, is not seen: then ANEW is to be set.
 pub fn begin(tree: &Path, mutants: &[Value]) -> Result<(), String> {
     let results = tree.join("results.jsonl");
     if results.exists() {
         return Ok(());
     }
     let record = fs::read_to_string(RECORD).map_err(|e| format!("{RECORD}: {e}"))?;
-    let recorded: HashMap<&str, &str> =
-        record.lines().filter_map(|line| line.split(',').next().zip(line.split(',').nth(1))).collect();
     let list = fs::read_to_string(NOT_CAUGHT).map_err(|e| format!("{NOT_CAUGHT}: {e}"))?;
     let left: HashSet<&str> = list.lines().filter_map(|line| Some(line.split_once('\t')?.1)).collect();
+    // What is left of a file must all be in the list, or the file is run anew.
+    let is_listed = |file: &str, counts: [&str; 3]| {
+        let sum: usize = counts.iter().filter_map(|count| count.parse::<usize>().ok()).sum();
+        let lines = list.lines().filter(|line| line.split('\t').nth(1) == Some(file)).count();
+        sum == lines
+    };
+    let known = |line| {
+        let fields: Vec<&str> = str::split(line, ',').collect();
+        let [file, content, .., lives, open, unreached] = fields[..] else { return None };
+        is_listed(file, [lives, open, unreached]).then_some((file, content))
+    };
+    let recorded: HashMap<&str, &str> = record.lines().skip(1).filter_map(known).collect();
     let contents = contents(tree, mutants)?;
     let mut text = String::new();
     for mutant in mutants {

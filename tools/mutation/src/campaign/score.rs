@@ -8,7 +8,6 @@ use std::process::Command;
 use serde_json::Value;
 
 use super::listed;
-use crate::package::is_among;
 
 /// Columns of the record.
 const HEADER: &str = "file,content,date,mutants,caught,equivalent,lives,open,unreached";
@@ -31,7 +30,11 @@ pub fn contents(tree: &Path, mutants: &[Value]) -> Result<HashMap<String, String
 
 /// FNV-1a of what stands before the module of tests.
 pub fn hash_without_tests(text: &str) -> String {
-    let code = text.split("\n#[cfg(test)]\nmod ").next().unwrap_or(text);
+    // A line `mod tests;` is no module of tests: code follows it.
+    let begins =
+        text.match_indices("\n#[cfg(test)]\nmod ").map(|(at, mark)| (at, text[at + mark.len()..].lines().next()));
+    let end = begins.filter(|(_, line)| line.is_some_and(|line| line.ends_with('{'))).map(|(at, _)| at).next();
+    let code = &text[..end.unwrap_or(text.len())];
     let hash = code
         .trim_end()
         .bytes()
@@ -52,7 +55,7 @@ const KINDS: [&str; 6] = ["caught", "equivalent", "lives", "open", "unreached", 
 type Counts = [usize; 6];
 
 /// Prints the score, writes `missed.txt`, and puts the files that were run whole into `tools/mutation/record.csv` of the folder above.
-pub fn write(tree: &Path, prefixes: &str, mutants: &[Value]) -> Result<(), String> {
+pub fn write(tree: &Path, mutants: &[Value]) -> Result<(), String> {
     let (equivalent, edited) = (listed::equivalent(mutants), listed::edited(mutants));
     let mut last: HashMap<u64, Value> = HashMap::new();
     for result in super::lines(&tree.join("results.jsonl"))? {
@@ -88,8 +91,11 @@ pub fn write(tree: &Path, prefixes: &str, mutants: &[Value]) -> Result<(), Strin
     row("all", total.map(|n| n.to_string()));
     fs::write(tree.join("missed.txt"), &missed).map_err(|e| e.to_string())?;
     if total[5] == 0 {
-        // With the record, which is read against it. Those of other files stay.
-        let is_of_another = |line: &&str| line.split('\t').nth(1).is_some_and(|file| !is_among(file, prefixes));
+        // With the record, which is read against it. Those of other files stay, but of files that are gone.
+        let is_of_another = |line: &&str| {
+            let file = line.split('\t').nth(1);
+            file.is_some_and(|file| !by_file.contains_key(file) && Path::new(file).exists())
+        };
         let old = fs::read_to_string(NOT_CAUGHT).map_err(|e| format!("{NOT_CAUGHT}: {e}"))?;
         let others: String = old.lines().filter(is_of_another).map(|line| format!("{line}\n")).collect();
         fs::write(NOT_CAUGHT, others + &missed).map_err(|e| format!("{NOT_CAUGHT}: {e}"))?;
