@@ -106,7 +106,8 @@ fn power(name: &str, beta_0: f64, parameters: [f64; 2]) -> f64 {
     (b[2] / a[2]).ln() / (b[1] / a[1]).ln()
 }
 
-/// Where the error is eight times what is left at the smallest `A`, that is an eighth of it, and changes a power between two rows by up to 0.1 or so.
+/// Where the error is above eight times the rest at the smallest `A`, that rest takes at most `ln(9/8) / ln 3`, 0.11, from a power over a factor of
+/// three; the next order changes it about as much.
 #[test]
 fn errors_of_twofold_precession_grow_as_the_caption_says() {
     assert_says("perturbation-regimes", "Up to an *A* of 0.03 the error of the printed twofold solution grows as *A*,");

@@ -16,14 +16,14 @@ use std::time::Instant;
 
 use serde_json::{Value, json};
 
-use crate::package::{Package, is_among};
+use crate::package::Package;
 use suite::{Outcome, Suite, Test};
 
-/// Runs the campaign, with `budget` seconds of tests for each mutant in files that begin with one of the `prefixes`.
+/// Runs the campaign, with `budget` seconds of tests for each mutant in the tree.
 ///
 /// Reads `mutants.json`, keeps `coverage.json` and appends to `results.jsonl`, all in the tree; goes on where it stopped. What is listed as
 /// equivalent is not run, nor what the record has as caught in a source that has not changed, but if ANEW is set.
-pub fn run(tree: &Path, package: &Package, budget: f64, prefixes: &str) -> Result<(), String> {
+pub fn run(tree: &Path, package: &Package, budget: f64) -> Result<(), String> {
     let mutants = lines(&tree.join("mutants.json"))?;
     // Only some tests: what they do not catch is as open as before.
     let only = std::env::var("ONLY").ok();
@@ -48,7 +48,6 @@ pub fn run(tree: &Path, package: &Package, budget: f64, prefixes: &str) -> Resul
         .collect();
     let open: Vec<&Value> = mutants
         .iter()
-        .filter(|m| is_among(m["file"].as_str().unwrap_or(""), prefixes))
         .filter(|m| {
             let number = m["number"].as_u64().unwrap_or(0);
             let listed = equivalent.contains(&number) || edited.contains(&number);

@@ -51,6 +51,11 @@ pub fn instrument(tree: &Path, package: &Package, prefixes: &str) -> Result<usiz
             sources.push(Source { path, text, faults: faults_of(&below)?, ..Source::default() });
         }
     }
+    if sources.is_empty() {
+        return Err(format!(
+            "{prefixes}: nothing has changed since the record or is left of it; ANEW=1 runs it all the same"
+        ));
+    }
     // Those with one definition in the whole package, which is rewritten: they are called by their names alone.
     let with_path = |(name, modules): (String, Vec<Option<String>>)| {
         let [Some(module)] = &modules[..] else { return None };

@@ -20,9 +20,7 @@ fn main() -> ExitCode {
             .and_then(|package| instrument::instrument(Path::new(tree), package, prefixes))
             .map(|count| println!("{count} mutants in one build: {tree}/mutants.json")),
         ["run", tree, seconds, prefixes] => match seconds.parse() {
-            Ok(budget) => {
-                Package::of_all(prefixes).and_then(|package| campaign::run(Path::new(tree), package, budget, prefixes))
-            }
+            Ok(budget) => Package::of_all(prefixes).and_then(|package| campaign::run(Path::new(tree), package, budget)),
             Err(_) => Err(format!("seconds per mutant: {seconds} is not a number")),
         },
         _ => Err("usage: mutation instrument TREE PREFIXES | run TREE SECONDS PREFIXES".into()),

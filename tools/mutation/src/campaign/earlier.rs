@@ -8,17 +8,33 @@ use serde_json::{Value, json};
 
 use super::score::{NOT_CAUGHT, RECORD, contents, hash_without_tests, place};
 
+/// A row of the record: a file, the hash of its source, and how many of its mutants are left.
+struct Row {
+    file: String,
+    content: String,
+    left: usize,
+}
+
+fn record() -> Result<Vec<Row>, String> {
+    let text = fs::read_to_string(RECORD).map_err(|e| format!("{RECORD}: {e}"))?;
+    let row = |line: &str| {
+        let fields: Vec<&str> = line.split(',').collect();
+        // As in the header.
+        let [file, content, .., lives, open, unreached] = fields[..] else { return Err(format!("{RECORD}: {line}")) };
+        let counts = [lives, open, unreached].map(str::parse::<usize>);
+        let left = counts.into_iter().sum::<Result<usize, _>>().map_err(|e| format!("{RECORD}: {line}: {e}"))?;
+        Ok(Row { file: file.to_string(), content: content.to_string(), left })
+    };
+    text.lines().skip(1).map(row).collect()
+}
+
 /// Files of the tree, not yet rewritten, that have not changed since the record and of which nothing is left.
 pub fn settled(tree: &Path) -> Result<HashSet<String>, String> {
-    let record = fs::read_to_string(RECORD).map_err(|e| format!("{RECORD}: {e}"))?;
-    let is_settled = |line: &&str| {
-        // As in the header of the record: the last three are left.
-        let fields: Vec<&str> = line.split(',').collect();
-        let [file, content, .., lives, open, unreached] = fields[..] else { return false };
-        let text = fs::read_to_string(tree.join(file)).unwrap_or_default();
-        [lives, open, unreached] == ["0"; 3] && hash_without_tests(&text) == content
+    let is_settled = |row: &Row| {
+        let text = fs::read_to_string(tree.join(&row.file)).unwrap_or_default();
+        row.left == 0 && hash_without_tests(&text) == row.content
     };
-    Ok(record.lines().skip(1).filter(is_settled).filter_map(|line| Some(line.split_once(',')?.0.to_string())).collect())
+    Ok(record()?.into_iter().filter(is_settled).map(|row| row.file).collect())
 }
 
 /// Begins the results of a tree with those of the record, for sources of the same content: what was caught is; what was not is to be run. That
@@ -28,26 +44,17 @@ pub fn begin(tree: &Path, mutants: &[Value]) -> Result<(), String> {
     if results.exists() {
         return Ok(());
     }
-    let record = fs::read_to_string(RECORD).map_err(|e| format!("{RECORD}: {e}"))?;
     let list = fs::read_to_string(NOT_CAUGHT).map_err(|e| format!("{NOT_CAUGHT}: {e}"))?;
     let left: HashSet<&str> = list.lines().filter_map(|line| Some(line.split_once('\t')?.1)).collect();
     // What is left of a file must all be in the list, or the file is run anew.
-    let is_listed = |file: &str, counts: [&str; 3]| {
-        let sum: usize = counts.iter().filter_map(|count| count.parse::<usize>().ok()).sum();
-        let lines = list.lines().filter(|line| line.split('\t').nth(1) == Some(file)).count();
-        sum == lines
-    };
-    let known = |line| {
-        let fields: Vec<&str> = str::split(line, ',').collect();
-        let [file, content, .., lives, open, unreached] = fields[..] else { return None };
-        is_listed(file, [lives, open, unreached]).then_some((file, content))
-    };
-    let recorded: HashMap<&str, &str> = record.lines().skip(1).filter_map(known).collect();
+    let listed = |file: &str| list.lines().filter(|line| line.split('\t').nth(1) == Some(file)).count();
+    let known = record()?.into_iter().filter(|row| row.left == listed(&row.file));
+    let recorded: HashMap<String, String> = known.map(|row| (row.file, row.content)).collect();
     let contents = contents(tree, mutants)?;
     let mut text = String::new();
     for mutant in mutants {
         let file = mutant["file"].as_str().unwrap_or("");
-        if contents.get(file).is_none_or(|content| recorded.get(file) != Some(&content.as_str())) {
+        if contents.get(file).is_none_or(|content| recorded.get(file) != Some(content)) {
             continue;
         }
         let outcome = if left.contains(place(mutant).as_str()) { "survived" } else { "caught" };
