@@ -73,3 +73,44 @@ impl Cost {
         self.setup + steps * step + evaluations * (self.evaluation[0] + self.evaluation[1] * order)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Splitting by five parameters carries one motion with two registers of tangents, by twenty two motions with five registers.
+    #[test]
+    fn derivatives_cost_so_many_times_what_a_state_costs() {
+        let factors = [
+            (Method::Averaged, 5, 15.0),
+            (Method::Taylor, 5, 50.0),
+            (Method::Splitting, 5, 2.6),
+            (Method::Splitting, 20, 5.8),
+        ];
+        for (method, count, factor) in factors {
+            for state in [State::Axis, State::Orientation] {
+                let (alone, found) = (Cost::of(method, state), Cost::with_derivatives(method, state, count));
+                let ratios = [
+                    found.setup / alone.setup,
+                    found.step[1] / alone.step[1],
+                    found.evaluation[0] / alone.evaluation[0],
+                    found.evaluation[1] / alone.evaluation[1],
+                ];
+                // A closed form has no steps.
+                let off = ratios.into_iter().filter(|ratio| !ratio.is_nan()).map(|ratio| (ratio / factor - 1.0).abs());
+                assert!(off.fold(0.0, f64::max) < 1e-15, "{method:?} {count}: {ratios:?}");
+            }
+        }
+        for method in Method::ALL {
+            assert_eq!(Cost::with_derivatives(method, State::Axis, 0), Cost::of(method, State::Axis));
+        }
+    }
+
+    /// On the torus 0.1 ms once and 20 us for each state are added for each parameter.
+    #[test]
+    fn derivatives_on_the_torus_cost_something_beside_the_state() {
+        let found = Cost::with_derivatives(Method::Torus, State::Axis, 3);
+        assert_eq!(found, Cost { setup: 910_000.0, step: [0.0; 3], evaluation: [60_090.0, 0.0] });
+        assert_eq!(found.total(0, 0.0, 10.0), 1_510_900.0);
+    }
+}

@@ -81,7 +81,7 @@ impl Plan {
             plan.considered = others.filter(wanted).map(candidate).collect();
             let cost = Cost::with_derivatives(Method::Torus, state, request.derivatives.len()).total(0, 0.0, count);
             let is_better = |best: &Prediction| cost < best.cost || best.rounding > FAR_BELOW * request.tolerance;
-            let is_tried = || plan.choose().map_or(true, |(_, best)| is_better(&best));
+            let is_tried = || plan.choose().is_ok_and(|(_, best)| is_better(&best));
             if request.method.map_or_else(is_tried, |forced| forced == Method::Torus) {
                 plan.considered.push(candidate(Method::Torus));
                 plan.considered.sort_by_key(|candidate| candidate.method);
@@ -125,14 +125,13 @@ impl Plan {
     /// What the averaged motion lacks: without it only the Taylor series meets any tolerance.
     fn why_none(&self) -> Error {
         let averaged = self.considered.iter().find(|candidate| candidate.method == Method::Averaged);
-        match averaged.map(|candidate| &candidate.prediction) {
-            Some(Err(error)) => error.clone(),
-            Some(Ok(prediction)) => Error::Domain {
+        match &averaged.expect("considered where no method was asked for").prediction {
+            Err(error) => error.clone(),
+            Ok(prediction) => Error::Domain {
                 quantity: "what the averaged motion, the only one of a star with a bulge, leaves out at the end",
                 value: prediction.truncation,
                 allowed: "at most the tolerance: a weaker violation, a shorter span or a larger tolerance",
             },
-            None => Error::Unsupported { what: "motion of the plan", why: "no method was considered" },
         }
     }
 
@@ -201,7 +200,10 @@ fn turning_rate<X: RotationState<f64>>(problem: &Problem<f64, X>) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::{Matrix3, Vector3};
+
     use super::*;
+    use crate::dynamics::RigidSpheroid;
     use crate::dynamics::fixture::problem;
     use crate::propagation::Motion;
 
@@ -241,7 +243,9 @@ mod tests {
             let forced = Request { method: Some(method), ..request.clone() };
             assert!(matches!(weak.plan(&forced), Err(Error::Unsupported { .. })), "{method:?}");
         }
-        let derivatives = Request { derivatives: vec![Parameter::Beta], method: Some(Method::Free), ..request };
+        let free = Request { method: Some(Method::Free), ..request };
+        assert_eq!(weak.plan(&free).unwrap().method, Some(Method::Free));
+        let derivatives = Request { derivatives: vec![Parameter::Beta], ..free };
         assert!(matches!(weak.plan(&derivatives), Err(Error::Unsupported { .. }) | Err(Error::Domain { .. })));
         // Free rotation leaves it out, and has it in its bound.
         let [free, averaged] =
@@ -257,5 +261,43 @@ mod tests {
         let motion = plan(Output::PerturbationAngles, None).motion(&problem(S).reduced());
         let Err(Error::Unsupported { why, .. }) = motion else { panic!("{motion:?}") };
         assert_eq!(why, "none of its outputs needs one");
+    }
+
+    /// A series on the torus costs more than the averaged motion, and is tried where that loses a hundred times the tolerance to rounding.
+    #[test]
+    fn the_torus_is_tried_where_the_cheapest_method_loses_too_much() {
+        let weak = problem([2e-9, 1e-9, -3e-9]);
+        let request = |tolerance| Request::new(&[Output::SymmetryAxis], (0.0, 1e7), 1, tolerance);
+        let averaged = weak.plan(&request(1e-6)).unwrap();
+        assert_eq!(averaged.method, Some(Method::Averaged));
+        let rounding = averaged.prediction.unwrap().rounding;
+        let is_tried = |tolerance| {
+            let considered = weak.plan(&request(tolerance)).unwrap().considered;
+            considered.iter().any(|candidate| candidate.method == Method::Torus)
+        };
+        assert!(!is_tried(rounding / 90.0) && is_tried(rounding / 110.0), "{rounding:e}");
+    }
+
+    #[test]
+    fn times_between_samples_are_left_out_of_closed_forms_but_for_events_and_turns() {
+        let left_out = |output| {
+            let request = Request { method: Some(Method::Averaged), ..Request::new(&[output], (0.0, 50.0), 7, 1e-9) };
+            let plan = problem([2e-7, 1e-7, -3e-7]).plan(&request).unwrap();
+            plan.skipped.iter().any(|skipped| skipped.what == "times between samples")
+        };
+        assert!(left_out(Output::SymmetryAxis) && left_out(Output::AngularMomentum));
+        assert!(!left_out(Output::EulerAngles) && !left_out(Output::Pulses));
+    }
+
+    /// Of a body that is slender and turns about its axis: `L / I^zz`, which is more than `L / I^xx`.
+    #[test]
+    fn directions_turn_at_most_as_fast_as_the_body() {
+        let spheroid = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 0.5, constant_c: 0.7 };
+        let initial = AxisState { axis: Vector3::z(), momentum: Vector3::z() * 2.0 };
+        let rate = |s: Matrix3<f64>| turning_rate(&Problem::new(spheroid, s, initial).unwrap());
+        assert_eq!(rate(Matrix3::zeros()), 4.0);
+        // The largest torque is C times the range of the eigenvalues, or somewhat more.
+        let more = rate(Matrix3::from_diagonal(&Vector3::new(0.3, 0.0, -0.3))) - 4.0;
+        assert!(more >= (2.0_f64 * 0.7 * 0.6).sqrt() && more < 1.2 * (2.0_f64 * 0.7 * 0.6).sqrt(), "{more}");
     }
 }

@@ -49,7 +49,7 @@ pub struct Gradient {
 /// series follow from real parts alone, and the error of derivatives through it can be some hundred times that of the motion.
 ///
 /// # Errors
-/// As for the motion; [`Error::Domain`] for times outside its span, and for derivatives by splitting on a processor without vectors of four
+/// As for the motion; [`Error::Domain`] for times outside its span; [`Error::Unsupported`] for derivatives by splitting on a processor without vectors of four
 /// doubles, for which no plan chooses it.
 pub fn gradient(
     plan: &Plan,

@@ -218,8 +218,9 @@ impl PulsarClock {
         ];
         let model = TimingModel::new(frequency.into(), &parameters)?;
         let look = self.turns.look(&self.motion, [0.0; 2])?;
-        let at_zero = model.phase([0.0; 2])?;
-        model.moved(&[(Phase, look.phase / core::f64::consts::TAU - at_zero.fraction - at_zero.whole as f64)])
+        // Less than half a turn from the mean.
+        let at_zero = model.phase([0.0; 2])?.fraction;
+        model.moved(&[(Phase, look.phase / core::f64::consts::TAU - at_zero)])
     }
 
     /// Angle of the line of sight to `L` at the time zero, and its mean rate: over the time in which `L` turns by a hundredth of a radian about its axis.
@@ -274,9 +275,9 @@ impl PulsarClock {
         let precession = self.strength() * state.momentum.norm() / self.motion.problem.spheroid().inertia_xx;
         let slowed = self.time.braking().rate * t * t;
         // Rates by a rigid C go with the square of the wobble, times 3 / 2 that of L and less than 3 / 2 that about n; the tilt is that of a wobble right to the strength.
-        let Precession { wobble, damping, .. } = *self.time.precession();
+        let wobble = self.time.precession().wobble;
         let now = self.time.precession().wobble_at(t);
-        let damped = if damping == 0.0 { 0.0 } else { 3.0 * (now.sin().powi(2) - wobble.sin().powi(2)) * t };
+        let damped = 3.0 * (now.sin().powi(2) - wobble.sin().powi(2)) * t;
         let tilt = self.strength() * (now - wobble).abs();
         let rigid = (precession * (slowed.abs() + damped.abs()) + tilt) / self.turns.rate(&self.motion);
         of_motion + self.time.truncation(t) + self.time.error_by_angles(self.strength()) + rigid

@@ -87,8 +87,13 @@ impl Model {
         low
     }
 
+    /// Time of one step over that of a stage without force gradient.
+    fn step_cost(&self) -> f64 {
+        self.stage_cost * self.scheme.stages() as f64
+    }
+
     fn cost_per_angle(&self, step: f64) -> f64 {
-        self.stage_cost * self.scheme.stages() as f64 / step
+        self.step_cost() / step
     }
 }
 
@@ -181,10 +186,10 @@ pub(crate) const TANGENTS_AT_ONCE: usize = 16;
 /// Refuses derivatives on a processor without the instructions for tangent maps.
 ///
 /// # Errors
-/// [`Error::Domain`] there.
+/// [`Error::Unsupported`] there.
 pub(crate) fn require_tangent_maps() -> Result<(), Error> {
-    let doubles = if detect_fused().is_some() { 4.0 } else { 1.0 };
-    Error::ensure(doubles == 4.0, "doubles in a register", doubles, "four (AVX2, FMA), for derivatives by splitting")
+    let refused = Error::Unsupported { what: "derivatives by splitting", why: "the processor lacks AVX2 and FMA" };
+    if detect_fused().is_some() { Ok(()) } else { Err(refused) }
 }
 
 /// The scheme that costs least with its largest step for the goal.
@@ -258,7 +263,7 @@ pub(super) fn sampled_forecast<const V: usize>(
     let candidates = MODELS.iter().map(|model| {
         let step = Goal::State.step(model, epsilon, turn, tolerance) / rate;
         let steps = cut(step);
-        (model, step, steps, model.stage_cost * model.scheme.stages() as f64 * steps)
+        (model, step, steps, model.step_cost() * steps)
     });
     let (model, step, steps, cost) = candidates.min_by(|a, b| a.3.total_cmp(&b.3))?;
     let worth = step > 0.0 && cost <= MOST_STAGES_PER_ANGLE * turn && steps <= SPLITTING_STEP_LIMIT;
@@ -333,6 +338,13 @@ mod tests {
             sampled_forecast(&scene(4.0, 1e-9), 3.0, &times, 1e-2).map(|forecast| forecast.steps)
         };
         assert_eq!((steps(299), steps(301)), (Some(299), None));
+        // One sample is reached by the scheme and the step of a motion up to there.
+        for (epsilon, tolerance) in [(0.1, 1e-6), (0.01, 1e-9), (1e-4, 1e-11)] {
+            let scene = scene(4.0, epsilon);
+            let found = sampled_forecast(&scene, 3.0, &[53.0], tolerance).unwrap();
+            let motion = cheapest(&scene, (3.0, 53.0), tolerance, Goal::State);
+            assert_eq!((found.scheme, found.step, found.steps as f64), (motion.scheme, motion.step, motion.steps));
+        }
         // Nothing moves, or hardly.
         let steps = |scene: PrincipalProblem<2>, times: &[f64]| {
             sampled_forecast(&scene, 3.0, times, 1e-2).map(|found| found.steps)

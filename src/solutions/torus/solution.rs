@@ -113,18 +113,18 @@ impl TorusSolution {
         starts: impl Fn(usize) -> Option<Vec<Axes<f64>>>,
     ) -> Result<Option<Self>, Error> {
         let what = "Fourier series on the torus, against its flow";
-        let (mut coarsest, mut least) = (FIRST_GRID, f64::INFINITY);
+        let (mut coarsest, mut before) = (FIRST_GRID, [f64::INFINITY; 2]);
         loop {
             let Some(sampled) = coefficients(torus, &starts, tolerance, coarsest)? else { return Ok(None) };
             let (solution, gap) = Self::on(torus, phases, drift, tolerance, &sampled);
             if gap <= 10.0 * solution.truncation + CLOSED {
                 return Ok(Some(solution));
             }
-            // Coefficients behind those that are small may be larger again: a grid as fine as they need makes the gap smaller.
-            if gap.is_nan() || gap > 0.5 * least {
+            // Coefficients behind those that are small may be larger again: a grid as fine as they need makes the gap smaller, if not the next one, then the one after it.
+            if gap.is_nan() || gap > 0.25 * before[0] {
                 return Err(Error::NotConverged { what, iterations: sampled.grid.quarter, residual: gap });
             }
-            least = gap;
+            before = [before[1], gap];
             coarsest = QuarterGrid { quarter: 2 * sampled.grid.quarter, ..sampled.grid };
         }
     }
@@ -324,4 +324,60 @@ struct Room {
 /// Turns along both closed ways per unit of time.
 pub(super) fn rate_of_ways(phases: &[Phase; 3]) -> f64 {
     phases[0].rate.high.abs() + phases[1].rate.high.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::{RigidSpheroid, RotationState};
+
+    /// A motion of a star with `I^zz = 1.1 I^xx`.
+    fn problem([s, axis, momentum]: [[f64; 3]; 3]) -> Problem<f64> {
+        let axis = Vector3::from(axis).normalize();
+        let equatorial_axis = axis.cross(&Vector3::new(0.3, -0.5, 0.7)).normalize();
+        let start = BodyState { axis, momentum: momentum.into(), equatorial_axis };
+        Problem::new(RigidSpheroid::in_units_of_tc(1.1), Matrix3::from_diagonal(&s.into()), start).unwrap()
+    }
+
+    const HIDING: [[f64; 3]; 3] = [
+        [-0.0006175596873305695, -0.0006168988557999971, -0.0001367853937794081],
+        [-0.03989489085848018, -0.03761937141929923, 0.9984954584660899],
+        [0.8034743727762651, 0.0006186697198932354, -0.0006723004689980793],
+    ];
+
+    /// With few digits wanted, coefficients behind small ones are larger again: between its points the first grid is up to 300 times the tolerance off, and the second one
+    /// of the last motion no better.
+    #[test]
+    fn a_grid_that_hides_coefficients_is_made_finer() {
+        let as_far_on_the_second = [
+            [-0.0023161338942025655, 0.0023014005625876426, -0.002315464153053399],
+            [0.9990979069679238, -0.01833978332650046, -0.038301757660070296],
+            [1.2089557574402616, -0.00016846807849657321, 0.0007829101182386528],
+        ];
+        for (tolerance, numbers) in [(1.5e-4, HIDING), (1.862e-2, as_far_on_the_second)] {
+            let problem = problem(numbers);
+            let [coarse, fine] = [tolerance, 1e-14].map(|digits| TorusSolution::new(&problem, digits, 100.0).unwrap());
+            assert!(coarse.error_estimate(0.0) < 30.0 * tolerance, "{:e}", coarse.error_estimate(0.0));
+            let unit = Vector3::from(numbers[2]).norm();
+            for t in (0..200).map(|k| 0.37 * f64::from(k)) {
+                let [[n, momentum, e_x], exact] = [&coarse, &fine].map(|found| found.state([t, 0.0]).vectors());
+                let off = [n - exact[0], (momentum - exact[1]) / unit, e_x - exact[2]].map(|v| v.amax());
+                assert!(off.iter().all(|&off| off < coarse.error_estimate(t)), "{off:?} at {t}");
+            }
+        }
+    }
+
+    /// With wrong phases no grid is good enough: after two finer ones that is told.
+    #[test]
+    fn a_series_that_does_not_follow_the_flow_is_refused() {
+        let torus = Torus::of(&problem([[0.2, 0.1, -0.3], [0.48, 0.6, 0.64], [0.3, -0.2, 1.5]])).unwrap();
+        let starts = |quarter: usize| torus.starts(quarter);
+        let first = coefficients(&torus, starts, 1e-4, FIRST_GRID).unwrap().unwrap().grid.quarter;
+        let mut wrong = phases(&torus.spheroid, &torus.initial, &torus.ways);
+        wrong[0].offset = wrong[0].offset + DoubleDouble::from(0.01);
+        let found = TorusSolution::of(&torus, wrong, 0.0, 1e-4, starts);
+        let Err(Error::NotConverged { iterations, residual, .. }) = found else { panic!("not refused") };
+        assert!((1e-3..0.1).contains(&residual), "{residual:e}");
+        assert_eq!(iterations, 4 * first);
+    }
 }
