@@ -374,7 +374,7 @@ mod tests {
         let starts = |quarter: usize| torus.starts(quarter);
         let first = coefficients(&torus, starts, 1e-4, FIRST_GRID).unwrap().unwrap().grid.quarter;
         let mut wrong = phases(&torus.spheroid, &torus.initial, &torus.ways);
-        wrong[0].offset = wrong[0].offset + DoubleDouble::from(0.01);
+        wrong[0].offset += DoubleDouble::from(0.01);
         let found = TorusSolution::of(&torus, wrong, 0.0, 1e-4, starts);
         let Err(Error::NotConverged { iterations, residual, .. }) = found else { panic!("not refused") };
         assert!((1e-3..0.1).contains(&residual), "{residual:e}");
