@@ -7,6 +7,7 @@ use crate::lorentz_violation::{error_of_principal_frame_along, principal_frame};
 use crate::propagation::splitting::{Goal, SplittingForecast};
 use crate::propagation::{AveragedMotion, SymmetricMotion, TaylorForecast, TorusMotion, UniformMotion, largest_torque};
 use crate::solutions::averaged::AveragingOrder;
+use crate::solutions::torus::error_of_derivatives;
 
 /// What the predicted error of a method promises of the true one, rounding apart.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -187,7 +188,7 @@ fn torus(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Result<
     let solution = motion.solution();
     let mut rounding = solution.rounding(span.1 - span.0);
     if !request.derivatives.is_empty() {
-        rounding = rounding.max(solution.error_of_derivatives()?);
+        rounding = rounding.max(error_of_derivatives(solution, problem)?);
     }
     let closed = Forecast::closed(Promise::Estimate, solution.truncation(), rounding);
     // Eight doubles at most for a pair of frequencies, in lists that have grown.
@@ -324,7 +325,7 @@ mod tests {
             torus(&problem, &request, (0.0, end)).unwrap().rounding
         };
         let solution = TorusMotion::new(&problem, (0.0, 7.0), 1e-15).unwrap();
-        let expected = solution.solution().error_of_derivatives().unwrap();
+        let expected = error_of_derivatives(solution.solution(), &problem).unwrap();
         assert!(rounding(7.0, vec![]) < expected, "{expected:e}");
         assert_eq!(rounding(7.0, vec![Parameter::Spin]), expected);
         // After so long a time the phases are worse than that, of both.

@@ -13,7 +13,7 @@ use crate::lorentz_violation::principal_frame;
 /// What rounding may leave after a quarter of a turn.
 const EXACT: f64 = 2e-15;
 
-/// A torus whose two flows differ by less than this, relative, is a circle or a point.
+/// A torus less wide than this is a circle or a point.
 pub(super) const THINNEST: f64 = 1e-8;
 
 /// A torus with what it was found from, in a frame in which half a turn about Z takes it to itself.
@@ -70,10 +70,11 @@ impl Torus {
         Ok(Self { spheroid, spread, unit, initial, ways, integrals, from_given: turn * frame })
     }
 
-    /// Singular values of the rates of both flows at the state in the plane: the second is zero for a thin torus.
-    pub(super) fn widths(&self) -> [f64; 2] {
-        let values = tangents(&self.integrals.both_rates(&self.ways.plane), self.unit).singular_values();
-        [values.max(), values.min()]
+    /// How far the flows lead apart at the state in the plane: the least singular value of their rates, over the rate at which the body turns. It is zero on a circle, and as small as `n` and `L`
+    /// are near a state that stays.
+    pub(super) fn width(&self) -> f64 {
+        let rates = tangents(&self.integrals.both_rates(&self.ways.plane), self.unit);
+        rates.singular_values().min() / (self.unit * self.integrals.inverse_inertia())
     }
 
     /// States along a quarter of a turn of the second angle, where they are as exact as the flow: the last one must be in the plane `X = 0`. Rounding grows

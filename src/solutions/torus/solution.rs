@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use nalgebra::{Matrix3, Vector3};
 
 use super::flow::Axes;
-use super::found::{THINNEST, Torus};
+use super::found::Torus;
 use super::fourier::{QuarterGrid, Reflection};
 use super::phase::{Phase, phases};
 use super::sampling::{FIRST_GRID, OnTorus, ROUNDING, Sampled, coefficients};
@@ -28,9 +28,6 @@ const ROUNDING_OF_VALUES: f64 = 5e-16;
 /// What may be left between the series and the flow beside its estimated error, where its torus has the symmetries assumed.
 const CLOSED: f64 = 1e-12;
 
-/// What rounding leaves of derivatives where both flows differ most: that of some ten steps of the flow, and of their sum.
-const ROUNDING_OF_DERIVATIVES: f64 = 1e-14;
-
 /// So many blocks of multiples of the second angle fit on the stack: of cosines and of sines.
 const FEW: usize = 8;
 
@@ -51,8 +48,8 @@ pub struct TorusSolution {
     pub(super) spread: f64,
     /// Unit of `L`.
     pub(super) unit: f64,
-    /// How much the flows differ: the least over the largest singular value of their rates.
-    width: f64,
+    /// Of the torus.
+    pub(super) width: f64,
     /// Of `n` and `L`.
     axes: Table,
     /// Of `V`, from which `e_x` is turned.
@@ -134,9 +131,8 @@ impl TorusSolution {
         let (mut axes, left_axes) = Table::within(&sampled.axes, tolerance);
         let (vector, left_vector) = Table::within(&sampled.vector, tolerance);
         axes.scale_every_other(torus.unit);
-        let [most, least] = torus.widths();
         let mut solution = Self {
-            width: least / most,
+            width: torus.width(),
             phases,
             periods: [&torus.ways.fast, &torus.ways.slow].map(|half| half.times.map(|time| time * 2.0)),
             spread: torus.spread,
@@ -201,18 +197,6 @@ impl TorusSolution {
     /// give it, if that is larger.
     pub fn error_estimate(&self, t: f64) -> f64 {
         self.truncation + self.rounding(t)
-    }
-
-    /// Estimated error of derivatives ([`TorusDerivative`](super::TorusDerivative)) in units of the largest one by the same parameter.
-    ///
-    /// # Errors
-    /// [`Error::NotConverged`] for a torus so thin that its flows hardly differ: `n` on `L`, `L` on an axis. Neighbours of such a motion have another number of frequencies.
-    pub(crate) fn error_of_derivatives(&self) -> Result<f64, Error> {
-        if self.width <= THINNEST {
-            let what = "derivatives on the torus: n is on L, or L on an axis";
-            return Err(Error::NotConverged { what, iterations: 1, residual: self.width });
-        }
-        Ok(ROUNDING_OF_DERIVATIVES / self.width)
     }
 
     /// `n` and `L` at the time `t[0] + t[1]` since the start.

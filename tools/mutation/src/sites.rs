@@ -524,6 +524,8 @@ impl<'ast> Visit<'ast> for Visitor<'_> {
     fn visit_stmt(&mut self, stmt: &'ast Stmt) {
         if let Stmt::Expr(expr, Some(_)) = stmt {
             let what = match expr {
+                // Of what is borrowed the compiler asks it.
+                Expr::Call(call) if matches!(&*call.func, Expr::Path(f) if f.path.is_ident("drop")) => "",
                 Expr::MethodCall(_) | Expr::Call(_) => "call dropped",
                 Expr::Assign(_) => "assignment dropped",
                 _ => "",
