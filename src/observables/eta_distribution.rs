@@ -164,7 +164,7 @@ impl EtaDistribution {
         let isotropic = self.isotropic_quantile(probability);
         let Directions::OnCone { sine } = self.directions else { return Ok(isotropic) };
         // Since (2/pi) asin(u) <= u, eta sin(lambda) is not above the quantile of isotropic directions; below 1 / (fastest speed) it never is.
-        let fastest = self.inverse_speeds.last().map_or(0.0, |(inverse, _)| *inverse);
+        let (fastest, _) = self.inverse_speeds[self.inverse_speeds.len() - 1];
         let (mut low, mut high) = (fastest / sine, isotropic / sine);
         while high.is_finite() {
             let middle = (low + high) / 2.0;

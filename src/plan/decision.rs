@@ -300,4 +300,13 @@ mod tests {
         let more = rate(Matrix3::from_diagonal(&Vector3::new(0.3, 0.0, -0.3))) - 4.0;
         assert!(more >= (2.0_f64 * 0.7 * 0.6).sqrt() && more < 1.2 * (2.0_f64 * 0.7 * 0.6).sqrt(), "{more}");
     }
+
+    #[test]
+    fn the_way_back_costs_what_the_way_there_does() {
+        let cost = |span: (f64, f64)| {
+            let request = Request { method: Some(Method::Taylor), ..Request::new(&[Output::Pulses], span, 7, 1e-9) };
+            problem(S).plan(&request).unwrap().prediction.unwrap().cost
+        };
+        assert_eq!(cost((0.0, 50.0)), cost((50.0, 0.0)));
+    }
 }

@@ -361,15 +361,18 @@ mod tests {
         let angle = |i: usize, zero: f64| TAU * (i as f64 - zero) / count as f64;
         // The poles are at b = 0.64, 0.8 of a step.
         let c = 1.8;
-        let with_pole_in = |k: usize, j: usize, c: f64| {
-            let (k, j) = (k as f64 + 1.0, j as f64 + 0.5);
+        let with_pole_in = |k: usize, j: usize, part: f64, c: f64| {
+            let (k, j) = (k as f64 + 1.0, j as f64 + part);
             of_azimuths(count, move |row, column| {
                 let (a, b) = (angle(column, j), angle(row, k));
                 a.sin().atan2(a.cos() + b.cos() - c)
             })
         };
         for (k, j) in (0..count).flat_map(|k| (0..count).map(move |j| (k, j))) {
-            assert!(with_pole_in(k, j, c).surrounds_pole() && !with_pole_in(k, j, 2.1).surrounds_pole(), "{k} {j}");
+            for part in [0.1, 0.5, 0.9] {
+                let is_seen = |c: f64| with_pole_in(k, j, part, c).surrounds_pole();
+                assert!(is_seen(c) && !is_seen(2.1), "{k} {j} {part}");
+            }
         }
         for [by_k, by_j] in [[1.0, 0.0], [0.0, 1.0], [1.0, 2.0], [-3.0, 1.0], [2.0, 2.0]] {
             let grid = of_azimuths(16, |k, j| TAU * (by_k * k as f64 + by_j * j as f64 + 0.3) / 16.0);

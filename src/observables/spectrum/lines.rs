@@ -136,19 +136,24 @@ impl QuasiPeriodicMotion {
         at: &impl Fn([f64; 3]) -> Result<[f64; 2], E>,
     ) -> Result<LineList, E> {
         let (mut lines, mut constant) = (Vec::new(), all[0].re);
+        // What the lines and the constants of combinations that do not move are at a place: amplitude and phase.
+        let mut waves = Vec::new();
         for (place, coefficient) in all.iter().enumerate().skip(1) {
             let amplitude = 2.0 * coefficient.norm();
             if amplitude < least {
                 continue;
             }
-            let multiples = multiples(place, counts);
+            let (multiples, phase) = (multiples(place, counts), coefficient.arg());
             let [frequency, uncertainty] = self.frequency(multiples);
             if frequency == 0.0 {
                 constant += coefficient.re;
+                // Its opposite is here too.
+                waves.push((0.5 * amplitude, phase, multiples));
             } else if frequency > 0.0 {
                 // The others have the opposite multiples.
-                let (combination, phase) = (self.frequencies().combination(multiples), coefficient.arg());
-                lines.push((SpectralLine { frequency, amplitude, phase, uncertainty, combination }, multiples));
+                let combination = self.frequencies().combination(multiples);
+                lines.push(SpectralLine { frequency, amplitude, phase, uncertainty, combination });
+                waves.push((amplitude, phase, multiples));
             }
         }
         let mut left = 0.0_f64;
@@ -156,13 +161,12 @@ impl QuasiPeriodicMotion {
             // Turns that are no fractions of the grid, of the first prime numbers.
             let turns = [2.0_f64, 3.0, 5.0].map(|prime| (k as f64 + 0.5) * prime.sqrt());
             let turns: [f64; 3] = core::array::from_fn(|i| if counts[i] > 1 { turns[i].fract() } else { 0.0 });
-            let of_line = |(line, multiples): &(SpectralLine, [i32; 3])| {
+            let here = |(amplitude, phase, multiples): &(f64, f64, [i32; 3])| {
                 let angle: f64 = (0..3).map(|i| f64::from(multiples[i]) * turns[i]).sum();
-                line.amplitude * (TAU * angle + line.phase).cos()
+                amplitude * (TAU * angle + phase).cos()
             };
-            left = left.max((at(turns)?[0] - constant - lines.iter().map(of_line).sum::<f64>()).abs());
+            left = left.max((at(turns)?[0] - all[0].re - waves.iter().map(here).sum::<f64>()).abs());
         }
-        let mut lines: Vec<SpectralLine> = lines.into_iter().map(|(line, _)| line).collect();
         lines.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
         Ok(LineList { constant, lines, least, left })
     }
@@ -185,11 +189,11 @@ fn strongest_and_edges(all: &[Complex<f64>], counts: [usize; 3]) -> (f64, [f64; 
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::Matrix3;
+    use nalgebra::{Matrix3, Vector3};
 
     use super::*;
     use crate::dynamics::fixture::problem;
-    use crate::dynamics::{Problem, RotationState};
+    use crate::dynamics::{Problem, RigidSpheroid, RotationState};
 
     fn motion(problem: &Problem<f64>) -> QuasiPeriodicMotion {
         QuasiPeriodicMotion::new(problem).unwrap()
@@ -261,5 +265,28 @@ mod tests {
         assert!(matches!(jump, Err(Error::Domain { .. })));
         let refused = found.lines(1e-6, |_| Err::<[f64; 2], _>(Error::Unsupported { what: "it", why: "no" }));
         assert!(matches!(refused, Err(Error::Unsupported { .. })));
+    }
+
+    /// A free body whose spin against `L` is half of its rate of precession: a line of `(1, 0, -2)` has no frequency, and belongs to the mean over time.
+    #[test]
+    fn lines_that_do_not_move_are_in_the_constant() {
+        let star = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 0.5, constant_c: 0.0 };
+        let axis = Vector3::new(0.75_f64.sqrt(), 0.0, 0.5);
+        let (momentum, across) = (Vector3::z(), Vector3::new(0.3, 0.9, -0.2));
+        let initial = BodyState { axis, momentum, equatorial_axis: axis.cross(&across).normalize() };
+        let found = motion(&Problem::new(star, Matrix3::zeros(), initial).unwrap());
+        let [turn, _, about_axis] = found.rates();
+        assert_eq!(turn, 2.0 * about_axis.abs());
+        let square = |state: &BodyState<f64>| (state.equatorial_axis + state.axis).dot(&across).powi(2);
+        let all = lines(&found, 1e-12, square);
+        let at = |a: f64, b: f64| square(&found.state_after_turns([a, 0.0, b]));
+        let mean = |of: &dyn Fn(f64, f64) -> f64| {
+            (0..32 * 32).map(|i| of(f64::from(i % 32) / 32.0, f64::from(i / 32) / 32.0)).sum::<f64>() / 1024.0
+        };
+        // The body comes back to where it was in two turns about L.
+        let over_time = mean(&|part, _| at(2.0 * part, about_axis.signum() * part));
+        assert!((all.constant - over_time).abs() < 1e-14, "{} {over_time}", all.constant);
+        assert!((over_time - mean(&at)).abs() > 0.01, "no such line");
+        assert!(all.left < 1e-14, "{:e}", all.left);
     }
 }

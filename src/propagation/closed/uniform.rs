@@ -360,4 +360,22 @@ mod tests {
         assert_relative_eq!(quarter.equatorial_axis, axis.cross(&Vector3::y()), epsilon = 1e-15);
         assert_eq!((quarter.axis, quarter.momentum), (axis, axis * 2.2));
     }
+
+    /// Also of a slow one, about any axis, in either sense.
+    #[test]
+    fn the_pole_is_what_the_momentum_goes_round() {
+        let turn = nalgebra::Rotation3::from_euler_angles(0.3, 1.1, -0.4).into_inner();
+        for (spin, beta) in [(1.5, 0.7), (-1.9, 2.2), (0.2, 0.3), (0.2, 2.8)] {
+            let (problem, rate) = steady_precession(spin, beta);
+            let motion = UniformMotion::steady(&problem.rotated(&turn), (0.0, 1.0)).unwrap();
+            assert!((motion.pole() - turn.column(2) * rate.signum()).amax() < 1e-12, "{rate}");
+            // A quarter of a turn about it.
+            let start = motion.problem.initial();
+            let quarter = motion.state_after_turns([0.25, 0.0]).axis;
+            let along = motion.pole() * motion.pole().dot(&start.axis);
+            assert!((quarter - along - motion.pole().cross(&start.axis)).amax() < 1e-12, "{rate}");
+        }
+        let rate = steady_precession(0.2, 0.3).1;
+        assert!(rate.abs() < 1.0, "{rate}");
+    }
 }

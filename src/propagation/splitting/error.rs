@@ -66,11 +66,9 @@ impl ErrorEstimate {
         let half_forth = DoubleSteps::new(motion.scheme, &scene.field, 0.5 * motion.step, scene.largest_rate);
         // From a start that is off by a rounding: so the difference knows what an instability makes of those that both motions share.
         let mut state = off(&scene.start, OFF, scene.largest_rate);
-        let largest_eigenvalue = scene.eigenvalues.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let mut beside = off(&scene.start, OFF_ACROSS, scene.largest_rate);
         finer.open(&mut state);
-        let rounded = |k: usize| scene.eigenvalues[k] + EIGENVALUES_OFF[k] * f64::EPSILON * largest_eigenvalue;
-        let field = Field::new(scene.field.strength, [0, 1, 2].map(rounded));
+        let field = Field::new(scene.field.strength, rounded(scene.eigenvalues));
         let along = DoubleSteps::new(motion.scheme, &field, motion.step, scene.largest_rate);
         along.open(&mut beside);
         let (mut largest, mut most, mut done) = (Vec::new(), 0.0_f64, 0);
@@ -115,6 +113,12 @@ impl ErrorEstimate {
 pub(super) fn expected_rounding(turn: f64) -> f64 {
     let off = OFF.iter().map(|x| x * x).sum::<f64>();
     READING + f64::EPSILON * (SHARED * turn + SAFETY * (off / 3.0).sqrt() * (1.0 + turn))
+}
+
+/// Eigenvalues that are off by [`EIGENVALUES_OFF`] roundings of the largest.
+fn rounded(eigenvalues: [f64; 3]) -> [f64; 3] {
+    let largest = eigenvalues.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    core::array::from_fn(|k| eigenvalues[k] + EIGENVALUES_OFF[k] * f64::EPSILON * largest)
 }
 
 /// A start that is off by so many roundings.
@@ -172,9 +176,14 @@ mod tests {
     fn the_error_is_unknown_where_two_steps_turn_by_more_than_ten_thousand_radians() {
         let rate = AXIS_STATE.momentum.norm() / 1.3;
         let estimate = |turn: f64| motion([0.0; 3], &STRANG, 0.5 * turn / rate, 2.0).error_estimate(3.0);
-        let at_end =
-            |turn: f64| motion([0.0; 3], &STRANG, 0.5 * turn / rate, 2.0).error_estimate(3.0 + 0.9 * turn / rate);
-        assert!(at_end(9.5e3).is_finite() && at_end(1.05e4) == f64::INFINITY);
+        let at_end = |turn: f64| {
+            let span = (3.0, 3.0 + turn / rate);
+            let motion = axis_problem([0.0; 3]).splitting_by(&STRANG, span, 0.5 * turn.abs() / rate).unwrap();
+            motion.error_estimate(3.0 + 0.9 * turn / rate)
+        };
+        for sense in [1.0, -1.0] {
+            assert!(at_end(sense * 9.5e3).is_finite() && at_end(sense * 1.05e4) == f64::INFINITY);
+        }
         assert_eq!(estimate(1.05e4), 4.0 * f64::EPSILON);
     }
 
@@ -201,6 +210,19 @@ mod tests {
         b.vectors[RATE][2] = -0.125;
         for (rate, difference) in [(0.5, 0.25), (2.0, 0.0625), (0.0, 0.125)] {
             assert_eq!(largest_difference(&a, &b, rate), difference);
+        }
+    }
+
+    /// By some roundings of the largest, whatever their own size, and each difference by more than one.
+    #[test]
+    fn eigenvalues_are_off_by_roundings_of_the_largest() {
+        for size in [1.0, 1e-9] {
+            let values = [1.0, 1e-5, -3.0].map(|value| value * size);
+            let moved = rounded(values);
+            let by = [0, 1, 2].map(|k| (moved[k] - values[k]) / (f64::EPSILON * 3.0 * size));
+            assert!(by.iter().all(|x| (3.0..6.0).contains(&x.abs())), "{by:?}");
+            let apart = [by[0] - by[1], by[1] - by[2]];
+            assert!(apart.iter().all(|x| x.abs() > 5.0), "{by:?}");
         }
     }
 }

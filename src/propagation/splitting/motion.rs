@@ -405,4 +405,19 @@ mod tests {
             assert!((found.axis - kept.scene.state(&state).axis).amax() < 1e-15, "{whole}");
         }
     }
+
+    /// A time within the first step is reached by one shorter step from the start.
+    #[test]
+    fn the_first_step_begins_at_the_start() {
+        for sense in [1.0, -1.0] {
+            let whole = motion((0.0, 4.0 * sense), 0.5).unwrap();
+            for t in [0.1, 0.3, 0.45] {
+                let alone = whole.axis_states();
+                let partial = DoubleSteps::new(&STRANG, &alone.scene.field, t * sense, alone.scene.largest_rate);
+                let mut state = alone.after(0);
+                partial.single(&mut state, alone.scene.casimir);
+                assert_eq!(alone.at(t * sense).unwrap().vectors, state.vectors, "{t}");
+            }
+        }
+    }
 }

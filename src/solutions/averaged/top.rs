@@ -405,4 +405,15 @@ mod tests {
         // The bound adds the largest speeds of both parts: it goes by the axis of the largest value, with the part along the third for m_1.
         assert_relative_eq!(top.largest_speed(), fastest * (1.0 + third * third).sqrt(), max_relative = 1e-12);
     }
+
+    /// Long before and after, `l` is at the ends of the middle axis to the last bit.
+    #[test]
+    fn on_the_separatrix_the_top_ends_on_the_middle_axis() {
+        let l = Vector3::new((K[1] - K[2]).sqrt(), 0.3, (K[0] - K[1]).sqrt()).normalize();
+        let top = Top::new(K, &l);
+        assert_eq!(top.complement(), 0.0);
+        let [before, after] = [-800.0, 800.0].map(|phase| top.at(phase).frame.column(2).into_owned());
+        assert_eq!(before, -after);
+        assert_eq!((after.y.abs(), after.x, after.z), (1.0, 0.0, 0.0));
+    }
 }

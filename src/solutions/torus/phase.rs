@@ -86,4 +86,14 @@ mod tests {
             assert!(whole == whole.round() && part.abs() <= 0.5, "{whole} {part}");
         }
     }
+
+    /// Where the product of rate and time is rounded, the turns are whole all the same.
+    #[test]
+    fn whole_turns_are_whole_numbers() {
+        for k in 0..50 {
+            let phase = Phase { rate: DoubleDouble::from(0.123_456_7), offset: DoubleDouble::from(0.0) };
+            let [whole, part] = phase.passed([1e6 + 0.1 * f64::from(k), 0.37]);
+            assert!(whole == whole.round() && part.abs() <= 0.5, "{whole} {part}");
+        }
+    }
 }

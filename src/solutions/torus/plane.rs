@@ -312,4 +312,41 @@ pub(super) mod tests {
             assert!(candidates.iter().any(|x| (x - root).abs() < 1e-14), "{candidates:?}");
         }
     }
+
+    /// A state where `K` has an extremum in the plane is found, though rounding has moved `K` beyond it, and none where no state has that `K`: with `L` fast, and at rest, whatever
+    /// the size of `s`.
+    #[test]
+    fn k_may_be_beyond_its_extremum_by_its_rounding() {
+        for (strength, along, across) in [(1.0, 0.0, 40.0), (1e-3, 3.0, 40.0), (1.0, 0.0, 0.0), (1.0, 0.4, 0.9)] {
+            let values = Vector3::new(S.xx, S.yy, S.zz) * strength;
+            let tensor = nalgebra::Matrix3::from_diagonal(&values);
+            let state = in_plane([0, 1], 0.4, along, across);
+            let integrals = first_integrals(&BODY, &tensor, &state);
+            let plane = |third: f64| {
+                Wanted::new(&BODY, &FirstIntegrals { clebsch: third, ..integrals }).unwrap().plane(&values, [0, 1])
+            };
+            // The largest K of the plane, on a fine grid and then by bisection of its slope.
+            let here = plane(0.0);
+            let at = |k: i32| 1e-3 * f64::from(k);
+            let real = |b: f64| here.square[0] + here.square[1] * (2.0 * b).cos() - along * along > 1e-6;
+            let best =
+                (1..3141).map(at).filter(|b| real(*b)).max_by(|a, b| here.miss(*a).total_cmp(&here.miss(*b))).unwrap();
+            let (mut left, mut right) = (best - 1e-3, best + 1e-3);
+            assert!(here.slope(left) * here.slope(right) < 0.0, "{strength} {along} {across}");
+            for _ in 0..60 {
+                let middle = 0.5 * (left + right);
+                if (here.slope(middle) > 0.0) == (here.slope(left) > 0.0) { left = middle } else { right = middle }
+            }
+            let top = here.miss(left);
+            let size =
+                (2.0 * BODY.inertia_xx * integrals.energy).abs().max(BODY.constant_c * BODY.inertia_xx) * values.amax();
+            let found = |beyond: f64| {
+                let wanted = Wanted::new(&BODY, &FirstIntegrals { clebsch: top + beyond * size, ..integrals }).unwrap();
+                let states = wanted.in_plane(&values, 2);
+                // Of images by half turns the angle differs by a half turn.
+                states.iter().any(|state| ((state.axis.y.atan2(state.axis.x) - left).sin()).abs() < 1e-4)
+            };
+            assert!(found(-1e-10) && found(3e-14) && !found(1e-12), "{strength} {along} {across}");
+        }
+    }
 }

@@ -79,4 +79,19 @@ mod tests {
             }
         }
     }
+
+    /// However weak the violation is, `K` has its extremum in the plane at the state found.
+    #[test]
+    fn weak_violations_have_a_separatrix_too() {
+        for strength in [1.0, 1e-3, 1e-6] {
+            let s = S.scaled(strength);
+            let energy = 0.5 * 1.44 / BODY.inertia_xx;
+            let state = separatrix_motion(&BODY, &s, energy, 0.1).unwrap();
+            let wanted = Wanted::new(&BODY, &FirstIntegrals { energy, spin: 0.1, clebsch: 0.0 }).unwrap();
+            let plane = wanted.plane(&Vector3::new(s.xx, s.yy, s.zz), [0, 2]);
+            let b = state.axis.z.atan2(state.axis.x);
+            let [below, above] = [-1e-9, 1e-9].map(|off| plane.slope(b + off));
+            assert!(below * above < 0.0, "{strength:e}: {below:e} {above:e}");
+        }
+    }
 }
