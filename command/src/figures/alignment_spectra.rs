@@ -105,3 +105,38 @@ fn caption(subjects: &[&Subject], spectra: &[Vec<SpectralLine>], highest: f64) -
         says,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Weak lines, those beyond the end and those beside a stronger one have none.
+    #[test]
+    fn names_are_over_strong_lines_with_room() {
+        let x = Axis::linear("", 0.0, 10.0);
+        let panel = Panel::new(GRID.frame(0, 0), x, Axis::logarithmic("", AMPLITUDES.0, AMPLITUDES.1));
+        let apart = 10.0 / GRID.width;
+        let line = |frequency: f64, amplitude: f64, symbol| SpectralLine {
+            frequency,
+            amplitude,
+            phase: 0.0,
+            uncertainty: 0.0,
+            combination: twofold::observables::spectrum::Combination { terms: vec![(1, symbol)] },
+        };
+        // Distances in points of the picture, on both sides.
+        let lines = [
+            line(5.0, 1.0, "alpha'"),
+            line(5.0 + 8.3 * apart, 0.9, "gamma'"),
+            line(5.0 - 8.3 * apart, 0.8, "gamma'"),
+            line(5.0 + 8.5 * apart, 0.7, "l'"),
+            line(5.0 - 8.5 * apart, 0.6, "nu'"),
+            line(10.5, 0.5, "gamma'"),
+            line(1.0, 0.9 * NAMED, "gamma'"),
+            line(9.0, 1.1 * NAMED, "psi'"),
+        ];
+        let found = names(&panel, &lines, 10.0);
+        let expected = [0, 3, 4, 7]
+            .map(|k| (panel.at(lines[k].frequency, lines[k].amplitude), spectrum::name(&lines[k].combination)));
+        assert_eq!(found, expected);
+    }
+}

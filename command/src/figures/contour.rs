@@ -60,3 +60,54 @@ pub(super) fn isoline(values: &[f64], columns: usize, rows: usize, level: f64) -
     }
     pieces
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Values on a grid of four columns and three rows.
+    fn sampled(value: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+        (0..12).map(|k| value(f64::from(k % 4), f64::from(k / 4))).collect()
+    }
+
+    /// A product of two linear functions is what interpolation makes of its values: each rectangle has the band of all that it covers, and together they cover the square.
+    #[test]
+    fn bands_are_those_of_the_function() {
+        let value = |x: f64, y: f64| (1.0 + 2.0 * x) * (3.0 - 0.7 * y);
+        let band = |value: f64| (value * 1.3) as usize;
+        let cells = bands(&sampled(value), 4, 3, band);
+        let mut area = 0.0;
+        for ([left, bottom, right, top], found) in cells {
+            assert!(((top - bottom) * 12.0 - 1.0).abs() < 1e-12 && right > left, "a row of a twelfth of the square");
+            let count = ((right - left) * 18.0).round();
+            assert!(((right - left) * 18.0 - count).abs() < 1e-12);
+            for i in 0..count as usize {
+                let x = 3.0 * (left + (i as f64 + 0.5) / 18.0);
+                assert_eq!(found, band(value(x, 2.0 * (bottom + 0.5 / 12.0))), "{x} {bottom}");
+            }
+            area += (right - left) * (top - bottom);
+        }
+        assert!((area - 1.0).abs() < 1e-12, "{area}");
+    }
+
+    /// Pieces of the line of a linear function lie on it and are together as long as it is.
+    #[test]
+    fn a_line_of_equal_value_is_whole() {
+        let value = |x: f64, y: f64| 2.0 * x + 3.0 * y;
+        // From (1, 0) to (0, 2/3) of the grid for the level 2, and so on: ends in units of the grid.
+        for (level, from, to) in [
+            (2.0, [1.0, 0.0], [0.0, 2.0 / 3.0]),
+            (6.5, [3.0, 0.5 / 3.0], [0.25, 2.0]),
+            (4.7, [2.35, 0.0], [0.0, 4.7 / 3.0]),
+        ] {
+            let pieces = isoline(&sampled(value), 4, 3, level);
+            let scaled = |[x, y]: [f64; 2]| [x / 3.0, y / 2.0];
+            let distance = |[a, b]: [[f64; 2]; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+            for [x, y] in pieces.iter().flatten() {
+                assert!((value(3.0 * x, 2.0 * y) - level).abs() < 1e-12, "{x} {y}");
+            }
+            let length: f64 = pieces.iter().copied().map(distance).sum();
+            assert!((length - distance([scaled(from), scaled(to)])).abs() < 1e-12, "{level}: {length}");
+        }
+    }
+}

@@ -233,3 +233,24 @@ fn caption(chosen: &[Vec<(Multiples, usize)>], tables: &[Table]) -> Caption {
     let numbers = numbers.map(|(name, value)| (name, significant(value, 3)));
     Caption::of("line-atlas", &[&words[..], &numbers].concat())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_star_has_the_tilt_and_the_wobble_that_are_told() {
+        for wobble in [0.0032, 0.5, 1.2] {
+            let problem = star(0.3, wobble).unwrap();
+            let BodyState { axis, momentum, equatorial_axis } = *problem.initial();
+            let l = momentum / MOMENTUM;
+            assert!((l.norm() - 1.0).abs() < 1e-15);
+            assert!((l.z - TILT.cos()).abs() < 1e-15 && (l.y.atan2(l.x) - AZIMUTH).abs() < 1e-15);
+            // Beside the plane of L and Z, on the side of the right hand.
+            let beside = Vector3::z().cross(&l) / TILT.sin();
+            assert!((axis.dot(&l) - wobble.cos()).abs() < 1e-15 && (axis.dot(&beside) - wobble.sin()).abs() < 1e-15);
+            assert!((axis.norm() - 1.0).abs() < 1e-15 && axis.dot(&equatorial_axis).abs() < 1e-15);
+            assert_eq!(*problem.coefficients(), COEFFICIENTS.scaled(0.3).tensor());
+        }
+    }
+}

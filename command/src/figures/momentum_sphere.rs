@@ -113,3 +113,58 @@ fn caption() -> Caption {
     let levels = LEVELS.map(|level| signed(&level.to_string())).join(", ");
     Caption::of("momentum-sphere", &numbers.chain([("levels", levels)]).collect::<Vec<_>>())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(l: &Vector3<f64>) -> f64 {
+        l.dot(&(COEFFICIENTS.tensor() * l))
+    }
+
+    /// On each `l.(s l)` has the value of the level; one is on either side of the axis that it goes round, once.
+    #[test]
+    fn contours_have_the_value_of_their_level() {
+        for level in LEVELS {
+            let lines = contour(level);
+            let about = if level < COEFFICIENTS.yy { 2 } else { 0 };
+            for (line, side) in lines.iter().zip([1.0, -1.0]) {
+                for l in line {
+                    assert!((l.norm() - 1.0).abs() < 1e-14 && (value(l) - level).abs() < 1e-15, "{level}: {l}");
+                    assert!(side * l[about] > 0.0);
+                }
+                let azimuth = |l: &Vector3<f64>| l[(about + 2) % 3].atan2(l[(about + 1) % 3]);
+                let steps = line
+                    .windows(2)
+                    .map(|pair| (azimuth(&pair[1]) - azimuth(&pair[0])).rem_euclid(std::f64::consts::TAU));
+                let step = std::f64::consts::TAU / 240.0;
+                let (mut turned, mut longest) = (0.0, 0.0_f64);
+                for x in steps {
+                    turned += x;
+                    longest = longest.max(x);
+                }
+                assert!((turned - std::f64::consts::TAU).abs() < 1e-12 && longest < 1.001 * step, "{turned} {longest}");
+            }
+        }
+    }
+
+    /// Great circles through Y, one through each pair of opposite quarters.
+    #[test]
+    fn on_the_separatrix_the_value_is_that_of_the_middle_axis() {
+        for (circle, side) in separatrix().iter().zip([1.0, -1.0]) {
+            assert!(
+                circle.iter().all(|l| (l.norm() - 1.0).abs() < 1e-14 && (value(l) - COEFFICIENTS.yy).abs() < 1e-16)
+            );
+            assert!(circle.iter().all(|l| side * l.x * l.z >= -1e-30));
+            assert!(circle.iter().any(|l| l.y > 0.999) && circle.iter().any(|l| l.y < -0.999));
+        }
+    }
+
+    #[test]
+    fn the_star_near_the_separatrix_spins_about_its_axis() {
+        let near = near_separatrix().unwrap();
+        let BodyState { axis, momentum, .. } = near.problem.initial();
+        assert!((momentum - axis * (spheroid().inertia_zz * SPIN)).amax() < 1e-15, "{momentum}");
+        assert!((axis.y.acos() - TILT).abs() < 1e-12 && axis.x == 0.0 && axis.z > 0.0);
+    }
+}

@@ -49,7 +49,7 @@ impl Spread {
     /// Significant digits that the numbers have in common, and two that tell them apart.
     fn digits(self) -> usize {
         let spread = self.relative().max(ALIKE);
-        (2.0 - spread.log10().floor()).clamp(3.0, 15.0) as usize
+        (2.0 - spread.log10().floor()).max(3.0) as usize
     }
 
     /// A common value to subtract before the differences can be drawn, where the numbers differ by more than rounding but by too little for an axis.
@@ -87,6 +87,8 @@ mod tests {
             (0.999_999_99, "1"),
             (999_999.99, "1 × 10^{6}"),
             (0.0, "0"),
+            (0.001_234_5, "0.0012345"),
+            (0.000_123_45, "1.2345 × 10^{−4}"),
         ] {
             assert_eq!(number(x), text);
         }
@@ -109,5 +111,16 @@ mod tests {
         // Printed as it is subtracted.
         assert_eq!(significant(reference, 15), "0.01331677");
         assert!((reference - near.low).abs() < 2.0 * (near.high - near.low));
+    }
+
+    #[test]
+    fn negative_numbers_are_spread_as_positive_ones() {
+        let of = |low, high| Spread { low, high };
+        for (low, high, part) in [(-4.0, -3.0, 0.25), (3.0, 4.0, 0.25), (-4.0, 1.0, 1.25), (-1.0, 4.0, 1.25)] {
+            assert_eq!(of(low, high).relative(), part);
+        }
+        assert_eq!(of(-5.604, -3.917).in_words(" s"), "from −5.6 to −3.92 s");
+        let same = -0.405_043_317_428_1;
+        assert_eq!(of(same, same).in_words(" s"), "0.40504331743 s within 10^{−11} of that");
     }
 }

@@ -99,7 +99,34 @@ mod tests {
         ] {
             assert!(plain.contains(phrase), "no `{phrase}` in {plain}");
         }
+        // A rate below 1e-12 of the rotation is rounding.
+        for (inclining, is_zero) in [("1e-9", false), ("1e-10", true)] {
+            let toml = STAR.replace("beta_rate = -13.0", &format!("beta_rate = {inclining}"));
+            let scene = Scene::from_toml("star", &toml).unwrap();
+            let text = parameters("", &[&Subject::of_scene("star", &scene).unwrap()]);
+            let plain: String = text.chars().filter(|c| !"*{}^_".contains(*c)).collect();
+            assert_eq!(plain.contains("dβ/dt = 0."), is_zero, "{plain}");
+        }
         // Half a second is shown whole: less than a hundred turns.
         assert!((subject.shown.pulses * scene.units.time - 0.5).abs() < 1e-12);
+    }
+
+    /// What motions have in common is told once.
+    #[test]
+    fn motions_of_one_star_share_its_numbers() {
+        let subject = |name: &str, toml: &str| Subject::of_scene(name, &Scene::from_toml(name, toml).unwrap()).unwrap();
+        let first = subject("first", STAR);
+        let tilted = subject("tilted", &STAR.replace("beta = 0.8", "beta = 0.9"));
+        let flat = subject("flat", &STAR.replace("oblateness = 1e-9", "oblateness = 2e-9"));
+        let told = |subjects: &[&Subject]| {
+            let text = parameters("", subjects);
+            (
+                text.matches("*ε* =").count(),
+                subjects.iter().map(|subject| text.contains(&format!("{}:", subject.name))).collect::<Vec<_>>(),
+            )
+        };
+        assert_eq!(told(&[&first]), (1, vec![false]));
+        assert_eq!(told(&[&first, &tilted]), (1, vec![true, true]));
+        assert_eq!(told(&[&first, &flat]), (2, vec![true, true]));
     }
 }

@@ -231,3 +231,18 @@ fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
     }
     Caption { shows, parameters: parameters(&line_of_sight(subjects, true), subjects), method, says: says.join(" ") }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gap_parts_a_series() {
+        let stamped = |times: &[f64]| times.iter().map(|&time| Stamped { time, value: 1.0 }).collect::<Vec<_>>();
+        let pulses = PulseSeries { periods: Vec::new(), gaps: stamped(&[2.5, 9.0]), lengths: Vec::new() };
+        let (series, points) = (Series { pulses, curves: None }, stamped(&[1.0, 2.0, 3.0, 4.0]));
+        let pieces: Vec<Vec<f64>> =
+            series.pieces(&points).map(|piece| piece.iter().map(|point| point.time).collect()).collect();
+        assert_eq!(pieces, [[1.0, 2.0], [3.0, 4.0]]);
+    }
+}

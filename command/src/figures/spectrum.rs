@@ -95,6 +95,24 @@ fn rates(subject: &Subject) -> Result<String, String> {
 pub(super) fn highest(subjects: &[&Subject], times: f64) -> f64 {
     let rate = |subject: &&Subject| subject.scale.frequency(subject.rotation_rate);
     let highest = times * subjects.iter().map(rate).fold(0.0, f64::max);
-    let half = 10f64.powf(highest.log10().floor()) / 2.0;
-    (highest / half).ceil() * half
+    rounded_up(highest)
+}
+
+/// To half of its first digit.
+fn rounded_up(x: f64) -> f64 {
+    let half = 10f64.powf(x.log10().floor()) / 2.0;
+    (x / half).ceil() * half
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_end_of_an_axis_is_half_a_digit_up_at_most() {
+        for (x, end) in [(3.2, 3.5), (3.5, 3.5), (3.6, 4.0), (97.0, 100.0), (1.1, 1.5), (0.041, 0.045), (2.3e5, 2.5e5)]
+        {
+            assert!((rounded_up(x) / end - 1.0).abs() < 1e-12, "{x}: {}", rounded_up(x));
+        }
+    }
 }

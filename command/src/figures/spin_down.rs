@@ -238,3 +238,33 @@ fn caption(timed: &Timed, curves: &Table, lines: &Table) -> Caption {
     let numbers = numbers.map(|(name, value, digits)| (name, significant(value, digits)));
     Caption::of(NAME, &[&numbers[..], &angles(timed)].concat())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lines of known amplitudes and phases, beside a cubic polynomial that the fit of the rotation takes.
+    #[test]
+    fn lines_have_the_amplitudes_that_they_were_made_with() {
+        let precession = 100.0;
+        let mut curves = Table::new("curves", ["date", "1", "2", "3", "4", "5"]);
+        let tone = |t: f64, periods: f64, amplitude: f64, phase: f64| {
+            amplitude * (TAU * t / (periods * precession) + phase).cos()
+        };
+        for date in (0..400).map(|k| 50_000.0 + 3.7 * f64::from(k)) {
+            let t = date - 50_000.0;
+            let cubic = 5.0 - 0.01 * t + 3e-6 * t * t - 2e-9 * t * t * t;
+            let late = cubic + tone(t, 2.0, 0.3, 0.1) + tone(t, 1.0, 7.0, 1.3) + tone(t, 0.5, 2.0, -2.0);
+            let rate = 40.0 + tone(t, 1.0, 11.0, 0.4) + tone(t, 0.5, 6.0, 2.2);
+            let width = cubic + tone(t, 2.0, 0.7, 3.0);
+            curves.push([date, late, 0.0, 0.0, rate, width]);
+        }
+        let found = lines(&curves, precession).unwrap().rows;
+        let expected = [[200.0, 0.3, 0.0, 0.7], [100.0, 7.0, 11.0, 0.0], [50.0, 2.0, 6.0, 0.0]];
+        for (found, expected) in found.iter().zip(expected) {
+            let off = found.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(off < 1e-10, "{found:?}");
+        }
+        assert_eq!(found.len(), 3);
+    }
+}

@@ -218,4 +218,19 @@ mod tests {
         let at_rest = subject(0.8, 0.0, 0.0, -50.0);
         assert_eq!([at_rest.rotation_rate, at_rest.shown.angles], [0.02, -50.0]);
     }
+
+    /// A wave of a physical star needs its distance, one in the paper's units does not.
+    #[test]
+    fn a_physical_star_without_a_distance_lacks_it() {
+        let lacks =
+            |toml: &str| Subject::of_scene("star", &Scene::from_toml("star", toml).unwrap()).unwrap().lacks_distance();
+        let physical = "star = { mass = 1.4, radius = 12.0, oblateness = 1e-3, spin_frequency = 57.0 }\n\
+            lorentz_violation = { eigenvalues = [0.0, 0.0, 0.0] }\n\
+            initial = { alpha = 0.4, beta = 0.3, gamma = 1.3, alpha_rate = 375.0, beta_rate = 0.0 }\n\
+            time = { span = 2.0, samples = 3 }\n";
+        assert!(lacks(&format!("{physical}observer = {{ theta_o = 1.1, phi_o = 0.6 }}\n")));
+        assert!(!lacks(&format!("{physical}observer = {{ theta_o = 1.1, phi_o = 0.6, distance = 2.5 }}\n")));
+        assert!(!lacks(physical));
+        assert!(!Subject::of_scene("tp-1", &Scene::named("tp-1").unwrap()).unwrap().lacks_distance());
+    }
 }

@@ -36,3 +36,16 @@ impl Table {
         text
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_written_with_the_digits_that_identify_them() {
+        let mut table = Table::new("", ["t [s]", "x [1]"]);
+        table.push([1.0, -2.5e-300]);
+        table.push([0.1, 1.0 / 3.0]);
+        assert_eq!(table.csv(), "t [s],x [1]\n1.0,-2.5e-300\n0.1,0.3333333333333333\n");
+    }
+}

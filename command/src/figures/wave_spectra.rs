@@ -190,3 +190,27 @@ fn findings(subject: &Subject, both: &Both) -> String {
     }
     says + "."
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(frequency: f64, amplitude: f64) -> SpectralLine {
+        SpectralLine { frequency, amplitude, phase: 0.0, uncertainty: 0.0, combination: Default::default() }
+    }
+
+    #[test]
+    fn what_is_enlarged_is_near_the_third_harmonic() {
+        let lines: Vec<_> = [5.5, 5.57, 6.0, 6.43, 6.45, 2.0].map(|frequency| line(frequency, 1.0)).into();
+        let near: Vec<_> = part(&lines, 2.0).map(|line| line.frequency).collect();
+        assert_eq!(near, [5.57, 6.0, 6.43]);
+    }
+
+    #[test]
+    fn the_largest_line_is_of_either_polarization() {
+        let both = [vec![line(1.0, 1e-30), line(2.0, 3e-30)], vec![line(1.0, 2e-30)]];
+        assert_eq!(largest(&both), 3e-30);
+        assert_eq!(largest(&[vec![], vec![line(1.0, 2e-30)]]), 2e-30);
+        assert_eq!(largest(&[vec![], vec![]]), 0.0);
+    }
+}

@@ -104,3 +104,39 @@ fn caption(subjects: &[&Subject], tables: &[Table]) -> Caption {
         says,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix3, Vector3};
+    use twofold::dynamics::{Problem, RigidSpheroid};
+    use twofold::euler_angles::EulerAngles;
+
+    use super::*;
+
+    /// It goes with the oblateness and the square of the rotation, and with the torque beside it.
+    #[test]
+    fn the_error_of_a_wave_goes_with_what_makes_it() {
+        let error = |oblateness: f64, rate: f64, torque: f64| {
+            let spheroid = RigidSpheroid::in_units_of_tc(1.0 + oblateness);
+            let start = BodyState { axis: Vector3::z(), momentum: Vector3::x() * rate, equatorial_axis: Vector3::x() };
+            let s = Matrix3::from_diagonal(&Vector3::new(torque, 0.0, 0.0));
+            let problem = Problem::new(spheroid, s, start).unwrap();
+            super::error(
+                &Subject::new("star", problem, EulerAngles { alpha: 0.0, beta: 0.0, gamma: 0.0 }, 1.0).unwrap(),
+            )
+        };
+        let unit = error(0.1, 1.0, 0.0);
+        assert!(unit > 0.0);
+        for (oblateness, rate, torque, times) in [
+            (-0.1, 1.0, 0.0, 1.0),
+            (0.2, 1.0, 0.0, 2.0),
+            (0.1, 3.0, 0.0, 9.0),
+            (0.1, 1.0, 0.1, 2.0),
+            (0.0, 1.0, 0.1, 1.0),
+            (0.0, 1.0, 0.0, 0.0),
+        ] {
+            let found = error(oblateness, rate, torque) / unit;
+            assert!((found - times).abs() < 1e-9, "{oblateness} {rate} {torque}: {found}");
+        }
+    }
+}
