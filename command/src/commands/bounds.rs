@@ -274,3 +274,27 @@ fn as_json(pulsar: &Pulsar, rows: &[Row]) -> Value {
         "figures": rows.iter().map(figure).collect::<Vec<_>>(),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_digits_that_are_read() {
+        let three = [
+            (0.0, "0"),
+            (0.009_9, "9.90e-3"),
+            (0.01, "0.010"),
+            (-9999.9, "-9999.900"),
+            (1e4, "1.00e4"),
+            (-2.5e-16, "-2.50e-16"),
+        ];
+        for (x, text) in three {
+            assert_eq!(rounded(x), text);
+        }
+        for (x, text) in [(0.994, "0.99"), (0.996, "1.0"), (9.94, "9.9"), (9.96, "10"), (-0.5, "-0.50"), (-20.4, "-20")]
+        {
+            assert_eq!(two_digits(x), text);
+        }
+    }
+}

@@ -232,3 +232,16 @@ fn positive(option: &str, value: f64) -> Result<(), Failure> {
 pub(super) fn date(text: &str) -> Result<Epoch, String> {
     text.parse().map_err(|_| "allowed is a modified Julian date from 0 to 1e7, as 55321.25".to_owned())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn days_apart_do_not_depend_on_the_order() {
+        let days = |times: &[f64]| days_apart(times.iter().map(|day| day * DAY));
+        assert_eq!(days(&[13.0, 10.0, 11.0]), 1.5);
+        assert_eq!(days(&[-2.0, -1.0]), 1.0);
+        assert!(days(&[4.0]).is_nan() && days(&[]).is_nan());
+    }
+}

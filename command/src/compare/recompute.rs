@@ -215,4 +215,13 @@ mod tests {
         }
         assert!(pulsed > 100, "{pulsed}");
     }
+
+    #[test]
+    fn a_mean_is_over_time_and_not_over_rows() {
+        // 1 + 2 t at uneven times has the mean of its ends.
+        let series = [0.5, 1.0, 4.0].map(|t| (t, 1.0 + 2.0 * t));
+        assert_eq!(mean_in_time(&series), 5.5);
+        assert_eq!(mean_in_time(&[(3.0, 7.0)]), 7.0);
+        assert!(mean_in_time(&[]).is_nan());
+    }
 }

@@ -59,7 +59,7 @@ pub struct LineList {
     pub lines: Vec<SpectralLine>,
     /// Least amplitude that is listed: what was asked for, or what rounding makes of a constant. Amplitudes are right to a tenth of it.
     pub least: f64,
-    /// Largest difference between the function and the sum of constant and lines, at sixteen places of the torus: what is not listed.
+    /// Largest difference between the function and the sum of its listed parts at sixteen places of the torus: what is not listed. Combinations without a frequency count as what they are there.
     pub left: f64,
 }
 

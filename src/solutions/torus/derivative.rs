@@ -16,7 +16,7 @@ use crate::numerics::scalar::Scalar;
 const ROUNDING: f64 = 3e-14;
 
 /// Parts of a closed way after each of which it is seen how much a change has grown.
-const LOOKS: usize = 32;
+const LOOKS: usize = 16;
 
 /// The exact motion as a function of one parameter: the states of a [`TorusSolution`] with their derivatives.
 ///
