@@ -12,7 +12,7 @@ pub(super) fn bands(
 ) -> Vec<([f64; 4], usize)> {
     let (wide, high) = ((columns - 1) * FINENESS, (rows - 1) * FINENESS);
     let value = |u: f64, v: f64| {
-        let (i, j) = ((u as usize).min(columns - 2), (v as usize).min(rows - 2));
+        let (i, j) = (u as usize, v as usize);
         let (p, q) = (u - i as f64, v - j as f64);
         let at = |i: usize, j: usize| values[i + columns * j];
         (at(i, j) * (1.0 - p) + at(i + 1, j) * p) * (1.0 - q) + (at(i, j + 1) * (1.0 - p) + at(i + 1, j + 1) * p) * q

@@ -2,7 +2,6 @@
 
 use nalgebra::Vector3;
 use twofold::dynamics::{BodyState, Problem};
-use twofold::euler_angles::EulerAngles;
 
 use super::drawing::*;
 use twofold_verify::paper_examples::{COEFFICIENTS, SPIN, spheroid};
@@ -42,8 +41,7 @@ fn near_separatrix() -> Result<Subject, String> {
     // Towards Z, so that L goes round Z after all.
     let axis = Vector3::new(0.0, TILT.cos(), TILT.sin());
     let state = BodyState { axis, momentum: axis * (spheroid.inertia_zz * SPIN), equatorial_axis: Vector3::x() };
-    let angles = state.angles().unwrap_or(EulerAngles { alpha: 0.0, beta: 0.0, gamma: 0.0 });
-    Subject::new("near Y", Problem::new(spheroid, COEFFICIENTS.tensor(), state)?, angles, SPAN)
+    Subject::new("near Y", Problem::new(spheroid, COEFFICIENTS.tensor(), state)?, state.angles()?, SPAN)
 }
 
 /// The two closed lines with `l.(s l) = h`: below the middle eigenvalue about the axis of the smallest, above about that of the largest.

@@ -63,8 +63,7 @@ impl Spread {
     pub(super) fn in_words(self, unit: &str) -> String {
         let digits = self.digits();
         if self.relative() < ALIKE {
-            let size = self.low.abs().max(self.high.abs());
-            return format!("{}{unit} within 10^{{−11}} of that", significant(size, digits - 2));
+            return format!("{}{unit} within 10^{{−11}} of that", significant(self.high, digits - 2));
         }
         format!("from {} to {}{unit}", significant(self.low, digits), significant(self.high, digits))
     }
@@ -121,6 +120,6 @@ mod tests {
         }
         assert_eq!(of(-5.604, -3.917).in_words(" s"), "from −5.6 to −3.92 s");
         let same = -0.405_043_317_428_1;
-        assert_eq!(of(same, same).in_words(" s"), "0.40504331743 s within 10^{−11} of that");
+        assert_eq!(of(same, same).in_words(" s"), "−0.40504331743 s within 10^{−11} of that");
     }
 }
