@@ -13,7 +13,7 @@ use crate::numerics::angle::about;
 use crate::numerics::scalar::Scalar;
 
 /// What rounding leaves of derivatives that do not grow on the way, where the torus is as wide as it can be: that of some ten steps of the flow, and of their sum.
-const ROUNDING: f64 = 3e-14;
+const ROUNDING: f64 = 1e-14;
 
 /// Parts of a closed way after each of which it is seen how much a change has grown.
 const LOOKS: usize = 16;
