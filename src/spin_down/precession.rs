@@ -252,7 +252,7 @@ impl Precession {
         }
         let end = self.wobble_at(tau);
         let largest = if end.sin() > wobble.sin() { end } else { wobble };
-        let slowest = w.abs() * largest.cos() / wobble.cos();
+        let slowest = w.abs() * (largest.cos() / wobble.cos()).min(1.0);
         let constant = (torque.once.abs() + torque.twice.abs() / 2.0) / w.abs() * (damping / w).abs().powi(3);
         let [once, twice] = [(2.0 * chi).sin().abs() * largest.sin(), (chi.sin() * largest.sin()).powi(2) / 2.0];
         let ends = 2.0 * (6.0 * once + 1.6 * twice) / slowest.powi(2) * (damping / slowest).abs().powi(3);

@@ -220,3 +220,45 @@ fn residuals_by_violation_are_those_of_their_table() {
         ],
     );
 }
+
+/// What a caption says of lines, points and names is in it where these are drawn, and nowhere else.
+#[test]
+fn captions_tell_of_what_is_drawn() {
+    let mut seen = [[0; 2]; 5];
+    for figure in fixtures() {
+        let caption = &figure.caption;
+        for other in [&caption.shows, &caption.method, &caption.says] {
+            assert!(!other.contains("Angles in rad"), "{}: parameters in {other}", figure.name);
+        }
+        let count = |what: &str| figure.tables.iter().filter(|table| table.name.ends_with(what)).count();
+        // Rates of free precession are vermilion and dashed, the third harmonic is enlarged beside a dotted line.
+        let has_line = |colour: &str, dashes: &str| {
+            let lines = figure.svg.lines().filter(|line| line.contains(&format!("stroke=\"{colour}\"")));
+            lines.filter(|line| line.contains(&format!("stroke-dasharray=\"{dashes}\""))).count() > 0
+        };
+        let mut told = |place: usize, is_told: bool, is_drawn: bool| {
+            assert_eq!(is_told, is_drawn, "{}, {place}: {} {}", figure.name, caption.shows, caption.method);
+            seen[place][usize::from(is_told)] += 1;
+        };
+        match figure.name {
+            "beam-alignment-spectra" => told(0, caption.shows.contains("Dashed: "), has_line("#d55e00", "5 2.5")),
+            "wave-spectra" => {
+                told(0, caption.shows.contains("Dashed: "), has_line("#d55e00", "5 2.5"));
+                told(
+                    1,
+                    caption.shows.contains("the insets enlarge"),
+                    figure.svg.contains("stroke-dasharray=\"1.2 1.8\""),
+                );
+            }
+            "pulse-series" => {
+                told(2, caption.shows.contains("Intervals that are not"), count("-gaps") > 0);
+                told(3, caption.method.contains("Solid curves"), count("-curves") > 0);
+                // Points of a motion without curves are joined.
+                let joined = count("-lengths") > count("-curves");
+                told(4, caption.shows.contains("Thin grey lines join points"), joined);
+            }
+            _ => {}
+        }
+    }
+    assert!(seen.iter().flatten().all(|count| *count > 0), "{seen:?}");
+}

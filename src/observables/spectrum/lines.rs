@@ -59,7 +59,7 @@ pub struct LineList {
     pub lines: Vec<SpectralLine>,
     /// Least amplitude that is listed: what was asked for, or what rounding makes of a constant. Amplitudes are right to a tenth of it.
     pub least: f64,
-    /// Largest difference between the function and the sum of its listed parts at sixteen places of the torus: what is not listed. Combinations without a frequency count as what they are there.
+    /// Largest difference between the function and the sum of its listed parts at sixteen places of the torus: what is not listed. Combinations that do not move are compared by their value at that place.
     pub left: f64,
 }
 
@@ -147,7 +147,7 @@ impl QuasiPeriodicMotion {
             let [frequency, uncertainty] = self.frequency(multiples);
             if frequency == 0.0 {
                 constant += coefficient.re;
-                // Its opposite is here too.
+                // Each of the pair of opposite multiples adds half.
                 waves.push((0.5 * amplitude, phase, multiples));
             } else if frequency > 0.0 {
                 // The others have the opposite multiples.

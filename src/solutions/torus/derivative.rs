@@ -13,9 +13,9 @@ use crate::numerics::angle::about;
 use crate::numerics::scalar::Scalar;
 
 /// What rounding leaves of derivatives that do not grow on the way, where the torus is as wide as it can be: that of some ten steps of the flow, and of their sum.
-const ROUNDING: f64 = 1e-14;
+const ROUNDING: f64 = 3e-14;
 
-/// Parts of a closed way after each of which it is seen how much a change has grown.
+/// Parts of a closed way at whose ends the growth of a change is sampled.
 const LOOKS: usize = 16;
 
 /// The exact motion as a function of one parameter: the states of a [`TorusSolution`] with their derivatives.
@@ -44,7 +44,7 @@ impl<'a> TorusDerivative<'a> {
     /// For the solution of a problem, and the same problem as a function of one parameter.
     ///
     /// # Errors
-    /// [`Error::NotConverged`] for a torus so thin that its flows hardly lead apart: `n` on `L`, `L` on an axis. Neighbours of such a motion have another number of frequencies.
+    /// [`Error::NotConverged`] for a torus so thin that its flows hardly lead apart, as in steady motion: its neighbours have another number of frequencies. Also where a closed way is not finite.
     pub fn new(solution: &'a TorusSolution, problem: &Problem<Dual64>) -> Result<Self, Error> {
         let refused =
             |what, residual| -> Result<Self, Error> { Err(Error::NotConverged { what, iterations: 1, residual }) };
@@ -93,7 +93,7 @@ impl<'a> TorusDerivative<'a> {
         let along = |way: &[Dual64; 2]| {
             let part = way.map(|time| Dual64::from_re(time.re / LOOKS as f64));
             let states = core::iter::successors(Some(self.start), |at| Some(self.integrals.moved(part, at)));
-            states.take(LOOKS + 1).map(|at| size(&at)).fold(0.0, f64::max)
+            states.take(LOOKS + 1).map(|at| size(&at)).fold(0.0, |most, x| if x <= most { most } else { x })
         };
         self.periods.iter().map(along).fold(0.0, f64::max) / size(&self.start)
     }
@@ -125,12 +125,18 @@ impl<'a> TorusDerivative<'a> {
     }
 }
 
-/// Estimated error of derivatives by any number of a problem, in units of the largest one by the same number: by how thin the torus is, and by how much
-/// some change of the start, of no meaning, grows on the way round it.
+/// Estimated error of derivatives ([`TorusDerivative`]) by any number of a problem, in units of the largest one by the same number:
+///
+/// ```text
+/// 3e-14 g / w
+/// ```
+///
+/// `w` is the width of the torus, the least singular value of the rates of `(n, L)` along both flows over the rate at which the body turns; `g` is how much an arbitrary change of the start grows
+/// along the closed ways. See `docs/exact-motion.md`.
 ///
 /// # Errors
 /// As for [`TorusDerivative::new`].
-pub(crate) fn error_of_derivatives(solution: &TorusSolution, problem: &Problem<f64>) -> Result<f64, Error> {
+pub fn error_of_derivatives(solution: &TorusSolution, problem: &Problem<f64>) -> Result<f64, Error> {
     let [axis, momentum, equatorial_axis] = problem.initial().vectors();
     let changed = |v: &Vector3<f64>, by: Vector3<f64>| v.zip_map(&by, Dual64::new);
     let turn = Vector3::new(0.48, -0.6, 0.64);

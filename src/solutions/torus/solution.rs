@@ -117,12 +117,13 @@ impl TorusSolution {
             if gap <= 10.0 * solution.truncation + CLOSED {
                 return Ok(Some(solution));
             }
-            // Coefficients behind those that are small may be larger again: a grid as fine as they need makes the gap smaller, if not the next one, then the one after it.
+            // Coefficients behind those that are small may be larger again. A grid twice as fine may still take them for others; where two such in a row do not help, it is not the grid.
             if gap.is_nan() || gap > 0.25 * before[0] {
                 return Err(Error::NotConverged { what, iterations: sampled.grid.quarter, residual: gap });
             }
             before = [before[1], gap];
-            coarsest = QuarterGrid { quarter: 2 * sampled.grid.quarter, ..sampled.grid };
+            let QuarterGrid { points, quarter } = sampled.grid;
+            coarsest = QuarterGrid { points: 2 * points, quarter: 2 * quarter };
         }
     }
 
@@ -341,7 +342,8 @@ mod tests {
         for (tolerance, numbers) in [(1.5e-4, HIDING), (1.862e-2, as_far_on_the_second)] {
             let problem = problem(numbers);
             let [coarse, fine] = [tolerance, 1e-14].map(|digits| TorusSolution::new(&problem, digits, 100.0).unwrap());
-            assert!(coarse.error_estimate(0.0) < 30.0 * tolerance, "{:e}", coarse.error_estimate(0.0));
+            // What is left out, and twice a gap of ten times that.
+            assert!(coarse.error_estimate(0.0) < 21.0 * tolerance + 1e-11, "{:e}", coarse.error_estimate(0.0));
             let unit = Vector3::from(numbers[2]).norm();
             for t in (0..200).map(|k| 0.37 * f64::from(k)) {
                 let [[n, momentum, e_x], exact] = [&coarse, &fine].map(|found| found.state([t, 0.0]).vectors());
