@@ -12,7 +12,7 @@ const COMPARISONS: u64 = 256;
 /// times compared, the difference is less than the error: by a factor of 3.4 at most in 160,000 random comparisons.
 const SAFETY: f64 = 6.0;
 
-/// Roundings by which the start of the better motion is off, in a direction of no meaning.
+/// Roundings by which the start of the better motion is off, in an arbitrary direction.
 const OFF: [f64; 3] = [8.3, -6.1, 7.7];
 
 /// The same of another motion by the same steps, in a direction normal to it: an instability may leave one of them as it is. In its field the
