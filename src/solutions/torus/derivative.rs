@@ -93,7 +93,7 @@ impl<'a> TorusDerivative<'a> {
         let along = |way: &[Dual64; 2]| {
             let part = way.map(|time| Dual64::from_re(time.re / LOOKS as f64));
             let states = core::iter::successors(Some(self.start), |at| Some(self.integrals.moved(part, at)));
-            states.take(LOOKS + 1).map(|at| size(&at)).fold(0.0, |most, x| if x <= most { most } else { x })
+            states.take(LOOKS + 1).map(|at| size(&at)).fold(0.0, f64::max)
         };
         self.periods.iter().map(along).fold(0.0, f64::max) / size(&self.start)
     }
@@ -139,10 +139,12 @@ impl<'a> TorusDerivative<'a> {
 pub fn error_of_derivatives(solution: &TorusSolution, problem: &Problem<f64>) -> Result<f64, Error> {
     let [axis, momentum, equatorial_axis] = problem.initial().vectors();
     let changed = |v: &Vector3<f64>, by: Vector3<f64>| v.zip_map(&by, Dual64::new);
-    let turn = Vector3::new(0.48, -0.6, 0.64);
+    // In axes of the body, so that a turn of everything leaves the estimate as it is.
+    let across = axis.cross(&equatorial_axis);
+    let turn = equatorial_axis * 0.6 + across * 0.8;
     let start = BodyState {
         axis: changed(&axis, turn.cross(&axis)),
-        momentum: changed(&momentum, Vector3::new(0.36, 0.8, -0.48) * solution.unit),
+        momentum: changed(&momentum, (axis * 0.48 - equatorial_axis * 0.64 + across * 0.6) * solution.unit),
         equatorial_axis: changed(&equatorial_axis, turn.cross(&equatorial_axis)),
     };
     let problem = problem.map(Dual64::from_re).starting_from(start)?;
