@@ -1,11 +1,11 @@
 //! The numbers of captions are those of the tables beside them.
 
-use super::Table;
 use super::data_tests::{column, drawn};
 use super::drawn::number;
 use super::fixtures::{figure, fixtures};
 use super::spin_down::sizes;
 use super::spin_down_tests;
+use super::{Caption, Table};
 
 /// A number of a caption, as `0.0025` or `2.5 × 10^{−7}`.
 fn told(text: &str) -> f64 {
@@ -20,6 +20,13 @@ pub(super) fn assert_told(mut caption: &str, numbers: &[(&str, &str, f64, usize)
         let rounded: f64 = format!("{expected:.*e}", digits - 1).parse().unwrap();
         assert!((told(words) / rounded - 1.0).abs() < 1e-12, "`{before}{words}{after}`, expected {rounded}");
         caption = &rest[words.len()..];
+    }
+}
+
+/// What the four paragraphs of a caption begin with.
+pub(super) fn assert_begins(caption: &Caption, parts: [&str; 4]) {
+    for (paragraph, part) in caption.paragraphs().into_iter().zip(parts) {
+        assert!(paragraph.starts_with(part), "`{part}`, but\n`{paragraph}`");
     }
 }
 

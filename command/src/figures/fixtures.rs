@@ -4,6 +4,7 @@ use std::ops::Deref;
 use std::sync::{Arc, LazyLock};
 
 use super::{Figure, OF_A_SCENE, RECIPES, Recipe, Subject, examples, work_precision};
+use twofold::observables::spectrum::{Combination, SpectralLine};
 use twofold_bench::method::Carries;
 use twofold_bench::timing::Times;
 use twofold_bench::work_precision::Row;
@@ -135,4 +136,38 @@ pub(super) fn made_up_runs() -> Vec<Row> {
     cases
         .flat_map(|(scene, carries)| (0..9).flat_map(move |m| (1..8).map(move |i| run(scene, carries, m, i))))
         .collect()
+}
+
+/// A star of the paper's units with `I^zz / I^xx` = 1.1, an observer and a beam, for 5 t_c: by its spin, the eigenvalues of its `s` and its start.
+pub(super) fn star(name: &str, spin: f64, s: [f64; 3], initial: &str) -> Subject {
+    let text = format!(
+        "star = {{ inertia_ratio = 1.1, spin = {spin:?} }}\nlorentz_violation.eigenvalues = {s:?}\ninitial = {{ {initial} }}\n\
+         observer = {{ theta_o = 0.8, phi_o = 0.0 }}\npulsar = {{ chi = 0.5, rho = 0.6 }}\ntime = {{ span = 5.0, samples = 3 }}\n"
+    );
+    of_text(name, &text)
+}
+
+/// Twofold precession by its constants, and a start by angles and rates.
+pub(super) const CONSTANTS: &str = "kind = \"twofold\", alpha_0 = 0.3, beta_0 = 0.7, amplitude = 0.0, phase = 0.0";
+pub(super) const ANGLES: &str = "alpha = 0.3, beta = 0.7, gamma = 0.1, alpha_rate = 1.4, beta_rate = 0.0";
+
+/// Free precession about Z by its constants: `alpha'` is 1.1 / cos 0.7 and `gamma'` -0.1.
+pub(super) fn free(name: &str) -> Subject {
+    star(name, 1.0, [0.0; 3], CONSTANTS)
+}
+
+/// The physical star in free precession; with the sign of the rate of `alpha` and of the spin.
+pub(super) fn tone(alpha: f64, spin: f64) -> Subject {
+    let text = TONE.replace("alpha_rate = 375.2601393880295", &format!("alpha_rate = {:?}", alpha * 375.2601393880295));
+    of_text("tone", &text.replace("spin_frequency = 57.0", &format!("spin_frequency = {:?}", spin * 57.0)))
+}
+
+fn of_text(name: &str, text: &str) -> Subject {
+    Subject::of_scene(name, &Scene::from_toml(name, text).expect("a scene")).expect("a motion")
+}
+
+/// A line of a spectrum.
+pub(super) fn line(frequency: f64, amplitude: f64, terms: &[(i32, &'static str)]) -> SpectralLine {
+    let combination = Combination { terms: terms.to_vec() };
+    SpectralLine { frequency, amplitude, phase: 0.0, uncertainty: 0.0, combination }
 }

@@ -107,12 +107,34 @@ fn rounded_up(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::figures::fixtures::{CONSTANTS, star};
 
     #[test]
     fn the_end_of_an_axis_is_half_a_digit_up_at_most() {
         for (x, end) in [(3.2, 3.5), (3.5, 3.5), (3.6, 4.0), (97.0, 100.0), (1.1, 1.5), (0.041, 0.045), (2.3e5, 2.5e5)]
         {
             assert!((rounded_up(x) / end - 1.0).abs() < 1e-12, "{x}: {}", rounded_up(x));
+        }
+    }
+
+    #[test]
+    fn a_line_that_begins_with_a_minus_has_its_sign() {
+        let names = [vec![(-2, "alpha'"), (1, "gamma'")], vec![(1, "nu'"), (-1, "psi'")], vec![(-1, "l'")]]
+            .map(|terms| name(&Combination { terms }));
+        assert_eq!(names, ["\u{2212}2 *α* + *γ*", "*ν* \u{2212} *ψ*", "\u{2212}*l*"]);
+    }
+
+    /// Of free precession about Z: `alpha'` is `1.1 / cos 0.7`, which is `|L| / I^xx` and `nu'` too, and `gamma'` is `-0.1`, all times the spin. There is no slow one.
+    #[test]
+    fn rates_of_free_precession_are_those_of_eq_48() {
+        let [slow, fast] = [0.01, 1.0].map(|spin| star("a", spin, [0.0; 3], CONSTANTS));
+        let [unit, rates] = of_rates(&[&slow, &fast]).unwrap();
+        assert_eq!(unit, ("unit", "rad/*t*_{c}".to_owned()));
+        let told = "a: *α* = 0.01438205, *γ* = \u{2212}0.001, *ν* = 0.01438205; a: *α* = 1.438205, *γ* = \u{2212}0.1, *ν* = 1.438205";
+        assert_eq!(rates, ("rates", told.to_owned()));
+        // 0.0316 and 3.16.
+        for (subjects, end) in [(vec![&slow], 0.035), (vec![&slow, &fast], 3.5), (vec![&fast, &slow], 3.5)] {
+            assert!((highest(&subjects, 2.2) / end - 1.0).abs() < 1e-12, "{end}");
         }
     }
 }

@@ -49,18 +49,18 @@ fn largest(both: &Both) -> f64 {
     both.iter().flatten().map(|line| line.amplitude).fold(0.0, f64::max)
 }
 
-/// Whether a wave is more than the error of the motion.
-fn radiates(subject: &Subject, both: &Both) -> bool {
-    largest(both) > waves::error(subject)
+/// Whether a wave is more than the error of the motion, below which there are no lines.
+fn radiates(both: &Both) -> bool {
+    both.iter().any(|lines| !lines.is_empty())
 }
 
 /// The rate of `alpha`, of which the wave has harmonics, as it is drawn; none where nothing is left to enlarge near its third.
 fn fundamental(subject: &Subject, both: &Both, highest: f64) -> Result<Option<f64>, String> {
-    let rate = subject.quasi_periodic()?.frequencies().rate("alpha'").filter(|rate| *rate != 0.0);
+    let rate = subject.quasi_periodic()?.frequencies().rate("alpha'");
     let rate = rate.map(|rate| subject.scale.frequency(rate.abs()));
     let is_seen = |rate: &f64| {
         let near = both.iter().flat_map(|lines| part(lines, *rate)).map(|line| line.amplitude).fold(0.0, f64::max);
-        (3.0 + INSET) * rate < highest && radiates(subject, both) && near > ENLARGED * largest(both)
+        (3.0 + INSET) * rate < highest && near > ENLARGED * largest(both)
     };
     Ok(rate.filter(is_seen))
 }
@@ -87,7 +87,7 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[Both], highest: f64) -> Re
                 [*free, 2.0 * free].iter().for_each(|rate| panel.upright(&mut page, *rate, dashed(VERMILION, 0.9)));
             }
             spectrum::draw_lines(&mut page, &panel, lines, 0.0, LINE);
-            if !radiates(subject, both) {
+            if !radiates(both) {
                 panel.remark(&mut page, "below the error of the numerical motion");
             }
             panel.draw_frame(&mut page);
@@ -148,22 +148,17 @@ fn caption(subjects: &[&Subject], spectra: &[Both], highest: f64) -> Result<Capt
 
 /// What the spectra of a motion say.
 fn findings(subject: &Subject, both: &Both) -> String {
-    if !radiates(subject, both) {
+    if !radiates(both) {
         let error = significant(waves::error(subject), 1);
         return format!(
             "The amplitudes of {} are below {error}, what the error of the numerical motion makes.",
             subject.name
         );
     }
-    let by_strength = |a: &&Vec<SpectralLine>, b: &&Vec<SpectralLine>| {
-        let strongest = |lines: &Vec<SpectralLine>| lines.first().map_or(0.0, |line| line.amplitude);
-        strongest(a).total_cmp(&strongest(b))
-    };
-    let strongest = both.iter().rev().max_by(by_strength).expect("two spectra");
-    let Some(first) = strongest.first() else {
-        return format!("{} has no line above 10^{{−5}} of its constant term.", subject.name);
-    };
-    let symbol = if std::ptr::eq(strongest, &both[0]) { "*h*_{+}" } else { "*h*_{×}" };
+    let firsts = ["*h*_{×}", "*h*_{+}"].into_iter().zip(both.iter().rev());
+    let firsts = firsts.filter_map(|(symbol, lines)| Some((symbol, lines, lines.first()?)));
+    let (symbol, strongest, first) =
+        firsts.max_by(|(.., a), (.., b)| a.amplitude.total_cmp(&b.amplitude)).expect("a line");
     let name = |line: &SpectralLine| {
         format!(
             "{}, at {} {}",
@@ -194,9 +189,11 @@ fn findings(subject: &Subject, both: &Both) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::figures::caption_tests::assert_begins;
+    use crate::figures::fixtures::{self, ANGLES, CONSTANTS, star};
 
     fn line(frequency: f64, amplitude: f64) -> SpectralLine {
-        SpectralLine { frequency, amplitude, phase: 0.0, uncertainty: 0.0, combination: Default::default() }
+        fixtures::line(frequency, amplitude, &[])
     }
 
     #[test]
@@ -212,5 +209,55 @@ mod tests {
         assert_eq!(largest(&both), 3e-30);
         assert_eq!(largest(&[vec![], vec![line(1.0, 2e-30)]]), 2e-30);
         assert_eq!(largest(&[vec![], vec![]]), 0.0);
+    }
+
+    /// At three times `alpha'`, which is 1.1 / cos 0.7 either way, and up to 3.22 times it on the axis. The wave of a physical star has amplitudes of 1e-30.
+    #[test]
+    fn an_inset_is_there_for_what_it_enlarges() {
+        let third = 3.3 / 0.7_f64.cos();
+        let both = |frequency: f64, amplitude: f64| [vec![line(0.5, 1e-30)], vec![line(frequency, amplitude)]];
+        for spin in [1.0, -1.0] {
+            let star = star("a", spin, [0.0; 3], CONSTANTS);
+            let rate = |both: &Both, highest: f64| fundamental(&star, both, highest).unwrap();
+            let seen = rate(&both(third, 1.1e-35), 1.08 * third).expect("an inset");
+            assert!((3.0 * seen / third - 1.0).abs() < 1e-13, "{seen}");
+            assert_eq!(rate(&both(third, 0.9e-35), 1.08 * third), None, "too weak");
+            assert_eq!(rate(&both(1.08 * third, 1e-31), 2.0 * third), None, "elsewhere");
+            assert_eq!(rate(&both(third, 1e-31), 1.07 * third), None, "beyond the end");
+            assert_eq!(rate(&[vec![], vec![]], 2.0 * third), None, "nothing");
+        }
+        // Here `alpha` does not go round.
+        assert_eq!(fundamental(&fixtures::tone(-1.0, 1.0), &both(0.0, 1e-30), 300.0).unwrap(), None);
+    }
+
+    /// The unit of the wave is that of the paper; the error is `1e-11 epsilon (1.1 / cos 0.7)^2`.
+    #[test]
+    fn a_caption_tells_the_strongest_lines_and_what_is_drawn() {
+        let rate = 1.1 / 0.7_f64.cos();
+        let (by_constants, by_angles) = (fixtures::free("a"), star("b", 1.0, [0.0; 3], ANGLES));
+        let once = |amplitude: f64| fixtures::line(1.5, amplitude, &[(1, "alpha'")]);
+        let third = fixtures::line(3.0 * rate, 0.25, &[(-3, "alpha'"), (1, "gamma'")]);
+        let beside = fixtures::line(1.25, 0.125, &[(1, "alpha'"), (1, "l'")]);
+        let slow = fixtures::line(0.5, 0.0625, &[(-1, "l'")]);
+        let told = |subjects: &[&Subject], spectra: &[Both]| caption(subjects, spectra, 5.0).unwrap();
+        let spectra =
+            [[vec![once(0.5)], vec![once(1.0), third, beside, slow]], [vec![], vec![]], [vec![once(2.0)], vec![]]];
+        assert_begins(
+            &told(&[&by_constants, &by_angles, &by_angles], &spectra),
+            [
+                "Lines of *h*_{+} (top) and *h*_{×} (bottom), in units of *G* *I*^{*xx*} / (*c*^{4} *t*_{c}^{2} *r*); the insets \
+                 enlarge what is near three times the mean rate of *α* (dotted). Dashed: *α* and 2*α* of free precession, Eq. (48).",
+                "*θ*_{o} = 0.8, *φ*_{o} = 0. *ε* = 0.1",
+                "Waves by Eqs. (59)",
+                "The strongest line of a is in *h*_{×}: *α*, at 1.5 rad/*t*_{c}, of an amplitude of 1; the strongest of the third harmonic \
+                 of *h*_{×}, −3 *α* + *γ*, at 4.31462 rad/*t*_{c}, has 0.25 of it; the slow frequency *l* by itself has 0.062 of it. \
+                 The amplitudes of b are below 2 × 10^{−12}, what the error of the numerical motion makes. The strongest line of b is in \
+                 *h*_{+}: *α*, at 1.5 rad/*t*_{c}, of an amplitude of 2.",
+            ],
+        );
+        let alone = told(&[&by_angles], &[[vec![once(1.0)], vec![once(1.0)]]]);
+        assert!(alone.shows.ends_with("*r*)."), "{}", alone.shows);
+        // Of equal ones the first.
+        assert_eq!(alone.says, "The strongest line of b is in *h*_{+}: *α*, at 1.5 rad/*t*_{c}, of an amplitude of 1.");
     }
 }

@@ -112,13 +112,16 @@ mod tests {
     use twofold::euler_angles::EulerAngles;
 
     use super::*;
+    use crate::figures::caption_tests::assert_begins;
+    use crate::figures::fixtures::{free, tone};
 
     /// It goes with the oblateness and the square of the rotation, and with the torque beside it.
     #[test]
     fn the_error_of_a_wave_goes_with_what_makes_it() {
         let error = |oblateness: f64, rate: f64, torque: f64| {
-            let spheroid = RigidSpheroid::in_units_of_tc(1.0 + oblateness);
-            let start = BodyState { axis: Vector3::z(), momentum: Vector3::x() * rate, equatorial_axis: Vector3::x() };
+            let spheroid = RigidSpheroid { inertia_xx: 2.0, inertia_zz: 2.0 * (1.0 + oblateness), constant_c: 1.0 };
+            let momentum = Vector3::x() * (2.0 * rate);
+            let start = BodyState { axis: Vector3::z(), momentum, equatorial_axis: Vector3::x() };
             let s = Matrix3::from_diagonal(&Vector3::new(torque, 0.0, 0.0));
             let problem = Problem::new(spheroid, s, start).unwrap();
             super::error(
@@ -138,5 +141,41 @@ mod tests {
             let found = error(oblateness, rate, torque) / unit;
             assert!((found - times).abs() < 1e-9, "{oblateness} {rate} {torque}: {found}");
         }
+    }
+
+    fn table(rows: &[[f64; 2]]) -> Table {
+        let mut table = Table::new("", ["t", "h_+", "h_x"]);
+        rows.iter().for_each(|[plus, cross]| table.push([0.0, *plus, *cross]));
+        table
+    }
+
+    #[test]
+    fn a_wave_is_more_than_the_error_of_the_motion_of_either_sign() {
+        let star = free("a");
+        let error = super::error(&star);
+        for row in [[1.1, 0.0], [-1.1, 0.0], [0.0, 1.1], [0.0, -1.1]] {
+            assert!(radiates(&star, &table(&[[0.0, 0.0], row.map(|part| part * error)])), "{row:?}");
+        }
+        assert!(!radiates(&star, &table(&[[0.9, -0.9].map(|part| part * error)])));
+    }
+
+    /// The error is `1e-11 epsilon (1.1 / cos 0.7)^2`; the distance of the physical star is 2.5 kpc.
+    #[test]
+    fn a_caption_tells_the_ranges_and_the_unit() {
+        let (first, second) = (free("a"), free("b"));
+        let (wave, none) = (table(&[[-0.25, 0.5], [0.125, 2.0]]), table(&[[0.0, 0.0]]));
+        assert_begins(
+            &caption(&[&first, &second], &[wave.clone(), none]),
+            [
+                "Quadrupole waves *h*_{+} and *h*_{×} at the observer in time; *h* *r* / *I*^{*xx*} counts multiples of",
+                "*θ*_{o} = 0.8, *φ*_{o} = 0. *ε* = 0.1",
+                "Numerical motion; second time derivative",
+                "For a, *h*_{+} is from −0.25 to 0.125 and *h*_{×} from 0.5 to 2. For b, both are below 2 × 10^{−12}, what the error of the \
+                 numerical motion makes; the scales are the same. For tp-I",
+            ],
+        );
+        let alone = caption(&[&tone(1.0, 1.0)], &[wave]);
+        assert!(alone.shows.ends_with("in time, as strain at 2.5 kpc."), "{}", alone.shows);
+        assert!(alone.says.ends_with("; the scales are the same."), "{}", alone.says);
     }
 }
