@@ -107,8 +107,9 @@ fn draw(name: &str, motions: &[&Subject], table: &Table) -> String {
 
 fn caption() -> Caption {
     let s = [("xx", COEFFICIENTS.xx), ("yy", COEFFICIENTS.yy), ("zz", COEFFICIENTS.zz)];
-    let numbers = s.into_iter().chain([("span", SPAN), ("tilt", TILT), ("spin", SPIN)]).map(written);
-    let levels = LEVELS.map(|level| signed(&level.to_string())).join(", ");
+    let numbers = s.into_iter().chain([("span", SPAN), ("tilt", TILT), ("spin", SPIN)]);
+    let numbers = numbers.map(|(name, value)| (name, number(value)));
+    let levels = LEVELS.map(number).join(", ");
     Caption::of("momentum-sphere", &numbers.chain([("levels", levels)]).collect::<Vec<_>>())
 }
 
@@ -154,7 +155,9 @@ mod tests {
                 circle.iter().all(|l| (l.norm() - 1.0).abs() < 1e-14 && (value(l) - COEFFICIENTS.yy).abs() < 1e-16)
             );
             assert!(circle.iter().all(|l| side * l.x * l.z >= -1e-30));
-            assert!(circle.iter().any(|l| l.y > 0.999) && circle.iter().any(|l| l.y < -0.999));
+            let step = std::f64::consts::TAU / (circle.len() - 1) as f64;
+            assert!(circle.windows(2).all(|pair| (pair[0].angle(&pair[1]) - step).abs() < 1e-12));
+            assert!((circle[0] - Vector3::y()).norm() < 1e-15 && circle.iter().any(|l| l.y < -0.999));
         }
     }
 
@@ -164,5 +167,12 @@ mod tests {
         let BodyState { axis, momentum, .. } = near.problem.initial();
         assert!((momentum - axis * (spheroid().inertia_zz * SPIN)).amax() < 1e-15, "{momentum}");
         assert!((axis.y.acos() - TILT).abs() < 1e-12 && axis.x == 0.0 && axis.z > 0.0);
+    }
+
+    #[test]
+    fn a_caption_has_the_star_and_the_levels_that_are_drawn() {
+        let parameters = "*s*^{*XX*}, *s*^{*YY*}, *s*^{*ZZ*} = 0.02, 0.01, −0.04; contours at −0.037, −0.03, −0.02, −0.01, 0.002, 0.013, 0.017; \
+                          paths over 500 *t*_{c}; the star near *Y* starts 0.05 rad from it towards *Z*, with *Ω*^{*z*} = 1.";
+        assert_eq!(caption().parameters, parameters);
     }
 }
