@@ -66,3 +66,33 @@ fn caption(subjects: &[&Subject], tables: &[Table]) -> Caption {
         says: format!("The line of sight is inside the beam {}.", parts.join(", ")),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::caption_tests::assert_begins;
+    use crate::figures::fixtures::free;
+
+    /// The edge of a beam of 0.6 rad is at a cosine of 0.8253.
+    #[test]
+    fn a_caption_tells_how_much_of_the_time_is_inside_the_beam() {
+        let stars = ["a", "b", "c"].map(free);
+        let table = |values: [f64; 3]| {
+            let mut table = Table::new("", ["t", "m.n"]);
+            values.iter().for_each(|value| table.push([0.0, *value]));
+            table
+        };
+        let [never, always, at_times] = [[0.1, -0.9, 0.82], [0.83, 0.9, 1.0], [0.83, 0.1, -0.9]].map(table);
+        assert_begins(
+            &caption(&stars.each_ref(), &[never.clone(), always, at_times.clone()]),
+            [
+                "Cosine of the angle between",
+                "*θ*_{o} = 0.8, *φ*_{o} = 0, *χ* = 0.5, *δ* = 0, *ρ* = 0.6. *ε* = 0.1",
+                "Numerical motion; **m** by Eq. (45)",
+                "The line of sight is inside the beam at none of the 3 times drawn for a, all the time for b, 33 % of the time for c.",
+            ],
+        );
+        let pulses = |table: &Table| caption(&[&stars[0]], std::slice::from_ref(table)).shows.contains("pulses");
+        assert_eq!([pulses(&never), pulses(&at_times)], [false, true]);
+    }
+}

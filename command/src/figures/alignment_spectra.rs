@@ -109,6 +109,8 @@ fn caption(subjects: &[&Subject], spectra: &[Vec<SpectralLine>], highest: f64) -
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::figures::caption_tests::assert_begins;
+    use crate::figures::fixtures::{ANGLES, free, line, star};
 
     /// Weak lines, those beyond the end and those beside a stronger one have none.
     #[test]
@@ -116,13 +118,7 @@ mod tests {
         let x = Axis::linear("", 0.0, 10.0);
         let panel = Panel::new(GRID.frame(0, 0), x, Axis::logarithmic("", AMPLITUDES.0, AMPLITUDES.1));
         let apart = 10.0 / GRID.width;
-        let line = |frequency: f64, amplitude: f64, symbol| SpectralLine {
-            frequency,
-            amplitude,
-            phase: 0.0,
-            uncertainty: 0.0,
-            combination: twofold::observables::spectrum::Combination { terms: vec![(1, symbol)] },
-        };
+        let line = |frequency: f64, amplitude: f64, symbol| line(frequency, amplitude, &[(1, symbol)]);
         // Distances in points of the picture, on both sides.
         let lines = [
             line(5.0, 1.0, "alpha'"),
@@ -138,5 +134,27 @@ mod tests {
         let expected = [0, 3, 4, 7]
             .map(|k| (panel.at(lines[k].frequency, lines[k].amplitude), spectrum::name(&lines[k].combination)));
         assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn a_caption_names_the_strongest_lines_and_what_is_drawn() {
+        let (by_constants, by_angles) = (free("a"), star("b", 1.0, [0.0; 3], ANGLES));
+        let of_sum = |amplitude: f64| line(1.3, amplitude, &[(1, "alpha'"), (1, "gamma'")]);
+        let three = vec![line(1.4, 0.5, &[(1, "alpha'")]), of_sum(0.2), line(0.1, 0.1, &[(-1, "gamma'")])];
+        let (weak, none) = (vec![of_sum(0.9 * NAMED)], Vec::new());
+        let told = |subjects: &[&Subject], spectra: &[Vec<SpectralLine>]| caption(subjects, spectra, 1.35).unwrap();
+        assert_begins(
+            &told(&[&by_constants, &by_angles, &by_angles], &[three.clone(), weak.clone(), none]),
+            [
+                "Lines of **m** · **n**. Names over the lines are combinations of mean rates: *α* of the precession angle, \
+                 *γ* of the rotation angle. Dashed: *α* and |*γ*| of free precession, Eq. (48).",
+                "*θ*_{o} = 0.8, *φ*_{o} = 0, *χ* = 0.5, *δ* = 0, *ρ* = 0.6.",
+                "Lines of the exact motion",
+                "The strongest lines of a are *α* and *α* + *γ*; the only line of b is *α* + *γ*; b has no line. The peaks",
+            ],
+        );
+        let alone = told(&[&by_angles], &[weak]);
+        assert_eq!([alone.shows, alone.says], ["Lines of **m** · **n**.", "The only line of b is *α* + *γ*."]);
+        assert!(told(&[&by_angles], &[three]).shows.ends_with("of the rotation angle."));
     }
 }

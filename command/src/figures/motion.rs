@@ -154,3 +154,35 @@ fn caption(subject: &Subject, angles: &Table) -> Caption {
         says,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::caption_tests::assert_begins;
+    use crate::figures::fixtures::{ANGLES, free, star};
+
+    /// Columns: time, both angles, and both by each solution.
+    #[test]
+    fn a_caption_tells_the_largest_differences_from_the_motion() {
+        let mut angles = Table::new("angles", ["t", "a", "b", "a printed", "b printed", "a corrected", "b corrected"]);
+        angles.push([0.0, 1.0, 0.5, 1.25, 0.5, 1.0, 0.5]);
+        angles.push([1.0, 2.0, 0.75, 1.5, 0.625, 2.03125, 0.75]);
+        angles.push([2.0, 3.0, 0.5, 3.125, 0.515625, 3.0, 0.25]);
+        assert_begins(
+            &caption(&free("a"), &angles),
+            [
+                "a. (a) Euler angles *α* and *β* in time. (b) Paths of the heads of **e**_{*x*} (thin, green; for *t* up to 5 *t*_{c})",
+                "*ε* = 0.1",
+                "Numerical: Taylor series of the regular equations of motion, Eq. (25) without its poles. Perturbation: Eqs. (30)-(33) as \
+                 printed, and corrected",
+                "Differences from the numerical motion over the span shown: perturbation, printed: up to 0.5 rad in *α* and 0.12 rad in *β*; \
+                 perturbation, corrected: up to 0.031 rad in *α* and 0.25 rad in *β*.",
+            ],
+        );
+        let without = star("b", 1.0, [0.0; 3], ANGLES);
+        let says = caption(&without, &angles).says;
+        assert!(says.starts_with("*β* is from 0.5 to 0.75 rad. No perturbation solution is drawn: "), "{says}");
+        let says = caption(&without, &Table::new("angles", ["t", "a", "b"])).says;
+        assert_eq!(says, "The symmetry axis stays on a pole, where the Euler angles are not defined.");
+    }
+}

@@ -74,6 +74,9 @@ fn initial_values(subject: &Subject) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::{Matrix3, Vector3};
+    use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
+    use twofold::euler_angles::EulerAngles;
     use twofold_scene::scene_file::Scene;
 
     const STAR: &str = "[star]\nmass = 1.4\nradius = 12.0\noblateness = 1e-9\nspin_frequency = 30.0\n\
@@ -128,5 +131,23 @@ mod tests {
         assert_eq!(told(&[&first]), (1, vec![false]));
         assert_eq!(told(&[&first, &tilted]), (1, vec![true, true]));
         assert_eq!(told(&[&first, &flat]), (2, vec![true, true]));
+    }
+
+    /// With `L` near Z, off the plane of Z and the axis by `d`, `beta'` is `d / I^xx`; `|L| / I^xx` is one.
+    #[test]
+    fn what_is_a_rounding_beside_the_rotation_is_zero() {
+        let told = |beta_rate: f64, alpha: f64| {
+            let spheroid = RigidSpheroid { inertia_xx: 2.0, inertia_zz: 2.2, constant_c: 1.0 };
+            let (axis, equatorial_axis) = (Vector3::new(0.8, 0.0, 0.6), Vector3::y());
+            let state = BodyState { axis, momentum: Vector3::new(0.0, 2.0 * beta_rate, 2.0), equatorial_axis };
+            let problem = Problem::new(spheroid, Matrix3::zeros(), state).unwrap();
+            let angles = EulerAngles { alpha, beta: 0.0, gamma: 0.0 };
+            initial_values(&Subject::new("a", problem, angles, 1.0).unwrap())
+        };
+        let of = |alpha: &str, rate: &str| {
+            format!("At *t* = 0: *α* = {alpha}, *β* = 0, *γ* = 0, d*α*/d*t* = 1, d*β*/d*t* = {rate}.")
+        };
+        assert_eq!(told(1.5e-12, 1.5e-12), of("1.5 × 10^{−12}", "1.5 × 10^{−12}"));
+        assert_eq!(told(0.9e-12, 0.9e-12), of("0", "0"));
     }
 }

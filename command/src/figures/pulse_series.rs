@@ -69,11 +69,14 @@ fn series(subject: &Subject) -> Result<Series, String> {
     for point in pulses.periods.iter_mut().chain(&mut pulses.gaps).chain(&mut pulses.lengths) {
         (point.time, point.value) = (subject.scale.time(point.time), subject.scale.time(point.value));
     }
-    // The formulas take beta for constant during a turn: they fail for tp-II, whose A is 0.36 omega.
-    let steady = |solution: &&Perturbation<f64>| solution.constants.amplitude.abs() < MOST_SWING * solution.omega.abs();
-    let twofold = subject.printed.as_ref().ok().filter(|solution| solution.zeroth_rate != 0.0);
-    let curves = twofold.filter(steady).map(|solution| curves(subject, solution)).transpose()?;
+    let steady = subject.printed.as_ref().ok().filter(|solution| is_steady(solution));
+    let curves = steady.map(|solution| curves(subject, solution)).transpose()?;
     Ok(Series { pulses, curves })
+}
+
+/// Whether the formulas are meant for a solution: of twofold precession, and with a beta that is nearly constant during a turn. They fail for tp-II, whose A is 0.36 omega.
+fn is_steady(solution: &Perturbation<f64>) -> bool {
+    solution.zeroth_rate != 0.0 && solution.constants.amplitude.abs() < MOST_SWING * solution.omega.abs()
 }
 
 /// Period and length with the angles and rates at the instant; by Eqs. (51) and (56) with mean rates, and with those of Eq. (57).
@@ -235,6 +238,9 @@ fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::figures::fixtures::free;
+    use twofold::solutions::perturbation::{Constants, Form, Precession};
+    use twofold_verify::paper_examples::{COEFFICIENTS, spheroid};
 
     #[test]
     fn a_gap_parts_a_series() {
@@ -244,5 +250,118 @@ mod tests {
         let pieces: Vec<Vec<f64>> =
             series.pieces(&points).map(|piece| piece.iter().map(|point| point.time).collect()).collect();
         assert_eq!(pieces, [[1.0, 2.0], [3.0, 4.0]]);
+    }
+
+    /// `omega` is 1.1 times the spin; the paper's tp-II has an A of 0.4.
+    #[test]
+    fn the_formulas_are_for_twofold_precession_with_little_swing() {
+        let is_steady = |kind, spin: f64, amplitude: f64| {
+            let constants = Constants { alpha_0: 0.0, beta_0: 0.7, amplitude, phase: 0.0 };
+            is_steady(&Perturbation::new(Form::Printed, kind, &spheroid(), &COEFFICIENTS, spin, &constants).unwrap())
+        };
+        for (spin, sign) in [(2.0, 1.0), (2.0, -1.0), (-2.0, 1.0), (-2.0, -1.0)] {
+            let found = [0.0, 0.21, 0.23].map(|amplitude| is_steady(Precession::Twofold, spin, sign * amplitude));
+            assert_eq!(found, [true, true, false], "{spin} {sign}");
+            assert!(!is_steady(Precession::Single, spin, 0.0));
+        }
+    }
+
+    /// Without Lorentz violation the rates of Eq. (57) are those of the motion, constant: the curves with them are those with the mean rates. The motion has errors of
+    /// 1e-14 each t_c, five of them.
+    #[test]
+    fn rates_of_eq_57_are_the_mean_ones_of_free_precession() {
+        let star = free("a");
+        let table = curves(&star, star.printed.as_ref().unwrap()).unwrap();
+        for row in &table.rows {
+            for (mean, shifted) in [(row[3], row[5]), (row[4], row[6])] {
+                assert!((mean / shifted - 1.0).abs() < 1e-12 && mean > 0.0, "{row:?}");
+            }
+        }
+    }
+
+    fn told(all: &[Series]) -> [String; 3] {
+        let stars = ["a", "b"].map(free);
+        let subjects: Vec<_> = stars.iter().take(all.len()).collect();
+        let told = caption(&subjects, all);
+        assert!(
+            told.parameters.starts_with("*θ*_{o} = 0.8, *φ*_{o} = 0, *χ* = 0.5, *δ* = 0, *ρ* = 0.6."),
+            "{}",
+            told.parameters
+        );
+        let text = |part| sentences("pulse-series", part, &[]);
+        let rest = |said: &str, part| said.strip_prefix(&text(part)).expect("the text").to_owned();
+        let says = told.says.replace(&text("formulas"), "<formulas>").replace(&text("modulation"), "<modulation>");
+        [
+            rest(&told.shows, "shows").replace(&text("gaps"), "<gaps>"),
+            rest(&told.method, "method").replace(&text("curves"), "<curves>"),
+            says,
+        ]
+    }
+
+    fn made_up(periods: &[f64], gaps: &[f64], lengths: &[f64], curve: Option<f64>) -> Series {
+        let of = |values: &[f64]| values.iter().map(|&value| Stamped { time: 0.0, value }).collect::<Vec<_>>();
+        let curves = curve.map(|value| {
+            let mut table = Table::new("", ["t", "1", "2", "3", "4", "5", "6"]);
+            table.push([0.0, value, 1.0, value, 1.0, value, 1.0]);
+            table
+        });
+        Series { pulses: PulseSeries { periods: of(periods), gaps: of(gaps), lengths: of(lengths) }, curves }
+    }
+
+    #[test]
+    fn a_caption_tells_the_ranges_of_periods_and_lengths() {
+        let says = |series: Series| told(&[series])[2].clone();
+        assert_eq!(says(made_up(&[], &[], &[], None)), "a: no whole pulse.");
+        assert_eq!(
+            says(made_up(&[], &[], &[0.5], None)),
+            "a: 1 whole pulse, lengths 0.5 *t*_{c} within 10^{−11} of that."
+        );
+        assert_eq!(
+            says(made_up(&[4.0, 5.0], &[9.0], &[0.5, 1.0, 0.75, 0.5], None)),
+            "a: 4 whole pulses, periods from 4 to 5 *t*_{c} (1 of 3 intervals left out), lengths from 0.5 to 1 *t*_{c}."
+        );
+        let both = told(&[made_up(&[], &[], &[], Some(1.0)), made_up(&[], &[], &[], None)]);
+        assert_eq!(both[2], "a: no whole pulse. b: no whole pulse. <formulas> <modulation>");
+    }
+
+    /// Curves, lines between points, differences from a value that all nearly have, and gaps.
+    #[test]
+    fn a_caption_tells_what_is_drawn() {
+        let joined = |gaps: &[f64]| made_up(&[4.0, 5.0], gaps, &[0.5, 1.0], None);
+        let lines = " Thin grey lines join points";
+        for (all, shows, method) in [
+            (vec![made_up(&[], &[], &[0.5], None)], String::new(), ""),
+            (vec![joined(&[])], format!("{lines}."), ""),
+            (vec![joined(&[9.0])], format!(" <gaps>{lines}, broken where an interval is left out."), ""),
+            (vec![made_up(&[4.0], &[], &[0.5, 1.0], Some(5.0))], String::new(), " <curves>"),
+            (
+                vec![joined(&[]), made_up(&[], &[], &[1.0], Some(1.0))],
+                format!("{lines} where there are no curves."),
+                " <curves>",
+            ),
+            (
+                vec![made_up(&[], &[9.0], &[1.0], Some(1.0)), joined(&[])],
+                format!(" <gaps>{lines} where there are no curves."),
+                " <curves>",
+            ),
+            (
+                vec![made_up(&[1.0], &[], &[1.0, 1.000_01], Some(1.000_01))],
+                " Drawn are the differences from the *P* and *W* given in the panels.".into(),
+                " <curves>",
+            ),
+            (
+                vec![made_up(&[1.0], &[], &[1.0], Some(1.000_01))],
+                " Of the periods the differences from the *P* given in the panel are drawn.".into(),
+                " <curves>",
+            ),
+            (
+                vec![made_up(&[1.0, 2.0], &[], &[1.0, 1.000_01], None)],
+                format!(" Of the lengths the differences from the *W* given in the panel are drawn.{lines}."),
+                "",
+            ),
+        ] {
+            let told = told(&all);
+            assert_eq!([&told[0], &told[1]], [&shows, method]);
+        }
     }
 }
