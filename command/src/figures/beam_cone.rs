@@ -82,3 +82,23 @@ fn caption() -> Caption {
     let of_observer = [("seen_at", OBSERVER[0]), ("seen_about", OBSERVER[1])];
     Caption::of("beam-cone", &numbers.into_iter().chain(of_observer).map(written).collect::<Vec<_>>())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The angles of the caption are those of the vectors.
+    #[test]
+    fn a_caption_has_the_angles_of_what_is_drawn() {
+        let Sheet { caption, tables, .. } = sheet().unwrap();
+        let vector = |column: usize| Vector3::from_fn(|i, _| tables[0].rows[i][column]);
+        let [[theta, phi], [seen_at, seen_about]] = [0, 1].map(|column| {
+            let v: Vector3<f64> = vector(column);
+            [v.z.acos(), v.y.atan2(v.x)].map(|angle| significant(angle, 9))
+        });
+        let expected = format!(
+            "Drawn for *Θ* = {theta}, *Φ* = {phi}, *ρ* = 0.26, *θ*_{{o}} = {seen_at}, *φ*_{{o}} = {seen_about} rad."
+        );
+        assert_eq!(caption.parameters, expected);
+    }
+}

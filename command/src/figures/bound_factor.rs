@@ -76,3 +76,25 @@ fn caption(table: &Table) -> Caption {
     };
     Caption::of("bound-factor", &[("small", at(0.2)), ("large", at(1.4))])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// At the rows nearest to 0.2 and to 1.4, in whatever order they are.
+    #[test]
+    fn a_caption_tells_the_factor_at_two_inclinations() {
+        let mut table = Table::new("", ["beta_0", "1/cos", "eta", "median", "97.5 %", "axisymmetric"]);
+        for (beta, eta) in [(1.5, 8.0), (1.46, 7.0), (1.37, 6.34), (0.9, 3.0), (0.23, 4.36), (0.14, 7.04), (0.01, 99.0)]
+        {
+            table.push([beta, f64::cos(beta).recip(), eta, 1.0, 2.0, 3.0]);
+        }
+        let says = caption(&table).says;
+        for told in [
+            "moves little: 4.4 at *β*_{0} = 0.23, where 1/cos *β*_{0} is 1.0.",
+            "(6.3 at *β*_{0} = 1.37, where 1/cos *β*_{0} is 5.0)",
+        ] {
+            assert!(says.contains(told), "{told}, but {says}");
+        }
+    }
+}

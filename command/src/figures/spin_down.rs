@@ -41,8 +41,8 @@ impl Timed {
         scene.problem = Problem::new(*problem.spheroid(), problem.coefficients() * factor, *problem.initial())?
             .with_bulge(problem.bulge())?;
         let pulsar = PulsarScene::new(&scene)?;
-        let start = scene.times.start();
-        let epochs = scene.times.iter().map(|t| pulsar.epoch.after([t - start, 0.0])).collect::<Result<Vec<_>, _>>()?;
+        // The times of the scene begin at zero.
+        let epochs = scene.times.iter().map(|t| pulsar.epoch.after([t, 0.0])).collect::<Result<Vec<_>, _>>()?;
         let timing = pulsar.timed(&epochs, FITTED).map_err(|error| error.to_string())?;
         let causes = pulsar.causes(&timing)?;
         Ok(Self { scene, pulsar, timing, causes })
@@ -55,7 +55,7 @@ impl Timed {
 
     /// Period of the free precession (d).
     pub(super) fn precession(&self) -> f64 {
-        (TAU / self.pulsar.clock.stretched_time().precession().rate).abs() / DAY
+        TAU / self.pulsar.clock.stretched_time().precession().rate / DAY
     }
 }
 
@@ -210,10 +210,10 @@ fn caption(timed: &Timed, curves: &Table, lines: &Table) -> Caption {
     let column = |k: usize| curves.rows.iter().map(|row| row[k]).collect::<Vec<_>>();
     let [rms, largest] = sizes(&column(1));
     let [rms_geometry, largest_geometry] = sizes(&column(3));
-    let range = |k: usize| Spread::of(column(k)).map_or((0.0, 0.0), |spread| (spread.low, spread.high));
-    let ((slow, fast), (narrow, wide)) = (range(4), range(5));
+    let [rates, widths] = [4, 5].map(|k| Spread::of(column(k)).expect("pulses"));
     let [absent, once, twice] = [0, 1, 2].map(|k| &lines.rows[k]);
-    let part = 100.0 * (fast - slow) / slow.abs();
+    let part = 100.0 * (rates.high - rates.low) / rates.low.abs();
+    let f1 = timed.scene.spin_down.as_ref().expect("a torque").f1;
     let numbers = [
         ("once_period", once[0], 3),
         ("twice_period", twice[0], 3),
@@ -230,10 +230,10 @@ fn caption(timed: &Timed, curves: &Table, lines: &Table) -> Caption {
         ("rate_twice", twice[2], 3),
         ("width_once", once[3], 2),
         ("width_twice", twice[3], 2),
-        ("narrow", narrow, 3),
-        ("wide", wide, 3),
+        ("narrow", widths.low, 3),
+        ("wide", widths.high, 3),
         ("part", part, 1),
-        ("f1", timed.scene.spin_down.map_or(0.0, |spin_down| spin_down.f1), 5),
+        ("f1", f1, 5),
     ];
     let numbers = numbers.map(|(name, value, digits)| (name, significant(value, digits)));
     Caption::of(NAME, &[&numbers[..], &angles(timed)].concat())
@@ -266,5 +266,45 @@ mod tests {
             assert!(off < 1e-10, "{found:?}");
         }
         assert_eq!(found.len(), 3);
+    }
+
+    /// Root mean squares of 0.03, -0.0456 and of 3, -4.123; a rate that changes from -100 to -90.55.
+    #[test]
+    fn a_caption_tells_the_numbers_of_its_tables() {
+        let (mut curves, mut lines) =
+            (Table::new("", ["0", "1", "2", "3", "4", "5"]), Table::new("", ["0", "1", "2", "3"]));
+        curves.push([1.0, 3.0, 7.0, 0.03, -100.0, 10.123]);
+        curves.push([2.0, -4.123, 8.0, -0.0456, -90.55, 15.678]);
+        lines.push([1234.0, 0.0123, 1.0, 1.0]);
+        lines.push([512.34, 12.345, 45.678, 0.1234]);
+        lines.push([256.78, 2.345, 23.456, 0.3456]);
+        let told = caption(&Timed::new(1.0).unwrap(), &curves, &lines);
+        assert!(
+            told.shows.ends_with("Green bars: 512 d, the period of the free precession, and 257 d, half of it."),
+            "{}",
+            told.shows
+        );
+        assert!(told.shows.contains("the part of geometry, times 50 (dashed"), "{}", told.shows);
+        let parameters = "a period of 512 d and a wobble of 3 deg; magnetic axis at *χ* = 89 deg to the symmetry axis, beam of *ρ* = 6 deg, \
+                          line of sight at *θ*_{o} = 88 deg to **L**. *F*1 = −3.6568 × 10^{−13} Hz/s";
+        assert!(told.parameters.contains(parameters), "{}", told.parameters);
+        for says in [
+            "A wobble of 3 deg makes residuals of 3.6 ms (root mean square), 4.1 ms at most.",
+            "geometry makes 0.039 ms, 0.046 ms at most. The rate of the frequency changes by 9 % of itself, the beam width from 10.1 to 15.7 ms.",
+            "lines of 12.3 ms at 512 d and of 2.3 ms at 257 d; in the rate these are 45.7 and 23.5 × 10^{−15} Hz/s, in the width 0.12 and \
+             0.35 ms.",
+            "but none of 1230 d: a line fitted there has 0.01 ms.",
+        ] {
+            assert!(told.says.contains(says), "{says}, but {}", told.says);
+        }
+    }
+
+    #[test]
+    fn the_axis_of_dates_goes_from_the_first_to_the_last() {
+        let mut table = Table::new("", ["date", "x"]);
+        [[50.0, 1.0], [60.0, 2.0], [90.0, 3.0]].into_iter().for_each(|row| table.push(row));
+        let frame = Rectangle { left: 0.0, top: 0.0, width: 1.0, height: 1.0 };
+        let panel = Panel::new(frame, dates(&table), Axis::linear("x", 0.0, 1.0));
+        assert_eq!([50.0, 60.0, 90.0].map(|date| panel.at(date, 0.0)[0]), [0.0, 0.25, 1.0]);
     }
 }

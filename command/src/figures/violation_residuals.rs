@@ -100,3 +100,32 @@ fn caption(timed: &Timed, table: &Table, shift: f64) -> Caption {
     let numbers = numbers.map(|(name, value)| (name, significant(value, 2)));
     Caption::of(NAME, &[&numbers[..], &angles(timed)].concat())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each is 1.0495 of its unit, which has two digits: 0.1 % more would be 1.1.
+    #[test]
+    fn a_caption_tells_sizes_in_their_units() {
+        let mut table = Table::new("", ["date", "torque", "geometry", "1", "2", "3", "direct"]);
+        for sign in [1.0, -1.0] {
+            table.push([0.0, 1e-3, 1e-3, 1e-12, 1e-9, 1e-6, 1e-12].map(|unit| sign * 1.0495 * unit));
+        }
+        let told = caption(&Timed::new(0.0).unwrap(), &table, 2.34e-7);
+        for says in [
+            "At the limit Lorentz violation adds 1 ps (root mean square), 1 ps at most. The torque makes 1 ms, 1 × 10^{9} times as much; \
+             geometry makes 1 ms.",
+            "What is added grows as *s*: 1 ns at 10^{2} times the limit, 1 μs at 10^{4} times.",
+            "by 2.3 × 10^{−7} of itself at the limit",
+            "the direct part is only 1 ps (1 ps at most).",
+        ] {
+            assert!(told.says.contains(says), "{says}, but {}", told.says);
+        }
+        assert!(
+            told.shows.contains("2013), 1.6 × 10^{−9} (solid)") && told.shows.ends_with("times 50 (dashed)."),
+            "{}",
+            told.shows
+        );
+    }
+}
