@@ -56,11 +56,8 @@ type Multiples = [i32; 3];
 type Amplitudes = BTreeMap<Multiples, f64>;
 
 pub(super) fn sheet() -> Result<Sheet, String> {
-    let powers = |(low, high, count): (f64, f64, usize)| {
-        (0..count).map(move |i| 10f64.powf(low + (high - low) * i as f64 / (count - 1) as f64))
-    };
-    let of_sizes = powers(SCALES).map(|scale| Ok((scale * SPREAD, amplitudes(scale, WOBBLE)?)));
-    let of_wobbles = powers(WOBBLES).map(|wobble| Ok((wobble, amplitudes(SCALE, wobble)?)));
+    let of_sizes = powers_of_ten(SCALES).map(|scale| Ok((scale * SPREAD, amplitudes(scale, WOBBLE)?)));
+    let of_wobbles = powers_of_ten(WOBBLES).map(|wobble| Ok((wobble, amplitudes(SCALE, wobble)?)));
     let sweeps = [of_sizes.collect::<Result<Vec<_>, String>>()?, of_wobbles.collect::<Result<Vec<_>, String>>()?];
     let (free, here) = (amplitudes(0.0, WOBBLE)?, amplitudes(SCALE, WOBBLE)?);
     let (mut tables, mut chosen) = (Vec::new(), Vec::new());
@@ -252,5 +249,90 @@ mod tests {
             assert!((axis.norm() - 1.0).abs() < 1e-15 && axis.dot(&equatorial_axis).abs() < 1e-15);
             assert_eq!(*problem.coefficients(), COEFFICIENTS.scaled(0.3).tensor());
         }
+    }
+
+    /// The constant is no line; of lines that differ by `l` alone the strongest of a kind stays; of each kind there are some at most.
+    #[test]
+    fn the_strongest_lines_of_each_kind_are_chosen() {
+        let of = |lines: &[(Multiples, f64)]| lines.iter().copied().collect::<Amplitudes>();
+        let free = [
+            ([0, 0, 0], 0.9),
+            ([1, 0, 0], 0.5),
+            ([0, 1, 0], 0.45),
+            ([1, 1, 0], 0.35),
+            ([2, 0, 0], 0.25),
+            ([3, 1, 0], 0.15),
+        ];
+        let satellites = [
+            ([1, 0, 1], 0.4),
+            ([1, 0, -1], 0.3),
+            ([0, 0, 2], 0.2),
+            ([0, 0, 1], 0.19),
+            ([3, 1, 1], 0.05),
+            ([2, 0, 1], 0.01),
+        ];
+        let others = [([2, 1, 0], 0.1), ([2, 1, 1], 0.3), ([3, 0, 0], 0.02), ([3, 2, -1], 0.03), ([4, 0, 0], 0.01)];
+        let expected = [
+            ([1, 0, 0], 0),
+            ([0, 1, 0], 0),
+            ([1, 1, 0], 0),
+            ([2, 0, 0], 0),
+            ([1, 0, 1], 1),
+            ([0, 0, 2], 1),
+            ([3, 1, 1], 1),
+            ([2, 1, 1], 2),
+            ([3, 2, -1], 2),
+            ([3, 0, 0], 2),
+        ];
+        assert_eq!(strongest(&of(&[&free[..], &satellites, &others].concat()), &of(&free)), expected);
+    }
+
+    /// From the first row above the rounding to the fourth after it, which is a decade: 1e-9 at 0.01 and 1e-6 at 0.1 are the power 3, whatever is between and beside.
+    #[test]
+    fn the_power_of_a_line_is_that_over_a_decade_above_the_rounding() {
+        let mut table = Table::new("", ["size", "a", "b"]);
+        for (size, a, b) in [
+            (0.005, 0.9 * MEASURED, 0.5),
+            (0.01, 1e-9, 0.5),
+            (0.02, 7e-9, 0.7),
+            (0.03, 3e-9, 0.6),
+            (0.05, 9e-9, 0.05),
+            (0.1, 1e-6, 0.2),
+            (0.2, 2e-6, 0.9),
+        ] {
+            table.push([size, a, b]);
+        }
+        let list = list("m.n", &[([1, -2, 3], 2), ([4, 5, 6], 1)], &table);
+        assert_eq!(list.name, "m.n-lines");
+        assert_eq!(list.rows[0][..4], [1.0, -2.0, 3.0, 2.0]);
+        assert_eq!(list.rows[1][..4], [4.0, 5.0, 6.0, 1.0]);
+        // From 0.005 to 0.05 the other falls from 0.5 to 0.05.
+        assert!((list.rows[0][4] - 3.0).abs() < 1e-14 && (list.rows[1][4] + 1.0).abs() < 1e-14, "{list:?}");
+    }
+
+    /// 25 sizes, 44 wobbles, the star of both columns and the one without Lorentz violation.
+    #[test]
+    fn a_caption_tells_the_powers_of_what_free_precession_lacks() {
+        let chosen = [
+            vec![([1, 0, 0], 0), ([2, 0, 0], 2), ([1, -1, 0], 2)],
+            vec![([0, 0, 2], 2)],
+            vec![([1, 0, 1], 1), ([0, 1, 2], 2)],
+        ];
+        let mut tables = vec![Table::new("", ["nothing"; 5]); 9];
+        for (i, powers) in [vec![0.125, 1.25, 0.75], vec![2.0], vec![0.625, 1.0]].into_iter().enumerate() {
+            powers.into_iter().for_each(|power| tables[3 * i + 2].push([0.0, 0.0, 0.0, 0.0, power]));
+        }
+        let told = caption(&chosen, &tables);
+        let powers = "of **m** · **n** 2 *ν* 1.25, *ν* − *ψ* 0.75; of *h*_{+} 2 *l* 2.00; of *h*_{×} *ψ* + 2 *l* 1.00.";
+        assert!(told.says.contains(&format!("powers of *s*: {powers}")), "{}", told.says);
+        assert!(told.method.contains("; 71 motions, of which"), "{}", told.method);
+        assert!(
+            told.shows.contains("wobble of 0.5 rad.") && told.shows.contains("= 0.006. A dotted"),
+            "{}",
+            told.shows
+        );
+        let parameters = "|**L**| = 1.5, at 0.5 rad to *Z* and 0.3 rad from *X*; **e**_{*z*} beside the plane of **L** and *Z*. \
+                          *θ*_{o} = 0.8, *φ*_{o} = 0, *χ* = 0.5, *δ* = 0.";
+        assert!(told.parameters.ends_with(parameters), "{}", told.parameters);
     }
 }

@@ -51,13 +51,9 @@ fn names(geometry: Geometry) -> (&'static str, &'static str) {
     }
 }
 
-fn powers((low, high, count): (f64, f64, usize)) -> impl Iterator<Item = f64> {
-    (0..count).map(move |i| 10f64.powf(low + (high - low) * i as f64 / (count - 1) as f64))
-}
-
 fn map(geometry: Geometry) -> Result<Map, String> {
-    let times: Vec<f64> = powers(TIMES).collect();
-    let rows: Vec<(f64, Vec<Errors>)> = powers(STRENGTHS)
+    let times: Vec<f64> = powers_of_ten(TIMES).collect();
+    let rows: Vec<(f64, Vec<Errors>)> = powers_of_ten(STRENGTHS)
         .map(|x| errors(geometry, x, &times).map(|errors| (x, errors)))
         .collect::<Result<_, String>>()?;
     let sample = rows[0].1[0];

@@ -176,11 +176,17 @@ pub(super) fn times(end: f64, count: usize) -> Vec<f64> {
     (0..=count).map(|i| if i == count { end } else { end * i as f64 / count as f64 }).collect()
 }
 
+/// So many numbers at even distances of their logarithms, from one power of ten to another.
+pub(super) fn powers_of_ten((low, high, count): (f64, f64, usize)) -> impl Iterator<Item = f64> {
+    (0..count).map(move |i| 10f64.powf(low + (high - low) * i as f64 / (count - 1) as f64))
+}
+
 #[cfg(test)]
 mod tests {
     use nalgebra::{Matrix3, Vector3};
 
     use super::*;
+    use crate::figures::fixtures::{CONSTANTS, star};
 
     fn subject(c: f64, eigenvalue: f64, momentum: f64, duration: f64) -> Subject {
         let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.3 * 1.1, constant_c: c };
@@ -232,5 +238,29 @@ mod tests {
         assert!(!lacks(&format!("{physical}observer = {{ theta_o = 1.1, phi_o = 0.6, distance = 2.5 }}\n")));
         assert!(!lacks(physical));
         assert!(!Subject::of_scene("tp-1", &Scene::named("tp-1").unwrap()).unwrap().lacks_distance());
+    }
+
+    #[test]
+    fn powers_of_ten_are_at_even_distances() {
+        let found: Vec<_> = powers_of_ten((-2.0, 1.0, 7)).collect();
+        let ten = f64::sqrt(10.0);
+        let expected = [1e-2, 1e-2 * ten, 0.1, 0.1 * ten, 1.0, ten, 10.0];
+        assert_eq!(found.len(), expected.len());
+        // The logarithm is exact to some 2^-52, of which the power makes ln 10 times as much.
+        assert!(
+            found.iter().zip(expected).all(|(found, expected)| (found / expected - 1.0).abs() < 2e-15),
+            "{found:?}"
+        );
+    }
+
+    #[test]
+    fn the_corrected_solution_is_that_of_the_eigenvalues_of_the_scene() {
+        let scene = star("a", 1.0, [0.03, 0.01, -0.04], CONSTANTS);
+        let s = PrincipalCoefficients { xx: 0.03, yy: 0.01, zz: -0.04 };
+        let expected = corrected_solution(&scene.printed.unwrap(), scene.problem.spheroid(), &s, 1.0).unwrap();
+        let found = scene.corrected.unwrap();
+        for (found, expected) in [(found.rate, expected.rate), (found.c_tilde, expected.c_tilde)] {
+            assert!((found / expected - 1.0).abs() < 1e-13, "{found} {expected}");
+        }
     }
 }
