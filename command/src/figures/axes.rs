@@ -411,6 +411,10 @@ mod tests {
         assert_near(&ends(&[1.0, 1.0009]), &[1.0 - 0.05 * 1.0009, 1.0009 * 1.05]);
         assert_near(&ends(&[1.0, 1.0011]), &[1.0 - 6.6e-5, 1.0011 + 6.6e-5]);
         assert_near(&ends(&[0.0, 0.0]), &[-1.0, 1.0]);
+        assert_near(&ends(&[0.25, 0.25]), &[0.2375, 0.2625]);
+        // Less than a thousandth of their size is no range.
+        assert_near(&ends(&[4000.0, 4003.0]), &[4000.0 - 200.15, 4203.15]);
+        assert_near(&ends(&[-4003.0, -4000.0]), &[-4203.15, -4000.0 + 200.15]);
     }
 
     #[test]

@@ -9,13 +9,20 @@ const NUMBERS: &str = include_str!("../../data/golden_figures.txt");
 
 /// All golden tables: those of the verification, then those of `figures`, which must be all.
 pub fn golden_tables(figures: &[Figure]) -> Result<Vec<GoldenTable>, String> {
-    let lines: Vec<_> = NUMBERS.lines().filter(|line| !line.starts_with('#')).collect();
+    let mut tables = golden::tables()?;
+    tables.extend(of_figures(NUMBERS, figures)?);
+    Ok(tables)
+}
+
+/// The tables that a text of that kind asks for.
+fn of_figures(text: &'static str, figures: &[Figure]) -> Result<Vec<GoldenTable>, String> {
+    let lines: Vec<_> = text.lines().filter(|line| !line.starts_with('#')).collect();
     let snapshot = |line: &'static str| line.split(' ').next().unwrap_or_default();
     let figure_of = |line: &'static str| snapshot(line).trim_start_matches("figure_").replace('_', "-");
     if let Some(figure) = figures.iter().find(|figure| !lines.iter().any(|line| figure_of(line) == figure.name)) {
         return Err(format!("the figure {} has no golden numbers", figure.name));
     }
-    let mut tables = golden::tables()?;
+    let mut tables = Vec::new();
     for of_figure in lines.chunk_by(|a, b| snapshot(a) == snapshot(b)) {
         let name = figure_of(of_figure[0]);
         let figure = figures.iter().find(|figure| figure.name == name).ok_or(format!("there is no figure {name}"))?;
@@ -119,6 +126,7 @@ mod tests {
         // Nearest in the first column and in the logarithm of the second.
         assert_eq!(asked("beta_0 [rad]", "of=4.1,20.5"), [line("x [1] at 4.0000, 2.0000e1", 20.0)]);
         assert_eq!(asked("beta_0 [rad]", "of=2.5,6.0"), [line("x [1] at 1.0000, 8.0000e0", 8.0)]);
+        assert_eq!(asked("beta_0 [rad]", "of=5.5,20.0"), [line("x [1] at 4.0000, 2.0000e1", 20.0)]);
     }
 
     #[test]
@@ -133,5 +141,30 @@ mod tests {
         }
         assert!(numbers(&figure("motion", "", "t [d]"), "figure_motion other 1 last").is_none());
         assert!(numbers(&figure("motion", "", "t [d]"), "figure_motion - 1 middle").is_none());
+    }
+
+    #[test]
+    fn every_figure_has_a_table_of_the_numbers_that_are_asked() {
+        const TEXT: &str = "# what is asked\nfigure_beam_cone - 1 most\nfigure_motion_tp_1 - 1 first last\nfigure_motion_tp_1 - 0 last";
+        let figures = ["motion-tp-1", "beam-cone"].map(|name| figure(name, "", "t [t_c]"));
+        let tables = of_figures(TEXT, &figures).unwrap();
+        let found: Vec<_> = tables
+            .iter()
+            .map(|table| (table.name, table.title, table.lines.iter().map(|line| line.ours).collect::<Vec<_>>()))
+            .collect();
+        let expected = [
+            ("figure_beam_cone", "Cone model of pulsar radiation: magnetic axis and line of sight", vec![20.0]),
+            (
+                "figure_motion_tp_1",
+                "Example I of twofold precession: Euler angles and the paths of the body axes",
+                vec![8.0, 5.0, 7.0],
+            ),
+        ];
+        assert_eq!(found, expected);
+        assert_eq!(of_figures(TEXT, &figures[..1]).unwrap_err(), "there is no figure beam-cone");
+        let more = [&figures[..], &[figure("waves", "", "t [t_c]")]].concat();
+        assert_eq!(of_figures(TEXT, &more).unwrap_err(), "the figure waves has no golden numbers");
+        let unknown = of_figures("figure_beam_cone - 1 middle", &figures[1..]).unwrap_err();
+        assert_eq!(unknown, "beam-cone: no numbers for `figure_beam_cone - 1 middle`");
     }
 }

@@ -110,3 +110,26 @@ pub fn all() -> Result<Vec<Figure>, String> {
     let examples = examples()?;
     RECIPES.par_iter().map(|recipe| recipe.draw(&examples)).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_description_has_the_summary_the_caption_and_the_files() {
+        let [shows, parameters, method, says] = ["*A*.", "B_{0}.", "C.", "D."].map(str::to_owned);
+        let tables = ["", "more"].map(|name| Table::new(name, ["t [s]"])).to_vec();
+        let caption = Caption { shows, parameters, method, says };
+        let figure = |paper_figure| Figure {
+            name: "waves".into(),
+            paper_figure,
+            summary: "Waves".into(),
+            caption: caption.clone(),
+            tables: tables.clone(),
+            svg: String::new(),
+        };
+        let rest = "\n\n*A*.\n\nB<sub>0</sub>.\n\nC.\n\nD.\n\nData: `waves.csv`, `waves.more.csv`.\n";
+        assert_eq!(figure(None).description(), format!("# Waves{rest}"));
+        assert_eq!(figure(Some(11)).description(), format!("# Waves (Figure 11 of the paper){rest}"));
+    }
+}

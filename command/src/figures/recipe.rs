@@ -112,3 +112,20 @@ impl Recipe {
         Ok(Figure { name: name.to_owned(), paper_figure, summary: summary.to_owned(), caption, tables, svg })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each line of the list is a figure, in its order.
+    #[test]
+    fn figures_are_those_of_the_list() {
+        let line = |Recipe { name, paper_figure, summary, .. }: &Recipe, without: &str| {
+            let number = paper_figure.map_or(without.to_owned(), |number| number.to_string());
+            format!("{name} {number} {summary}")
+        };
+        let own = RECIPES.iter().map(|recipe| line(recipe, "-"));
+        let found: Vec<_> = own.chain(OF_A_SCENE.iter().map(|recipe| line(recipe, "scene"))).collect();
+        assert_eq!(found, LIST.lines().collect::<Vec<_>>());
+    }
+}

@@ -79,3 +79,19 @@ impl Scale {
         if self.units.are_physical() { "1" } else { "G I^xx / (c^4 t_c^2 r)" }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::axes::Panel;
+    use crate::figures::svg::Rectangle;
+
+    #[test]
+    fn an_axis_of_time_goes_from_the_start_either_way() {
+        let frame = Rectangle { left: 0.0, top: 0.0, width: 1.0, height: 1.0 };
+        for (end, places) in [(8.0, [0.0, 0.25, 1.0]), (-8.0, [1.0, 0.75, 0.0])] {
+            let panel = Panel::new(frame, Scale::PAPER.time_axis(end), Axis::linear("", 0.0, 1.0));
+            assert_eq!([0.0, 0.25 * end, end].map(|t| panel.at(t, 0.0)[0]), places);
+        }
+    }
+}
