@@ -78,20 +78,32 @@ mod tests {
     use twofold_scene::scene_file::Scene;
 
     use super::*;
+    use crate::figures::curve_tests::{HALF_A_PIXEL, assert_same};
+    use crate::figures::drawn::{Frame, Point, elements, frames, holds};
 
     #[test]
     fn units_have_numbers_above_one() {
         assert_eq!([2.0, -2e-3, 3e-6, 1e-12, 1e-20].map(|time| unit(&[0.0, time]).1), ["s", "ms", "μs", "ps", "ps"]);
     }
 
-    /// The heights of the dots are a linear function of the residuals, and their places one of the dates.
-    #[test]
-    fn a_dot_for_each_residual() {
+    /// Forty pulses in nine years.
+    fn timed() -> (Timing, Causes) {
         let scene = Scene::named("b1828-11").expect("a scene");
         let pulsar = PulsarScene::new(&scene).expect("a pulsar");
         let epochs: Vec<_> = (0..40).map(|k| pulsar.epoch.after([7e6 * f64::from(k), 0.0]).expect("a date")).collect();
         let timing = pulsar.timed(&epochs, 2).expect("pulses");
         let causes = pulsar.causes(&timing).expect("causes");
+        (timing, causes)
+    }
+
+    fn date(timing: &Timing, k: usize) -> f64 {
+        timing.pulses[k].arrival.day() as f64 + timing.pulses[k].arrival.fraction()
+    }
+
+    /// The heights of the dots are a linear function of the residuals, and their places one of the dates.
+    #[test]
+    fn a_dot_for_each_residual() {
+        let (timing, causes) = timed();
         for causes in [None, Some(&causes)] {
             let picture = residuals("b1828-11", &timing, causes);
             let number = |text: &str, key: &str| -> f64 {
@@ -104,13 +116,67 @@ mod tests {
             let late = &timing.fit.residuals;
             let (first, last) = (dots[0], dots[39]);
             for (k, (x, y)) in dots.iter().enumerate() {
-                let date = |k: usize| timing.pulses[k].arrival.day() as f64 + timing.pulses[k].arrival.fraction();
+                let date = |k: usize| date(&timing, k);
                 let along = first.0 + (date(k) - date(0)) / (date(39) - date(0)) * (last.0 - first.0);
                 let height = first.1 + (late[k] - late[0]) / (late[39] - late[0]) * (last.1 - first.1);
                 // Places are written to a hundredth; a difference of two of them by which is divided is some part of the panel.
                 assert!((x - along).abs() < 0.03 && (y - height).abs() < 1.0, "{k}: {x} {along}, {y} {height}");
             }
             assert_eq!(picture.contains(">geometry<"), causes.is_some());
+        }
+    }
+
+    /// Read off by its axes, the picture has the residuals as dots, their causes as curves in the order of drawing, and below them the widths, whole and from the first date to the last.
+    #[test]
+    fn curves_are_the_causes_and_the_widths() {
+        let (timing, causes) = timed();
+        let elements = elements(&residuals("b1828-11", &timing, Some(&causes)));
+        let found = frames(&elements);
+        let [above, below] = &found[..] else { panic!("two frames") };
+        assert_eq!([above.y.label.as_str(), below.y.label.as_str()], ["residual [ms]", "width [ms]"]);
+        assert_eq!(above.x.label, "date [MJD]");
+        assert_eq!(above.heading, "after the fit of F0, F1, F2");
+        let place = |frame: &Frame, times: &[f64]| -> Vec<Point> {
+            times
+                .iter()
+                .enumerate()
+                .map(|(k, time)| [frame.x.place(date(&timing, k)), frame.y.place(1e3 * time)])
+                .collect()
+        };
+        for frame in [above, below] {
+            let ends = [0, 39].map(|k| frame.x.place(date(&timing, k)));
+            assert!(
+                (ends[0] - frame.corners[0]).abs() < HALF_A_PIXEL && (ends[1] - frame.corners[2]).abs() < HALF_A_PIXEL
+            );
+        }
+        let widths: Vec<_> = timing.pulses.iter().map(|timed| timed.pulse.duration).collect();
+        let of_causes = [&causes.torque, &causes.geometry, &causes.violation].map(|cause| (above, place(above, cause)));
+        let expected: Vec<_> = of_causes.into_iter().chain([(below, place(below, &widths))]).collect();
+        let drawn: Vec<_> = found.iter().flat_map(|frame| &frame.curves).collect();
+        assert_eq!(drawn.len(), expected.len());
+        for ((_, pieces), (frame, places)) in drawn.into_iter().zip(expected) {
+            assert!(places.iter().all(|at| holds(&frame.corners, *at, HALF_A_PIXEL)));
+            assert_same("a curve", &places, pieces, &frame.corners);
+        }
+        let [(_, dots)] = &above.marks[..] else { panic!("dots of one colour") };
+        for (dot, at) in dots.iter().zip(place(above, &timing.fit.residuals)) {
+            assert!(
+                (dot[0] - at[0]).hypot(dot[1] - at[1]) < HALF_A_PIXEL && holds(&above.corners, at, HALF_A_PIXEL),
+                "{dot:?} {at:?}"
+            );
+        }
+        let [zero] = above.levels[..] else { panic!("{:?}", above.levels) };
+        assert!((above.y.place(zero) - above.y.place(0.0)).abs() < HALF_A_PIXEL && below.levels.is_empty(), "{zero}");
+    }
+
+    #[test]
+    fn the_axis_of_one_date_is_a_day_long() {
+        let (mut timing, _) = timed();
+        timing.pulses.truncate(1);
+        timing.fit.residuals.truncate(1);
+        for frame in frames(&elements(&residuals("b1828-11", &timing, None))) {
+            let [from, to] = [0, 2].map(|k| frame.x.value(frame.corners[k]));
+            assert!((from - date(&timing, 0)).abs() < 1e-3 && (to - from - 1.0).abs() < 1e-3, "{from} {to}");
         }
     }
 }

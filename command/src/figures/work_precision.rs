@@ -107,7 +107,9 @@ fn times(rows: &[Row]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::figures::drawn::{Element, elements, texts};
     use crate::figures::fixtures::made_up_runs;
+    use twofold_bench::timing::Times;
 
     /// Nine methods take 0.1 ms times their place and the number of the run, 1 to 7; the first run has an error of 1e-2.
     #[test]
@@ -120,5 +122,62 @@ mod tests {
             row.error = 0.011;
         }
         assert!((times(&rows).1 / 1.5 - 3.2).abs() < 1e-12, "{:?}", times(&rows));
+    }
+
+    /// Of a method those runs that no other of its runs beats, with errors from 1e-15 to 0.007; each run has times and errors of its own. Times are of some microseconds.
+    #[test]
+    fn panels_have_the_runs_of_their_scene_and_what_is_carried() {
+        let run = |scene: &str, carries, method: &str, error: f64, time: f64| Row {
+            scene: scene.to_owned(),
+            method: method.to_owned(),
+            carries,
+            setting: 0.0,
+            error,
+            times: Times { least: 1e-6 * time, median: 1.0 },
+            steps: 0,
+            evaluations: 0,
+        };
+        let (mut rows, mut expected) = (Vec::new(), Vec::new());
+        for (carries, carried, unit) in [(Carries::Axis, "n-L", 1.0), (Carries::Orientation, "n-L-e_x", 7.0)] {
+            for (scene, unit) in SCENES.into_iter().zip([unit, 2.0 * unit, 3.0 * unit]) {
+                let errors = [(1e-20, 9.0), (1e-8, 2.0), (1e-7, 3.0), (6.9e-3, 1.0), (7.1e-3, 0.5)];
+                rows.extend(errors.map(|(error, time)| run(scene, carries, "one", error, time * unit)));
+                let left = [[6.9e-3, 1e-3 * unit], [1e-8, 2e-3 * unit], [1e-15, 9e-3 * unit]];
+                expected.push((format!("{scene}.{carried}.one"), left.to_vec()));
+                let more = (carries == Carries::Orientation).then_some([1e-5, 4e-3 * unit]);
+                rows.extend(more.map(|[error, time]| run(scene, carries, "two", error, 1e3 * time)));
+                expected.push((format!("{scene}.{carried}.two"), more.into_iter().collect()));
+            }
+        }
+        rows.push(run("tp-I", Carries::Axis, "one", 1e-9, 10.0));
+        let figure = work_precision(&rows);
+        assert_eq!(figure.tables.len(), expected.len());
+        for (table, (name, rows)) in figure.tables.iter().zip(&expected) {
+            assert_eq!((&table.name, table.rows.len()), (name, rows.len()));
+            for (found, expected) in table.rows.iter().zip(rows) {
+                assert!(
+                    found.iter().zip(expected).all(|(a, b)| (a / b - 1.0).abs() < 1e-14),
+                    "{name}: {found:?} {expected:?}"
+                );
+            }
+        }
+        assert_eq!(names(&rows), ["one", "two"]);
+        // From 0.5 to 9 * 21 microseconds, in milliseconds.
+        let (low, high) = times(&rows);
+        assert!((low * 1.5 / 5e-4 - 1.0).abs() < 1e-14 && (high / 1.5 / 0.189 - 1.0).abs() < 1e-14, "{low} {high}");
+        let elements = elements(&figure.svg);
+        let headings: Vec<_> =
+            texts(&elements).map(|text| text.words.as_str()).filter(|words| words.starts_with('(')).collect();
+        let known = [
+            "(a) tp-II: n, L",
+            "(b) nearly-free: n, L",
+            "(c) strongly-violated: n, L",
+            "(d) tp-II: n, L, e_x",
+            "(e) nearly-free: n, L, e_x",
+            "(f) strongly-violated: n, L, e_x",
+        ];
+        assert_eq!(headings, known);
+        let marks = elements.iter().filter(|element| matches!(element, Element::Circle { .. })).count();
+        assert_eq!(marks, 3 * 3 + 3 * 4);
     }
 }
