@@ -26,7 +26,7 @@ impl Axis {
     /// A linear axis that holds all `values` with some room on either side.
     pub(super) fn around(label: &str, values: impl IntoIterator<Item = f64>) -> Self {
         let (low, high) = values.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
-        let size = low.abs().max(high.abs());
+        let size = high.max(-low);
         // A constant is drawn as one: its rounding is not spread over the frame.
         let room = match high - low > 1e-3 * size {
             true => 0.06 * (high - low),
@@ -63,7 +63,7 @@ impl Axis {
 
     /// Power of ten that is taken out of the numbers at the ticks, to keep them short.
     fn power(&self) -> i32 {
-        let size = self.low.abs().max(self.high.abs()).log10();
+        let size = self.high.max(-self.low).log10();
         if self.logarithmic || self.in_full || (-2.0..4.0).contains(&size) { 0 } else { size.floor() as i32 }
     }
 

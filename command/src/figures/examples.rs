@@ -47,3 +47,21 @@ fn subject(example: &PaperExample) -> Result<Subject, twofold::Error> {
         quasi_periodic: OnceLock::new(),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The angles that captions tell are those of the state, `gamma` being zero.
+    #[test]
+    fn examples_start_at_their_angles() {
+        for example in examples().unwrap() {
+            let state = example.problem.initial().angles().unwrap();
+            let told = example.initial_angles;
+            assert_eq!(told.gamma, 0.0);
+            for (told, found) in [(told.alpha, state.alpha), (told.beta, state.beta), (0.0, state.gamma)] {
+                assert!((told - found).abs() < 1e-15, "{}: {told} {found}", example.name);
+            }
+        }
+    }
+}

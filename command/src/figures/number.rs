@@ -42,7 +42,7 @@ impl Spread {
 
     /// The spread as a part of the larger end.
     pub(super) fn relative(self) -> f64 {
-        let size = self.low.abs().max(self.high.abs());
+        let size = self.high.max(-self.low);
         if size == 0.0 { 0.0 } else { (self.high - self.low) / size }
     }
 
