@@ -56,6 +56,11 @@ fn map(geometry: Geometry) -> Result<Map, String> {
     let rows: Vec<(f64, Vec<Errors>)> = powers_of_ten(STRENGTHS)
         .map(|x| errors(geometry, x, &times).map(|errors| (x, errors)))
         .collect::<Result<_, String>>()?;
+    Ok(tabulated(names(geometry).0, &rows))
+}
+
+/// Errors by strength and time, of the same solutions at all of them.
+fn tabulated(name: &str, rows: &[(f64, Vec<Errors>)]) -> Map {
     let sample = rows[0].1[0];
     let present = [true, true, sample.corrected.is_some(), sample.printed.is_some()];
     let shown = (0..4).filter(|&i| present[i]);
@@ -65,8 +70,8 @@ fn map(geometry: Geometry) -> Result<Map, String> {
     columns.extend(["second", "first"].map(|order| format!("mean {order}: error of n; L/G or e_x [1]")));
     methods.insert(0, (0, columns.len()));
     columns.push("torus: error of n [rad]".to_owned());
-    let mut table = Table::new(names(geometry).0, columns);
-    for (strength, errors) in &rows {
+    let mut table = Table::new(name, columns);
+    for (strength, errors) in rows {
         for Errors { time, printed, corrected, averaged, averaged_state, torus } in errors {
             let mut row = vec![*strength, *time, averaged[1], averaged[0]];
             row.extend(*corrected);
@@ -75,7 +80,7 @@ fn map(geometry: Geometry) -> Result<Map, String> {
             table.push(row);
         }
     }
-    Ok(Map { table, methods })
+    Map { table, methods }
 }
 
 fn draw(maps: &[Map]) -> String {
@@ -138,5 +143,59 @@ fn legend(page: &mut Page, top: f64) {
         page.outline(r, solid(BLACK, 0.6));
         page.text([left + 15.0, top + 7.0], Anchor::Start, SMALL, BLACK, name);
         left += width;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whatever solutions there are, the exact motion is under all others and each method has its column.
+    #[test]
+    fn a_method_is_drawn_from_its_column() {
+        let of = |perturbation: Option<f64>, unit: f64| Errors {
+            time: 30.0 * unit,
+            printed: perturbation.map(|size| 2.0 * size * unit),
+            corrected: perturbation.map(|size| size * unit),
+            averaged: [0.25 * unit, 0.125 * unit],
+            averaged_state: [0.5 * unit, 0.75 * unit],
+            torus: 1e-13 * unit,
+        };
+        for (perturbation, expected) in
+            [(None, vec![1e-13, 0.125, 0.25]), (Some(3.0), vec![1e-13, 0.125, 0.25, 3.0, 6.0])]
+        {
+            let rows = [(0.5, vec![of(perturbation, 1.0), of(perturbation, 2.0)]), (0.75, vec![of(perturbation, 4.0)])];
+            let Map { table, methods } = tabulated("made up", &rows);
+            assert!(methods.iter().map(|(method, _)| *method).eq(0..expected.len()));
+            let heads = ["torus", "mean second", "mean first", "corrected", "printed"];
+            for ((_, column), head) in methods.iter().zip(heads) {
+                assert_eq!(table.columns[*column], format!("{head}: error of n [rad]"));
+            }
+            assert_eq!(table.columns.len() - methods.len(), 4);
+            for (row, (strength, unit)) in table.rows.iter().zip([(0.5, 1.0), (0.5, 2.0), (0.75, 4.0)]) {
+                let found: Vec<_> = methods.iter().map(|(_, column)| row[*column] / unit).collect();
+                assert_eq!((&found, row[..2].to_vec()), (&expected, vec![strength, 30.0 * unit]));
+                assert_eq!(row[table.columns.len() - 3..][..2], [0.75 * unit, 0.5 * unit]);
+            }
+            assert_eq!(
+                table.columns[table.columns.len() - 3..][..2],
+                ["second", "first"].map(|order| format!("mean {order}: error of n; L/G or e_x [1]"))
+            );
+        }
+    }
+
+    /// An error of the strength times the time is as asked at one over the time of it, on a logarithmic axis; nowhere above, and nowhere below.
+    #[test]
+    fn a_method_reaches_to_where_its_error_is_as_asked() {
+        let mut table = Table::new("", ["x", "t", "nothing", "error"]);
+        for strength in powers_of_ten(STRENGTHS) {
+            powers_of_ten(TIMES).for_each(|time| table.push([strength, time, 0.0, strength * time]));
+        }
+        let map = Map { table, methods: Vec::new() };
+        let place = |strength: f64| (strength.log10() - STRENGTHS.0) / (STRENGTHS.1 - STRENGTHS.0);
+        for (i, time) in powers_of_ten(TIMES).enumerate() {
+            assert!((height(&map, i, 3, 1e-3) - place(1e-3 / time)).abs() < 1e-14, "{time}");
+            assert_eq!((height(&map, i, 3, 1e-7), height(&map, i, 3, 1e3)), (0.0, 1.0));
+        }
     }
 }

@@ -39,3 +39,19 @@ pub fn png(svg: &str) -> Result<Vec<u8>, String> {
     resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
     pixels.encode_png().map_err(|error| format!("the picture cannot be coded: {error}"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 96 by 48 pixels of CSS are an inch by half of one. The left half is black.
+    #[test]
+    fn a_picture_has_300_pixels_each_inch() {
+        let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" width="96" height="48"><rect x="0" y="0" width="48" height="48"/></svg>"#;
+        let pixels = Pixmap::decode_png(&png(svg).unwrap()).unwrap();
+        assert_eq!([pixels.width(), pixels.height()], [300, 150]);
+        for (x, y, alpha) in [(0, 0, 255), (148, 148, 255), (151, 0, 0), (299, 149, 0)] {
+            assert_eq!(pixels.pixel(x, y).map(|pixel| pixel.alpha()), Some(alpha), "{x} {y}");
+        }
+    }
+}
