@@ -322,11 +322,9 @@ pub(super) mod tests {
             let tensor = nalgebra::Matrix3::from_diagonal(&values);
             let state = in_plane([0, 1], 0.4, along, across);
             let integrals = first_integrals(&BODY, &tensor, &state);
-            let plane = |third: f64| {
-                Wanted::new(&BODY, &FirstIntegrals { clebsch: third, ..integrals }).unwrap().plane(&values, [0, 1])
-            };
+            let wanted = |third: f64| Wanted::new(&BODY, &FirstIntegrals { clebsch: third, ..integrals }).unwrap();
             // The largest K of the plane, on a fine grid and then by bisection of its slope.
-            let here = plane(0.0);
+            let here = wanted(0.0).plane(&values, [0, 1]);
             let at = |k: i32| 1e-3 * f64::from(k);
             let real = |b: f64| here.square[0] + here.square[1] * (2.0 * b).cos() - along * along > 1e-6;
             let best =
@@ -341,8 +339,7 @@ pub(super) mod tests {
             let size =
                 (2.0 * BODY.inertia_xx * integrals.energy).abs().max(BODY.constant_c * BODY.inertia_xx) * values.amax();
             let found = |beyond: f64| {
-                let wanted = Wanted::new(&BODY, &FirstIntegrals { clebsch: top + beyond * size, ..integrals }).unwrap();
-                let states = wanted.in_plane(&values, 2);
+                let states = wanted(top + beyond * size).in_plane(&values, 2);
                 // Of images by half turns the angle differs by a half turn.
                 states.iter().any(|state| ((state.axis.y.atan2(state.axis.x) - left).sin()).abs() < 1e-4)
             };
