@@ -49,13 +49,7 @@ fn is_ours(name: &str) -> bool {
 
 fn measure(effort: &Effort) -> Result<Results, String> {
     let mut progress = Progress::new(true);
-    let mut from = 0.0;
-    let mut section = |share: f64| {
-        let start = from;
-        from += share;
-        move |part: f64| start + share * part
-    };
-    let [a, b, c, d] = SHARES.map(&mut section);
+    let [a, b, c, d] = sections();
     Ok(Results {
         work_precision: work_precision::measure(effort, |part| progress.show(a(part)))?,
         growth: growth::measure(effort, |part| progress.show(b(part)))?,
@@ -63,4 +57,37 @@ fn measure(effort: &Effort) -> Result<Results, String> {
         scaling: scaling::measure(effort, |part| progress.show(d(part)))?,
         set_up: scaling::set_up(effort)?,
     })
+}
+
+/// What part of all is done when so much of each section is.
+fn sections() -> [impl Fn(f64) -> f64; 4] {
+    let mut from = 0.0;
+    SHARES.map(|share| {
+        let start = from;
+        from += share;
+        move |part: f64| start + share * part
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sections_follow_one_another_to_the_end() {
+        let mut end = 0.0;
+        for (section, share) in sections().iter().zip(SHARES) {
+            assert_eq!(section(0.0), end);
+            assert!(share > 0.0 && section(0.5) == end + 0.5 * share, "{share}");
+            end = section(1.0);
+        }
+        assert!((end - 1.0).abs() < 1e-15, "{end}");
+    }
+
+    #[test]
+    fn files_of_an_earlier_run_are_replaced_and_no_others() {
+        let names = ["bench.md", "work-precision.csv", "work-precision.svg", "work-precision.png"];
+        assert!(names.into_iter().all(is_ours));
+        assert!(!["bench.txt", "precision.csv", "my-bench.md"].into_iter().any(is_ours));
+    }
 }

@@ -297,4 +297,66 @@ mod tests {
             assert_eq!(two_digits(x), text);
         }
     }
+    fn row(from_change: Option<f64>, printed: Option<&str>) -> Row {
+        let (key, label, printed) = ("limit", "a limit".to_owned(), printed.map(String::from));
+        Row { key, label, value: 3.14e-16, from_change, from_inputs: Some(0.0), printed }
+    }
+
+    /// The words of each line of a table but those that separate.
+    fn words(table: &str) -> Vec<Vec<&str>> {
+        let lines = table.lines().filter(|line| !line.contains('─'));
+        lines.map(|line| line.split("  ").map(str::trim).filter(|word| !word.is_empty()).collect()).collect()
+    }
+
+    #[test]
+    fn columns_without_numbers_are_left_out() {
+        let (plain, measured, printed) = (row(None, None), row(Some(2e-17), None), row(None, Some("~1e-16")));
+        let table = table_of(&[plain]);
+        assert_eq!(words(&table), [vec!["value", "+- by others"], vec!["a limit", "3.14e-16", "0"]]);
+        let table = table_of(&[measured]);
+        let header = vec!["value", "+- by Delta W", "+- by others"];
+        assert_eq!(words(&table), [header, vec!["a limit", "3.14e-16", "2.00e-17", "0"]]);
+        let table = table_of(&[printed]);
+        let header = vec!["value", "+- by others", "printed", "ours/printed"];
+        assert_eq!(words(&table), [header, vec!["a limit", "3.14e-16", "0", "~1e-16", "3.1"]]);
+        // Words on the left, numbers on the right, a line below.
+        let lines: Vec<_> = table.lines().collect();
+        assert!(lines[2].starts_with(" a limit ") && lines[3].contains('─'), "{table}");
+        assert_eq!(lines[0].find("value").map(|k| k + 5), lines[2].find("3.14e-16").map(|k| k + 8), "{table}");
+    }
+
+    #[test]
+    fn limits_of_others_have_their_numbers_on_the_right() {
+        let table = published_table();
+        let lines: Vec<_> = table.lines().collect();
+        assert!(lines[lines.len() - 1].contains('─'), "{table}");
+        // Their numbers are as long, the title is shorter: it ends where they do.
+        let limit = published().next().map(|first| format!("{:.1e}", first.limit)).expect("a limit");
+        assert_eq!(lines[0].find("limit").map(|k| k + 5), lines[2].find(&limit).map(|k| k + limit.len()), "{table}");
+        assert_eq!(lines[0].find("source"), lines[2].find("12 pulsar systems"), "{table}");
+    }
+
+    /// A measured change of width has the confidence that is told; one that is taken as a limit adds none.
+    #[test]
+    fn the_recommendation_tells_how_the_limit_was_chosen() {
+        let text = |change: &str| {
+            let pulsar = format!(
+                "[[pulsar]]\nname = \"x\"\nspin_period = 4.1e-3\nwidth = 13\nwidth_change = {change}\nlambda = 95\nchi = 51\nyears = 15\n"
+            );
+            let folder = tempfile::tempdir().expect("a folder");
+            let path = folder.path().join("x.toml");
+            std::fs::write(&path, pulsar).expect("a file");
+            let table = pulsars_in_file(path.to_str().expect("a path")).expect("a table");
+            let (chosen, limit) = recommended(&table).expect("a limit");
+            recommendation(chosen, &limit, &rows(chosen, None).expect("rows"))
+        };
+        let (measured, stated) = (text("[0.020, 0.108]"), text("0.020"));
+        for part in ["it is chosen by errors,\n  not by what was found. ", "  Included:\n  - the error of Delta W"] {
+            assert!(measured.contains(part) && stated.contains(part), "{measured}{stated}");
+        }
+        assert!(
+            measured.contains("above the true value in 95 % of cases or more.\n") && !stated.contains("95 % of cases")
+        );
+        assert!(stated.contains("Delta W is taken as a limit: ") && !measured.contains("taken as a limit"));
+    }
 }

@@ -261,3 +261,39 @@ fn assumptions(model: &TimingModel, unknowns: &[TimingParameter], data: &TimingD
     }
     text + "The model: free precession of a biaxial star, a braking torque along L, independent normal errors\n"
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn periods_are_in_equal_ratios() {
+        let cases: [(&str, &[f64]); 5] = [
+            ("50:90:2", &[50.0, 90.0]),
+            ("80:20:3", &[80.0, 40.0, 20.0]),
+            ("7:9:1", &[7.0]),
+            ("1e-6:1e-6:1", &[1e-6]),
+            ("1e9:1e9:1", &[1e9]),
+        ];
+        for (text, expected) in cases {
+            let rates = periods(text).expect(text).rates();
+            assert_eq!(rates.len(), expected.len(), "{text}");
+            for (rate, days) in rates.iter().zip(expected) {
+                assert!((TAU / rate / 86_400.0 / days - 1.0).abs() < 1e-14, "{text}: {rate}");
+            }
+        }
+        assert_eq!(periods("1:2:10000").expect("as many as are allowed").rates().len(), 10_000);
+        for text in ["50:90", "50:90:0", "50:90:10001", "50:90:2:2", "0.9e-6:90:2", "50:1.1e9:2", "50:NaN:2"] {
+            assert!(periods(text).is_err_and(|why| why.starts_with("allowed are two periods")), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_prior_has_a_mean_and_an_error() {
+        let Prior { parameter, mean, sigma } = prior("chi:-1.5:1e-100").expect("a prior");
+        assert_eq!((parameter, mean, sigma), (TimingParameter::Chi, -1.5, 1e-100));
+        for text in ["chi:1.5", "chi:1.5:9.9e-101", "chi:inf:1", "chi:1:inf", "chi:1:2:3"] {
+            assert!(prior(text).is_err(), "{text}");
+        }
+    }
+}

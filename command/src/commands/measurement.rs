@@ -97,16 +97,15 @@ pub(super) fn uncertainties<M: Model>(
 ) -> [Vec<Vec<String>>; 2] {
     let (unknowns, values, sigmas) = (&fisher.unknowns, fisher.values(), fisher.sigmas());
     let correlations = fisher.correlations();
-    let correlation = |i: usize, j: usize| correlations[(i, j)];
     let mut short = vec![["", "value", "sigma", "sigma/|value|", "unit", "correlated most"].map(String::from).to_vec()];
     let mut all = vec![["parameter", "value", "sigma", "unit"].map(String::from).to_vec()];
     all[0].extend(unknowns.iter().map(|unknown| format!("correlation_{}", unknown.key())));
     for (i, unknown) in unknowns.iter().enumerate() {
         let (factor, unit) = unit_of(*unknown);
         let (value, sigma) = (values[i] * factor, sigmas[i] * factor);
-        let others = (0..unknowns.len()).filter(|&j| j != i && correlation(i, j).is_finite());
-        let most = others.max_by(|a, b| correlation(i, *a).abs().total_cmp(&correlation(i, *b).abs()));
-        let most = most.map_or(String::new(), |j| format!("{:+.4} {}", correlation(i, j), unknowns[j].symbol()));
+        let others = (0..unknowns.len()).filter(|&j| j != i && correlations[(i, j)].is_finite());
+        let most = others.max_by(|a, b| correlations[(i, *a)].abs().total_cmp(&correlations[(i, *b)].abs()));
+        let most = most.map_or(String::new(), |j| format!("{:+.4} {}", correlations[(i, j)], unknowns[j].symbol()));
         short.push(if sigma.is_finite() {
             let relative = if value == 0.0 { String::new() } else { format!("{:.1e}", sigma / value.abs()) };
             vec![
@@ -123,8 +122,69 @@ pub(super) fn uncertainties<M: Model>(
         });
         let number = |x: f64| if x.is_finite() { format!("{x:?}") } else { String::new() };
         let mut row = vec![unknown.key().to_owned(), format!("{value:?}"), number(sigma), unit];
-        row.extend((0..unknowns.len()).map(|j| number(correlation(i, j))));
+        row.extend((0..unknowns.len()).map(|j| number(correlations[(i, j)])));
         all.push(row);
     }
     [short, all]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use twofold::nalgebra::dmatrix;
+    use twofold::observables::pulsar::timing_model::{TimingModel, TimingParameter};
+
+    /// The numbers of an invented covariance: sigmas of 1e-2, 0.5, 2 and none, of which the second and third are correlated most.
+    #[test]
+    fn uncertainties_are_those_of_the_covariance() {
+        use TimingParameter::{Chi, F1, Rho, Wobble};
+        let unknowns = [Wobble, Chi, Rho, F1];
+        let parameters =
+            TimingModel::new([2.0, 0.0], &[(Wobble, 0.25), (Chi, 1.5), (Rho, 0.125)]).expect("a model of a star");
+        let none = f64::NAN;
+        let covariance = dmatrix![
+            1e-4, 1e-3, -2e-3, none;
+            1e-3, 0.25, -0.9, none;
+            -2e-3, -0.9, 4.0, none;
+            none, none, none, none
+        ];
+        let fisher = Fisher {
+            parameters,
+            unknowns: unknowns.to_vec(),
+            singular_values: Vec::new(),
+            rounding: 0.0,
+            degenerate: Vec::new(),
+            weak: Vec::new(),
+            covariance,
+        };
+        let [short, all] = uncertainties(&fisher, |unknown| match unknown {
+            Chi => (100.0, "percent".to_owned()),
+            _ => (1.0, unknown.unit().to_owned()),
+        });
+        let expected = [
+            ["wobble", "0.2500000000", "1.00e-2", "4.0e-2", "rad", "+0.2000 chi"],
+            ["chi", "150.0000000", "5.00e1", "3.3e-1", "percent", "-0.9000 rho"],
+            ["rho", "0.1250000000", "2.00e0", "1.6e1", "rad", "-0.9000 chi"],
+            ["f1", "0", "not determined", "", "Hz/s", ""],
+        ];
+        assert_eq!(short[1..], expected.map(|row| row.map(String::from).to_vec()));
+        let expected = [
+            ["parameter", "value", "sigma", "unit", "wobble", "chi", "rho", "f1"],
+            ["wobble", "0.25", "0.01", "rad", "1.0", "0.2", "-0.1", ""],
+            ["chi", "150.0", "50.0", "percent", "0.2", "1.0", "-0.9", ""],
+            ["rho", "0.125", "2.0", "rad", "-0.1", "-0.9", "1.0", ""],
+            ["f1", "0.0", "", "Hz/s", "", "", "", ""],
+        ];
+        let without_prefix = |cell: &String| cell.trim_start_matches("correlation_").to_owned();
+        let found: Vec<Vec<_>> = all.iter().map(|row| row.iter().map(without_prefix).collect()).collect();
+        assert_eq!(found, expected.map(|row| row.map(String::from).to_vec()));
+        // An unknown that is zero has no relative error.
+        let fisher = Fisher { unknowns: vec![F1], covariance: dmatrix![4e-30], ..fisher };
+        assert_eq!(uncertainties(&fisher, |_| (1.0, String::new()))[0][1][2..4], ["2.00e-15", ""]);
+        // Names on the left, numbers on the right.
+        let page = readable(&short);
+        let lines: Vec<_> = page.lines().collect();
+        assert!(lines[2].starts_with(" wobble ") && page.ends_with('\n'), "{page}");
+        assert_eq!(lines[2].find("1.00e-2").map(|k| k + 7), lines[3].find("5.00e1").map(|k| k + 6), "{page}");
+    }
 }

@@ -144,6 +144,7 @@ pub(crate) struct StabilityArgs {
 }
 
 /// How a command ends when it does not succeed.
+#[derive(Debug)]
 pub(crate) enum Failure {
     /// A check or a computation failed: status 1.
     Failed(String),

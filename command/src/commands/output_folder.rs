@@ -116,7 +116,7 @@ mod tests {
     /// What a file that appears while the folder is filled holds afterwards, and the failure.
     fn meanwhile(replace: bool) -> (String, Option<String>) {
         let parent = tempfile::tempdir().expect("folder");
-        let folder = OutputFolder::at(parent.path(), replace, |name| name == "page").ok().expect("empty folder");
+        let folder = OutputFolder::at(parent.path(), replace, |name| name == "page").expect("empty folder");
         assert!(folder.write("page", b"ours").is_ok());
         fs::write(parent.path().join("page"), "theirs").expect("file");
         let failure = match folder.complete() {

@@ -1,12 +1,10 @@
 //! How far a long computation is, and work on all processors with a bar.
 
 use std::io::{self, IsTerminal};
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
 use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
+use rayon::prelude::*;
 
 use super::note;
 
@@ -129,8 +127,8 @@ fn line((first, step, steps): (u64, u64, u64), unit: Option<&str>, elapsed: Dura
 }
 
 /// Works on all items on all processors, with a bar on a terminal; the results are in the order of the items. After a failure no item is
-/// begun, and the first failure is returned.
-pub(super) fn on_all_processors<T: Sync, R: Send + Sync, E: Send + Sync>(
+/// begun, and one failure is returned.
+pub(super) fn on_all_processors<T: Sync, R: Send, E: Send>(
     items: &[T],
     what: &str,
     name: impl Fn(&T) -> &'static str + Sync,
@@ -142,33 +140,33 @@ pub(super) fn on_all_processors<T: Sync, R: Send + Sync, E: Send + Sync>(
         bar.set_style(style);
     }
     bar.enable_steady_tick(Duration::from_millis(200));
-    let next = AtomicUsize::new(0);
-    let results: Vec<OnceLock<Result<R, E>>> = items.iter().map(|_| OnceLock::new()).collect();
-    let take_items = || {
-        loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            let (Some(item), Some(result)) = (items.get(index), results.get(index)) else { return };
-            bar.set_message(name(item));
-            if result.get_or_init(|| work(item)).is_err() {
-                next.store(items.len(), Ordering::Relaxed);
-            }
-            bar.inc(1);
-        }
+    let worked = |item| {
+        bar.set_message(name(item));
+        let result = work(item);
+        bar.inc(1);
+        result
     };
-    thread::scope(|scope| {
-        for _ in 0..thread::available_parallelism().map_or(1, usize::from).min(items.len()) {
-            scope.spawn(take_items);
-        }
-    });
+    let results = items.par_iter().map(worked).collect();
     bar.finish_and_clear();
-    results.into_iter().filter_map(OnceLock::into_inner).collect()
+    results
 }
 
 #[cfg(test)]
 mod tests {
     use std::time::Duration;
 
-    use super::{Lines, line};
+    use super::{Lines, line, on_all_processors};
+
+    #[test]
+    fn results_are_in_the_order_of_the_items_and_a_failure_ends_the_work() {
+        let items: Vec<u32> = (0..1000).collect();
+        let squares = on_all_processors(&items, "squares", |_| "", |x| Ok::<_, u32>(x * x));
+        assert_eq!(squares, Ok(items.iter().map(|x| x * x).collect()));
+        assert_eq!(
+            on_all_processors(&items, "squares", |_| "", |x| if *x == 700 { Err(*x) } else { Ok(*x) }),
+            Err(700)
+        );
+    }
 
     /// Seconds at which lines are written by work that says every 0.1 s what is done and takes `length` seconds.
     fn times(length: u32) -> Vec<f64> {
@@ -195,6 +193,11 @@ mod tests {
         let minute = Duration::from_secs(60);
         assert_eq!(line((0, 250, 1000), None, minute), "25 % done after 60 seconds, about 3 minutes left");
         assert_eq!(line((0, 0, 1000), None, minute), "0 % done after 60 seconds");
+        assert_eq!(line((0, 1000, 1000), None, minute), "100 % done after 60 seconds, about 0 seconds left");
+        // So little in a year that no number of seconds holds what is left.
+        let year = Duration::from_secs(31_557_600);
+        assert!(line((0, 1, u64::MAX), None, year).ends_with("about 31709792 years left"));
+        assert!(line((0, 1, 2), None, Duration::ZERO).ends_with("about 0 seconds left"));
         let scenes = "50 % done, 1000 of 2000 scenes, 1.000e1 scenes/s, after 60 seconds, about 2 minutes left";
         assert_eq!(line((400, 1000, 2000), Some("scenes"), minute), scenes);
     }

@@ -237,6 +237,67 @@ pub(super) fn date(text: &str) -> Result<Epoch, String> {
 mod tests {
     use super::*;
 
+    #[derive(clap::Parser)]
+    struct Line {
+        #[command(flatten)]
+        args: TimingArgs,
+    }
+
+    /// The arguments of `twofold timing b1828-11 --out x` and some more.
+    fn args(more: &[&str]) -> TimingArgs {
+        let line = ["timing", "b1828-11", "--out", "x"].iter().chain(more);
+        <Line as clap::Parser>::try_parse_from(line).expect("arguments").args
+    }
+
+    #[test]
+    fn epochs_go_from_the_first_to_the_last() {
+        let scene = Scene::named("b1828-11").expect("a scene");
+        let start = date("49621").expect("a date");
+        // Days after the epoch of the scene.
+        let days = |more: &[&str]| {
+            let found = epochs(&args(more), &scene, &start)?;
+            Ok::<Vec<f64>, Failure>(found.iter().map(|at| at.seconds_since(&start)[0] / DAY).collect())
+        };
+        let of_scene: Vec<f64> = scene.times.iter().map(|t| (t - scene.times.start()) / DAY).collect();
+        assert_eq!(days(&[]).expect("epochs"), of_scene);
+        let (count, last) = (of_scene.len(), of_scene[of_scene.len() - 1]);
+        let near = |found: &[f64], expected: &[f64]| {
+            found.len() == expected.len() && found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9 * last)
+        };
+        let [found, late, early] = [&[][..], &["--from", "49622"], &["--to", "49623"]]
+            .map(|more| days(&[&["--epochs", "2"], more].concat()).expect("epochs"));
+        assert!(near(&found, &[0.0, last]) && near(&late, &[1.0, last]) && near(&early, &[0.0, 2.0]));
+        // The number of epochs of the scene, unless another one or their distance is asked for.
+        for (more, first, end) in [(["--from", "49622"], 1.0, last), (["--to", "49623"], 0.0, 2.0)] {
+            let found = days(&more).expect("epochs");
+            assert!(found.len() == count && near(&[found[0], found[count - 1]], &[first, end]), "{more:?}: {found:?}");
+        }
+        let every = ["--to", "49623", "--every", "0.75"];
+        assert!(near(&days(&every).expect("epochs"), &[0.0, 0.75, 1.5]));
+        // Half a second is a span, and nothing is none.
+        assert!(days(&["--to", "49621.000005", "--epochs", "2"]).is_ok());
+        for refused in [&["--to", "49621"][..], &["--epochs", "1"], &["--every", "0"], &["--every", "1e9"]] {
+            assert!(days(refused).is_err(), "{refused:?}");
+        }
+    }
+
+    #[test]
+    fn strain_has_sixteen_samples_in_the_period_of_its_second_harmonic() {
+        let of = |more: &[&str]| {
+            let found = series(&args(more), &[date("49621").expect("a date")], 0.25)?;
+            Ok::<_, Failure>((found.rate, found.samples))
+        };
+        // 16 / (0.25 s / 2), a power of two, and 64 turns of it.
+        assert!(of(&[]).is_ok_and(|found| found == (128.0, 2048)));
+        assert!(of(&["--strain-rate", "100"]).is_ok_and(|found| found == (100.0, 1600)));
+        assert!(of(&["--strain-span", "1"]).is_ok_and(|found| found == (128.0, 128)));
+        assert!(of(&["--strain-rate", "1", "--strain-span", "2"]).is_ok_and(|found| found == (1.0, 2)));
+        for refused in [["--strain-rate", "0"], ["--strain-span", "0"], ["--strain-span", "0.005"]] {
+            assert!(of(&refused).is_err(), "{refused:?}");
+        }
+        assert!(of(&["--strain-rate", "1e6", "--strain-span", "10.1"]).is_err());
+    }
+
     #[test]
     fn days_apart_do_not_depend_on_the_order() {
         let days = |times: &[f64]| days_apart(times.iter().map(|day| day * DAY));

@@ -102,3 +102,39 @@ pub fn json(comparison: &Comparison) -> String {
     });
     serde_json::to_string_pretty(&whole).unwrap_or_default()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn column(column: &str, reason: &'static str, verdict: Verdict) -> ColumnDifference {
+        let (difference, time, allowed) = (1.25e-3, 17.5, Some(2e-3));
+        ColumnDifference { column: column.to_owned(), unit: "rad", difference, time, allowed, reason, verdict }
+    }
+
+    fn file(file: &'static str, columns: Vec<ColumnDifference>) -> ComparedFile {
+        ComparedFile { file, start: "Eq. (34)".into(), rows: 7, columns, notes: Vec::new() }
+    }
+
+    #[test]
+    fn reasons_are_told_once_and_verdicts_counted() {
+        use Verdict::{Agrees, Differs, NotJudged};
+        let files = vec![
+            file("a.dat", vec![column("alpha", "by A", Agrees), column("beta", "by B", Differs)]),
+            file("b.dat", vec![column("gamma", "by A", NotJudged)]),
+        ];
+        let comparison = Comparison { folder: "x".into(), files, absent: vec!["c.dat"], not_read: Vec::new() };
+        let text = text(&comparison);
+        let words: Vec<Vec<_>> = text
+            .lines()
+            .map(|line| line.split("  ").map(str::trim).filter(|word| !word.is_empty()).collect())
+            .collect();
+        let numbers = ["1.25e-3 rad", "17.500", "2.000e-3"];
+        let row = |before: &[&'static str], after: &[&'static str]| [before, &numbers, after].concat();
+        assert_eq!(words[2], row(&["a.dat", "7", "Eq. (34)", "alpha"], &["[1]", "agrees"]), "{text}");
+        assert_eq!(words[3], row(&["beta"], &["[2]", "DIFFERS"]), "{text}");
+        assert_eq!(words[4], row(&["b.dat", "7", "Eq. (34)", "gamma"], &["[1]", "not judged"]), "{text}");
+        let end = "\n\n[1] by A\n[2] by B\nnot in the folder: c.dat\n1 column agrees, 1 DIFFERS, 1 not judged";
+        assert!(text.ends_with(end), "{text}");
+    }
+}

@@ -72,6 +72,25 @@ mod tests {
     use super::super::known::KNOWN;
     use super::*;
 
+    /// The series computed here agrees with itself; with a row between two of its pulses it does not.
+    #[test]
+    fn a_file_with_a_row_of_no_pulse_differs() {
+        let [example, ..] = paper_examples();
+        let known = KNOWN.iter().find(|file| file.name == "mntp1_pset.dat").expect("it is known");
+        let start = Start::of_caption(&example).unwrap();
+        let table = Table { rows: vec![vec![0.0, 0.0], vec![30.0, 0.0]] };
+        let mut rows: Vec<_> =
+            recompute::train(&start, &table).unwrap().0.periods().map(|found| vec![found.time, found.value]).collect();
+        let verdicts = |rows: &[Vec<f64>]| {
+            let files = by_stamps(known, &Table { rows: rows.to_vec() }, &example).unwrap();
+            files.iter().map(|file| file.columns.iter().map(|column| column.verdict).collect()).collect::<Vec<Vec<_>>>()
+        };
+        use Verdict::{Agrees, Differs, NotJudged};
+        assert_eq!(verdicts(&rows), [[Agrees, Agrees], [NotJudged, NotJudged]]);
+        rows.insert(1, vec![(rows[0][0] + rows[1][0]) / 2.0, rows[0][1]]);
+        assert_eq!(verdicts(&rows), [[Differs, Differs], [NotJudged, NotJudged]]);
+    }
+
     /// Periods are some 4.4 t_c long: a stamp in the middle of two is of neither.
     #[test]
     fn a_row_between_two_pulses_is_of_none() {
@@ -92,5 +111,11 @@ mod tests {
         // Beside both starts of ours.
         let found = notes(&[first, middle, second]);
         assert_eq!(alone(&found), 2, "{found:?}");
+        // What the file lacks is told with its shortest period.
+        assert!(!notes(&[first, second]).iter().any(|note| note.contains("not in the file")));
+        let rows = [0, 2, 5].map(|k| [ours[k].time, ours[k].value]);
+        let shortest = [1, 3, 4].map(|k| ours[k].value).into_iter().fold(f64::INFINITY, f64::min);
+        let lacking = format!("3 of ours are not in the file, the shortest {shortest:.3} t_c long");
+        assert!(notes(&rows).contains(&lacking), "{lacking}: {:?}", notes(&rows));
     }
 }

@@ -116,3 +116,32 @@ fn words(line: &str) -> impl Iterator<Item = (usize, &str)> {
         })
         .filter(|(_, word)| !word.is_empty())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::known::KNOWN;
+    use super::*;
+
+    #[test]
+    fn a_fault_is_told_with_its_place() {
+        let known = KNOWN.iter().find(|file| file.name == "mntp1_pset.dat").expect("it is known");
+        let known = KnownFile { rows: 2, ..*known };
+        let table = parse("x.dat", "0 2\n1100\t-4e-1\n", &known).expect("two rows");
+        assert_eq!((&table.rows, table.last_time()), (&vec![vec![0.0, 2.0], vec![1100.0, -0.4]], 1100.0));
+        for (text, fault) in [
+            ("", "x.dat: is empty"),
+            ("1 2\n", "x.dat:1:4: truncated: ends after 1 rows, the published file has 2"),
+            ("1 2\n\n3 4\n", "x.dat:2:1: an empty line: 0 of 2 numbers"),
+            ("1 2\n3\n", "x.dat:2:2: a truncated row: 1 of 2 numbers"),
+            ("1 2  9\n", "x.dat:1:6: a column too many: the file has 2 (t, period)"),
+            ("1 2\n3 4\n5 6\n", "x.dat:3:1: one row too many: the published file has 2"),
+            (" -1 2\n", "x.dat:1:2: time -1.0: allowed is from 0 to 1100 t_c"),
+            ("1 2\n1100.5 4\n", "x.dat:2:1: time 1100.5: allowed is from 0 to 1100 t_c"),
+            ("1 2\n1 4\n", "x.dat:2:1: time 1.0 after 1.0: times must increase"),
+            ("1 two\n", "x.dat:1:3: `two` is not a finite decimal number"),
+            ("1 inf\n", "x.dat:1:3: `inf` is not a finite decimal number"),
+        ] {
+            assert_eq!(parse("x.dat", text, &known).expect_err(text), fault);
+        }
+    }
+}

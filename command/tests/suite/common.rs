@@ -50,6 +50,14 @@ pub fn is_refused(output: &Output, fragments: &[impl AsRef<str>]) {
     has_all(&message, fragments);
 }
 
+/// The number that follows a phrase in a text.
+#[track_caller]
+pub fn number_after(text: &str, phrase: &str) -> f64 {
+    let rest = text.split(phrase).nth(1).unwrap_or_else(|| panic!("`{phrase}` in {text}"));
+    let number = rest.split_whitespace().next().expect("a word");
+    number.trim_end_matches([',', ';']).parse().unwrap_or_else(|why| panic!("{number}: {why}"))
+}
+
 /// A folder in which commands run; it is removed at the end.
 pub struct Folder(TempDir);
 

@@ -120,9 +120,12 @@ fn a_closed_standard_output_is_an_error_where_a_result_is_lost() {
         assert_eq!(is_said, is_result, "{args:?}: {}", stderr(&closed));
         let thrown_away = shell(&folder, "exec > /dev/null", args);
         assert_eq!(thrown_away.status.code(), Some(0), "{args:?}: {}", stderr(&thrown_away));
+        // A file that is open for reading too is no null device.
+        let kept = shell(&folder, "exec 1<> kept", args);
+        assert_eq!(kept.status.code(), Some(0), "{args:?}: {}", stderr(&kept));
     }
     ends(shell(&folder, "exec >&-", &out(&["run", "s.toml"])), 0);
-    assert_eq!(written(&folder), ["out"]);
+    assert_eq!(written(&folder), ["kept", "out"]);
 }
 
 /// A file in place of a folder, a folder of the system that takes none, and one without leave to write.

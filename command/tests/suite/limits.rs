@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{Folder, altered, ends, has_all, is_refused, stderr, stdout};
+use crate::common::{Folder, altered, ends, has_all, is_refused, number_after, stderr, stdout};
 
 /// A folder with the files of a pulsar.
 fn timed(pulsar: &str) -> Folder {
@@ -67,18 +67,36 @@ fn the_same_times_in_other_files_are_the_same_data() {
 fn the_limit_on_a_wobble_is_that_of_an_amplitude() {
     let folder = timed("b1937+21");
     let args = ["limits", "b1937+21", "b1937+21.tim", "--periods", "20:200:3", "--out", "limits.csv"];
-    let page = stdout(&folder.succeeds(&args));
+    let found = folder.succeeds(&args);
+    let page = stdout(&found);
     assert!(page.contains("Limits on the wobble at 95 %"), "{page}");
+    // Nothing is said of s where the inclination is held fixed.
+    assert!(!page.contains("s^ZZ") && page.contains("chi = 1.3089969 rad, "), "{page}");
+    assert!(page.ends_with("a braking torque along L, independent normal errors\n"), "{page}");
     let table = folder.read("limits.csv");
+    let shown = page.lines().skip_while(|line| !line.contains("limit of the wobble")).skip(2);
+    let shown: Vec<Vec<f64>> = shown
+        .map_while(|line| line.split_whitespace().map(|word| word.parse().ok()).collect::<Option<Vec<_>>>())
+        .take_while(|row| !row.is_empty())
+        .collect();
     let rows: Vec<Vec<f64>> =
         table.lines().skip(1).map(|line| line.split(',').map(|x| x.parse().expect("a number")).collect()).collect();
-    assert_eq!(rows.len(), 3, "{table}");
+    assert_eq!((rows.len(), shown.len()), (3, 3), "{table}{page}");
+    // The page has four digits.
+    for (shown, exact) in shown.iter().flatten().zip(rows.iter().flatten()) {
+        assert!((shown - exact).abs() <= 5e-4 * exact.abs(), "{shown} {exact}");
+    }
     let chi = 75.0_f64.to_radians();
     let expected = 1.96 * 1e-6 * (2.0_f64 / 400.0).sqrt() * TAU * 641.928 * chi.tan();
     for (row, period) in rows.iter().zip([20.0, 63.245_553, 200.0]) {
         assert!((row[0] / period - 1.0).abs() < 1e-6, "{table}");
         assert!((row[3] / expected - 1.0).abs() < 0.05, "{} for {expected}", row[3]);
     }
+    // 400 times in 15 years are 13.7 d apart, less than 20 d and more than half of them.
+    let told = stderr(&found);
+    assert!((number_after(&told, "data are ") / (5478.75 / 399.0) - 1.0).abs() < 1e-3, "{told}");
+    let rarer = folder.succeeds(&["limits", "b1937+21", "b1937+21.tim", "--periods", "200:40:2"]);
+    assert!(!stderr(&rarer).contains("data are "), "{}", stderr(&rarer));
 }
 
 /// Over a span `T` the error of a slope of `N` widths is `sigma (12 / N)^(1/2) / T`.
@@ -107,14 +125,12 @@ fn widths_limit_the_motion_of_the_axis_and_s() {
     assert!((sigma / expected - 1.0).abs() < 0.02, "{sigma} for {expected}");
     // A normal number of mean zero times eta of unknown directions has its quantile of 95 % at 103.08 of its deviation where the spin axis is at 40 deg to the line of sight, by the quadratures of
     // another program, and in inverse proportion to the sine of that angle.
-    let limit = page.split("|2 s^ZZ - s^XX - s^YY| is at most ").nth(1).expect("a limit").split(' ').next();
-    let limit: f64 = limit.and_then(|limit| limit.parse().ok()).expect("a number");
+    let limit = number_after(&page, "|2 s^ZZ - s^XX - s^YY| is at most ");
     let expected = 103.08 * 40.0_f64.to_radians().sin() / i.sin() * 4.0 * i.sin() * sigma / (TAU * 641.928);
     // The page has three digits of the deviation.
     assert!((limit / expected - 1.0).abs() < 5e-3, "{limit} for {expected}");
     // s = -alpha_2 w w, so that the combination is 2 alpha_2 |w|^2; both numbers have four digits.
-    let alpha_2 = page.split("|alpha_2| is then at most ").nth(1).expect("alpha_2").split(',').next();
-    let alpha_2: f64 = alpha_2.and_then(|alpha_2| alpha_2.parse().ok()).expect("a number");
+    let alpha_2 = number_after(&page, "|alpha_2| is then at most ");
     assert!((alpha_2 * 2.0 * (369.0_f64 / 299_792.458).powi(2) / limit - 1.0).abs() < 1e-3, "{alpha_2}");
 }
 
@@ -155,7 +171,7 @@ fn what_is_wrong_is_named() {
         (&["empty.tim"], &["empty.tim: no data"]),
         (&["b1937+21.tim", "b1937+21.tim"], &["its first datum is in a file before it", "measured once"]),
         (&["b1937+21.tim", "--observe", "widths:1e-5"], &["--observe widths: there is no such datum"]),
-        (&["b1937+21.tim", "--periods", "1e-5:1:2"], &["--periods: 1e-5 d", "at least a thousand pulses"]),
+        (&["b1937+21.tim", "--periods", "1:1e-5:2"], &["--periods: 1e-5 d", "at least a thousand pulses, 1.803e-5 d"]),
         (&["b1937+21.tim", "--prior", "rho:0.2:1e-320"], &["rho:0.2:1e-320", "at least 1e-100"]),
         (
             &["b1937+21.tim", "--parameters", "phase,chi", "--prior", "chi:1.3:0.2", "--periods", "50:90:2"],
@@ -204,6 +220,5 @@ fn any_f2_is_fitted_and_files_count_for_themselves() {
     folder.write("rest.csv", [&table[..1], &table[250..]].concat().join("\n"));
     let args = ["limits", "b1937+21", "half.tim", "rest.csv", "--observe", "arrivals:1e-6", "--parameters", unknowns];
     let found = folder.succeeds(&args);
-    let chi_squared = stderr(&found).split("chi^2 = ").nth(1).and_then(|rest| rest.split(' ').next()?.parse().ok());
-    assert!(chi_squared.is_some_and(|chi_squared: f64| chi_squared < 1e-3), "{}", stderr(&found));
+    assert!(number_after(&stderr(&found), "chi^2 = ") < 1e-3, "{}", stderr(&found));
 }

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::common::{Folder, altered, comes_to, numbers, stderr, stdout, twofold, with_lines};
+use crate::common::{Folder, altered, comes_to, number_after, numbers, stderr, stdout, twofold, with_lines};
 use twofold_scene::scene_file::built_in;
 
 /// The note at the end of `run` is not below the largest difference of the last row from that of a motion a million times as accurate, and
@@ -61,6 +61,9 @@ fn a_long_run_without_a_terminal_tells_how_far_it_is() {
         folder.command(&["run", "long.toml", "--method", "taylor", "--columns", "e_z", "--out", "motion.csv"]);
     let mut child = run.spawn().expect("the command starts");
     assert!(comes_to(&mut child, || folder.names().len() > 1), "it ended by itself");
+    // What is not complete is hidden beside the name that it will get.
+    let names = folder.names();
+    assert!(names[0].starts_with(".motion.csv.") && names[0].ends_with(".part"), "{names:?}");
     // The first line comes after ten seconds; others use the processor until then.
     crate::common::send(&child, "STOP");
     std::thread::sleep(Duration::from_secs(10));
@@ -76,13 +79,6 @@ fn a_long_run_without_a_terminal_tells_how_far_it_is() {
 const GRAZING: &str = "[star]\nmass = 1.4\nradius = 12.0\noblateness = 0.01\nspin_frequency = 20.0\n\
     [lorentz_violation]\neigenvalues = [0.0, 0.0, 0.0]\n[initial]\nalpha = 0.3\nbeta = 0.0\nalpha_rate = 1.0\nbeta_rate = 0.0\n\
     [observer]\ntheta_o = 0.9\nphi_o = 0.4\n[pulsar]\nchi = 0.5\nrho = 0.4\n[time]\nstart = 7.0\nspan = 0.2\nsamples = 3\n";
-
-/// The number that follows a phrase in a text.
-fn number_after(text: &str, phrase: &str) -> f64 {
-    let rest = text.split(phrase).nth(1).unwrap_or_else(|| panic!("`{phrase}` in {text}"));
-    let number = rest.split_whitespace().next().expect("a word");
-    number.trim_end_matches([',', ';']).parse().unwrap_or_else(|why| panic!("{number}: {why}"))
-}
 
 #[test]
 fn notes_and_plans_of_a_physical_star_have_its_times_in_seconds() {

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{Folder, altered, cells, comes_to, ends, is_refused, stderr, stdout, twofold};
+use crate::common::{Folder, altered, cells, comes_to, ends, is_refused, number_after, stderr, stdout, twofold};
 use twofold_verify::random::Random;
 use twofold_verify::refused_files::refused_files;
 
@@ -240,7 +240,7 @@ fn a_killed_sweep_goes_on_to_the_same_bytes() {
     assert!(!folder.names().iter().any(|name| name.contains("partial")), "{:?}", folder.names());
 }
 
-/// A billion scenes begin at once, take little memory, and are interrupted with what is there kept; the size of the table is foretold.
+/// A billion scenes begin at once, take little memory, and are interrupted with what is there kept; the size of the table is foretold, and what is told of the second half counts that half.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_huge_sweep_takes_little_memory_and_can_be_interrupted() {
@@ -248,9 +248,11 @@ fn a_huge_sweep_takes_little_memory_and_can_be_interrupted() {
     let text = SWEEP.replace("draws = 40", "draws = 50000000").replace("times = [3.0, 20.0]", "end = 1.0");
     folder.write("sweep.toml", &text);
     let rows = "table.csv.partial";
+    let mut there = 0.0;
     for continued in [false, true] {
         let megabyte_more = folder.length(rows) + 1_000_000;
-        let mut child = folder.command(&["sweep", "sweep.toml", "--out", "table.csv"]).spawn().expect("a process");
+        let args = ["sweep", "sweep.toml", "--out", "table.csv", "--shard", "2/2"];
+        let mut child = folder.command(&args).spawn().expect("a process");
         assert!(comes_to(&mut child, || folder.length(rows) > megabyte_more), "it ended by itself");
         let status = fs::read_to_string(format!("/proc/{}/status", child.id())).expect("/proc");
         let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).expect("VmHWM");
@@ -259,15 +261,24 @@ fn a_huge_sweep_takes_little_memory_and_can_be_interrupted() {
         assert!(peak < 150_000, "{peak} kB");
         crate::common::send(&child, "TERM");
         let message = stderr(&ends(child.wait_with_output().expect("status"), 130));
-        let left = "of 1000000000 scenes are in table.csv.partial; the same command goes on from there";
-        assert!(message.contains("error: interrupted: ") && message.contains(left), "{message}");
+        assert!(message.contains("; the same command goes on from there"), "{message}");
         assert_eq!(message.contains("scenes are there already"), continued, "{message}");
-        assert!(message.contains(" rows of 19 columns, about 361.0 GB") || continued, "{message}");
+        assert!(!continued || message.contains(&format!("note: {there} of 500000000 scenes are there already")));
+        assert!(message.contains(" rows of 19 columns, about 180.5 GB") || continued, "{message}");
+        // `COMPUTED scenes in SECONDS s, RATE scenes/s; FAILED of ALL failed`, then `ALL of 500000000 scenes are in`.
+        let before = there;
+        there = number_after(&message, "error: interrupted: ");
+        let line = message.lines().find(|line| line.contains(" scenes in ")).expect("a line about the speed");
+        let [computed, seconds, rate] = ["note: ", " scenes in ", " s, "].map(|phrase| number_after(line, phrase));
+        assert_eq!((computed, number_after(line, " of ")), (there - before, there), "{message}");
+        // Seconds are told to a hundredth.
+        assert!((rate * seconds / computed - 1.0).abs() < 1e-3 + 0.005 / seconds, "{message}");
+        assert!(message.contains(&format!("{there} of 500000000 scenes are in table.csv.partial")), "{message}");
     }
     // A changed sweep does not go on, and leaves what is there.
     folder.write("sweep.toml", text.replace("seed = 3", "seed = 4"));
     let before = folder.bytes(rows);
-    let refused = ends(folder.run(&["sweep", "sweep.toml", "--out", "table.csv"]), 2);
+    let refused = ends(folder.run(&["sweep", "sweep.toml", "--out", "table.csv", "--shard", "2/2"]), 2);
     let message = stderr(&refused);
     assert!(message.contains("line 3 was `seed = 3` and is `seed = 4`; --restart begins anew"), "{message}");
     assert!(before == folder.bytes(rows));

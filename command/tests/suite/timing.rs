@@ -1,6 +1,8 @@
 //! The command `twofold timing` as a user meets it: files, numbers in them, refusals.
 
-use crate::common::{Folder, altered, cells, ends, has_all, names_in, numbers, stderr, stdout, succeeds, with_lines};
+use crate::common::{
+    Folder, altered, cells, ends, has_all, names_in, number_after, numbers, stderr, stdout, succeeds, with_lines,
+};
 use std::f64::consts::TAU;
 use twofold::epoch::Epoch;
 use twofold::observables::pulsar::SpinFit;
@@ -29,9 +31,8 @@ fn every_template_does_what_it_is_for() {
             assert_eq!(numbers(&folder.read(&format!("{name}.csv"))).len(), 50, "{name}: the pulse is always seen");
             let tim = format!("{name}.tim");
             let fitted = folder.succeeds(&["limits", name, &tim, "--parameters", "phase,f0,f1,f2"]);
-            let chi_squared =
-                stderr(&fitted).split("chi^2 = ").nth(1).and_then(|rest| rest.split(' ').next()?.parse().ok());
-            assert!(chi_squared.is_some_and(|chi_squared: f64| chi_squared < 1e-3), "{name}: {}", stderr(&fitted));
+            let told = stderr(&fitted);
+            assert!(number_after(&told, "chi^2 = ") < 1e-3, "{name}: {told}");
         }
     }
 }
@@ -371,10 +372,6 @@ fn the_stated_error_holds_the_rounding_of_the_start() {
         let args = ["timing", "free.toml", "--to", "62626", "--epochs", "100", "--force", "--out", "results"];
         let output = folder.succeeds(&args);
         let (notes, summary) = (stderr(&output), stdout(&output));
-        let number = |text: &str, after: &str| -> f64 {
-            let rest = text.split_once(after).unwrap_or_else(|| panic!("{after} in {text}")).1.trim_start();
-            rest.split([' ', ';']).next().and_then(|word| word.parse().ok()).unwrap_or_else(|| panic!("{rest}"))
-        };
         // One number in the summary and in the .par.
         let par = folder.read("results/free.par");
         let in_par = value(&par, "F0").expect("F0");
@@ -387,10 +384,10 @@ fn the_stated_error_holds_the_rounding_of_the_start() {
         let off = (exact(in_par) - exact(frequency)) as f64 * 1e-24 / exact(frequency) as f64 * 1e24;
         // 20 years.
         let late = off.abs() * 7305.0 * 86_400.0;
-        let stated = number(&notes, "estimated error of the arrival times themselves:");
+        let stated = number_after(&notes, "estimated error of the arrival times themselves:");
         assert!(late <= stated && stated < 1e-6, "{frequency}: {late:e} s for {stated:e} s");
-        let of_residuals = number(&notes, "estimated error of the residuals:");
-        assert!(number(&summary, "largest ") <= of_residuals && of_residuals < 1e-11, "{summary}{notes}");
+        let of_residuals = number_after(&notes, "estimated error of the residuals:");
+        assert!(number_after(&summary, "largest ") <= of_residuals && of_residuals < 1e-11, "{summary}{notes}");
         worst = worst.max(late);
     }
     // The rounding is there, a thousand times what residuals have.
