@@ -4,6 +4,7 @@ import pickle
 import signal
 import subprocess
 import sys
+import types
 
 import numpy as np
 import pytest
@@ -13,7 +14,10 @@ from twofold import kernels
 
 
 def test_names_that_are_offered():
-    assert "Scene" in twofold.__all__ and all(hasattr(twofold, name) for name in twofold.__all__)
+    offered = {name: getattr(twofold, name) for name in twofold.__all__}
+    assert offered["Scene"] is twofold.Scene and offered["Sweep"] is twofold.Sweep
+    # A file of the package, such as sweep.py, is a name too.
+    assert [name for name, value in offered.items() if isinstance(value, types.ModuleType)] == ["kernels"]
 
 
 @pytest.fixture(scope="module")

@@ -515,6 +515,14 @@ def test_residuals_alone_need_no_legend():
     assert residuals.get_legend() is None and [line.get_label() for line in residuals.lines][1:] == ["residual"]
 
 
+def test_sizes_of_figures():
+    # A column of Physical Review and both, 8.6 cm and 17.8 cm.
+    assert (plot.COLUMN * 2.54, plot.PAGE * 2.54) == pytest.approx((8.6, 17.8))
+    axes = plot.spectrum(twofold.Scene("tp-2"), "m.n", most=3)
+    assert axes.figure.get_size_inches()[0] == pytest.approx(plot.PAGE)
+    assert (axes.yaxis.label.get_fontsize(), axes.yaxis.get_ticklabels()[0].get_fontsize()) == (9.0, 8.0)
+
+
 def test_parts_of_figures():
     assert plot._with_room(np.array([1.0, 3.0])) == pytest.approx((0.88, 3.12)) and plot._with_room(np.array([2.0])) == (1.0, 3.0)
     assert [plot._scaled(size) for size in (0.5, 0.49, 5e-4, 4.9e-4, 5e-7, 4.9e-7, 5e-10, 4.9e-10)] == [

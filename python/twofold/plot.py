@@ -42,7 +42,7 @@ COLUMN, PAGE = 8.6 / 2.54, 17.8 / 2.54
 
 # Okabe and Ito's colours, told apart by readers who see red and green alike. What they mean is said by line styles too.
 BLACK, GREY, LIGHT = "#000000", "#8c8c8c", "#c8c8c8"
-ORANGE, GREEN, BLUE = "#e69f00", "#009e73", "#0072b2"
+GREEN, BLUE = "#009e73", "#0072b2"
 VERMILION, PURPLE = "#d55e00", "#cc79a7"
 
 _LABEL, _SMALL = 9.0, 8.0
