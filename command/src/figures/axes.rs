@@ -424,4 +424,14 @@ mod tests {
             ["0.0", "0", "\u{2212}0.5", "\u{2212}10", "2", "\u{2212}0.05"]
         );
     }
+
+    /// One number alone gives no scale: then there are some at half of the distance. On many decades there is one small tick each.
+    #[test]
+    fn there_are_two_numbers_and_not_too_many_ticks() {
+        let (places, ..) = ticks(&Axis::linear("x", 0.0, 1.5), 100.0, 70.0);
+        assert_near(&places, &[0.0, 1.0]);
+        let (places, small, _) = ticks(&Axis::logarithmic("x", 1e-10, 1.0), 60.0, 20.0);
+        assert_near(&places, &[1e-8, 1e-4, 1.0]);
+        assert_near(&small, &(-10..=0).map(|n| 10f64.powi(n)).collect::<Vec<_>>());
+    }
 }

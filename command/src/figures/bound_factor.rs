@@ -97,4 +97,13 @@ mod tests {
             assert!(says.contains(told), "{told}, but {says}");
         }
     }
+
+    /// For `s^XX = s^YY` the axis moves on a circle about Z, and `eta = sqrt(3) / (sin b cos b)`.
+    #[test]
+    fn the_axisymmetric_factor_is_that_of_a_circle() {
+        for row in &sheet().unwrap().tables[0].rows {
+            let expected = 3.0_f64.sqrt() / (row[0].sin() * row[0].cos().abs());
+            assert!((row[5] / expected - 1.0).abs() < 1e-9, "{}: {} for {expected}", row[0], row[5]);
+        }
+    }
 }

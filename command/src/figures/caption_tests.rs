@@ -3,7 +3,7 @@
 use super::data_tests::{column, drawn};
 use super::drawn::number;
 use super::fixtures::{figure, fixtures};
-use super::spin_down::sizes;
+use super::spin_down::{Timed, sizes};
 use super::spin_down_tests;
 use super::{Caption, Table};
 
@@ -212,6 +212,9 @@ fn residuals_by_violation_are_those_of_their_table() {
     let figure = figure("violation-residuals");
     let [torque, geometry, least, middle, most, direct] =
         [1, 2, 3, 4, 5, 6].map(|k| sizes(&spin_down_tests::column(&figure.tables[0], k)));
+    // Of ten thousand times the limit, which is little enough to be in proportion.
+    let rate = |factor: f64| Timed::new(factor).unwrap().pulsar.clock.precession_rates().unwrap()[0];
+    let shift = (rate(1e4) / rate(0.0) - 1.0).abs() / 1e4;
     assert_told(
         &figure.caption.says,
         &[
@@ -222,6 +225,7 @@ fn residuals_by_violation_are_those_of_their_table() {
             ("geometry makes ", " ms", geometry[0] / 1e-3, 2),
             ("grows as *s*: ", " ns at", middle[0] / 1e-9, 2),
             ("times the limit, ", " μs at", most[0] / 1e-6, 2),
+            (" by ", " of itself at the limit", shift, 2),
             ("the direct part is only ", " ps (", direct[0] / 1e-12, 2),
             (" ps (", " ps at", direct[1] / 1e-12, 2),
         ],

@@ -341,46 +341,61 @@ fn the_times_of_methods_are_in_the_unit_of_their_axis() {
     assert!(compared > 300, "{compared}");
 }
 
-/// Where both columns of the atlas meet, its amplitudes are those of `spectrum` for the same star, which names the lines by other rates; and so is the strongest.
+/// Amplitudes of the atlas are those of `spectrum` for the same star, which names the lines by other rates; where both columns of the atlas meet, the strongest is in it.
 #[test]
 fn the_atlas_has_the_lines_of_spectrum() {
     let figure = figure("line-atlas");
-    let problem = line_atlas::star(line_atlas::SCALE, line_atlas::WOBBLE).unwrap();
-    let (state, spheroid) = (problem.initial(), problem.spheroid());
-    let (angles, rates) = (state.angles().unwrap(), state.rates(spheroid).unwrap());
-    let s = problem.coefficients().diagonal();
-    let text = format!(
-        "star = {{ inertia_ratio = 1.1, spin = {:?} }}\nlorentz_violation.eigenvalues = [{:?}, {:?}, {:?}]\ninitial = {{ alpha = {:?}, beta = {:?}, \
-         gamma = {:?}, alpha_rate = {:?}, beta_rate = {:?} }}\nobserver = {{ theta_o = 0.8, phi_o = 0.0 }}\npulsar = {{ chi = 0.5, rho = 0.6 }}\n\
-         time = {{ span = 1.0, samples = 2 }}\n",
-        state.momentum.dot(&state.axis) / spheroid.inertia_zz,
-        s.x,
-        s.y,
-        s.z,
-        angles.alpha,
-        angles.beta,
-        angles.gamma,
-        rates.alpha,
-        rates.beta,
-    );
-    let scene = Scene::from_toml("atlas", &text).unwrap();
-    for (place, name) in ["m.n", "h_plus", "h_cross"].into_iter().enumerate() {
-        let table = &figure.tables[3 * place];
-        assert_eq!(table.name, format!("{name}-size"));
+    let scene = |scale: f64, wobble: f64| {
+        let problem = line_atlas::star(scale, wobble).unwrap();
+        let (state, spheroid) = (problem.initial(), problem.spheroid());
+        let (angles, rates) = (state.angles().unwrap(), state.rates(spheroid).unwrap());
+        let s = problem.coefficients().diagonal();
+        let text = format!(
+            "star = {{ inertia_ratio = 1.1, spin = {:?} }}\nlorentz_violation.eigenvalues = [{:?}, {:?}, {:?}]\ninitial = {{ alpha = {:?}, beta = {:?}, \
+             gamma = {:?}, alpha_rate = {:?}, beta_rate = {:?} }}\nobserver = {{ theta_o = 0.8, phi_o = 0.0 }}\npulsar = {{ chi = 0.5, rho = 0.6 }}\n\
+             time = {{ span = 1.0, samples = 2 }}\n",
+            state.momentum.dot(&state.axis) / spheroid.inertia_zz,
+            s.x,
+            s.y,
+            s.z,
+            angles.alpha,
+            angles.beta,
+            angles.gamma,
+            rates.alpha,
+            rates.beta,
+        );
+        Scene::from_toml("atlas", &text).unwrap()
+    };
+    let meeting = scene(line_atlas::SCALE, line_atlas::WOBBLE);
+    for (place, (name, unit)) in
+        [("m.n", "[1]"), ("h_plus", "[G I^xx / (c^4 t_c^2 r)]"), ("h_cross", "[G I^xx / (c^4 t_c^2 r)]")]
+            .into_iter()
+            .enumerate()
+    {
+        let amplitudes = |scene: &Scene| {
+            let column = Column::oscillating(name, scene).unwrap();
+            let wanted = LinesWanted { least: 1e-8, most: 10_000, in_turns: false };
+            let mut csv = Vec::new();
+            write_lines(scene, &column, &wanted, &mut csv).unwrap();
+            let lines = Columns::of(csv);
+            let head = lines.0.iter().find(|head| head.starts_with("amplitude")).expect("amplitudes").clone();
+            lines.column(&head)
+        };
+        let [of_size, of_wobble] = [&figure.tables[3 * place], &figure.tables[3 * place + 1]];
+        assert_eq!([&of_size.name, &of_wobble.name], [&format!("{name}-size"), &format!("{name}-wobble")]);
+        assert!(of_size.columns[1..].iter().all(|head| head.ends_with(unit)), "{:?}", of_size.columns);
         let here =
-            table.rows.iter().find(|row| (row[0] / 0.006 - 1.0).abs() < 1e-9).expect("the size of the other column");
-        let column = Column::oscillating(name, &scene).unwrap();
-        let wanted = LinesWanted { least: 1e-8, most: 10_000, in_turns: false };
-        let mut csv = Vec::new();
-        write_lines(&scene, &column, &wanted, &mut csv).unwrap();
-        let lines = Columns::of(csv);
-        let head = lines.0.iter().find(|head| head.starts_with("amplitude")).expect("amplitudes").clone();
-        let amplitudes = lines.column(&head);
-        for (amplitude, line) in here[1..].iter().zip(&table.columns[1..]) {
-            let off = amplitudes.iter().map(|known| (known / amplitude - 1.0).abs()).fold(f64::INFINITY, f64::min);
-            assert!(off < 1e-6, "{name}: no line of `spectrum` is as strong as {line}, {amplitude}");
+            of_size.rows.iter().find(|row| (row[0] / 0.006 - 1.0).abs() < 1e-9).expect("the size of the other column");
+        let there = &of_wobble.rows[of_wobble.rows.len() / 2];
+        for (row, scene) in [(here, &meeting), (there, &scene(line_atlas::SCALE, there[0]))] {
+            let known = amplitudes(scene);
+            for (amplitude, line) in row[1..].iter().zip(&of_size.columns[1..]).filter(|(size, _)| **size > 1e-7) {
+                let off = known.iter().map(|known| (known / amplitude - 1.0).abs()).fold(f64::INFINITY, f64::min);
+                assert!(off < 1e-6, "{name}: no line of `spectrum` is as strong as {line}, {amplitude}");
+            }
         }
         let strongest = here[1..].iter().fold(0.0_f64, |most, x| most.max(*x));
-        assert!((amplitudes[0] / strongest - 1.0).abs() < 1e-9, "{name}: {} and {strongest}", amplitudes[0]);
+        let known = amplitudes(&meeting)[0];
+        assert!((known / strongest - 1.0).abs() < 1e-9, "{name}: {known} and {strongest}");
     }
 }

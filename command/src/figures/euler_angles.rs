@@ -101,3 +101,25 @@ fn caption(axes: [&str; 3], nodes: [&str; 2], frame: &str) -> Caption {
     let words = words.into_iter().chain([("permuted", permuted), ("forced", forced)]).map(written);
     Caption::of("euler-angles", &words.chain(angles).collect::<Vec<_>>())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `e_z` is `beta` from Z and at right angles to the line of nodes, which is `alpha` from X; `e_x` is `gamma` from that.
+    #[test]
+    fn the_table_has_the_axes_that_the_angles_turn() {
+        let EulerAngles { alpha, beta, gamma } = ANGLES;
+        let node = Vector3::new(alpha.cos(), alpha.sin(), 0.0);
+        let z = Vector3::new(beta.sin() * alpha.sin(), -beta.sin() * alpha.cos(), beta.cos());
+        let across = z.cross(&node);
+        let (x, y) = (node * gamma.cos() + across * gamma.sin(), across * gamma.cos() - node * gamma.sin());
+        for sheet in [common(), permuted()] {
+            let table = &sheet.unwrap().tables[0];
+            for (k, expected) in [x, y, z, node].iter().enumerate() {
+                let found = Vector3::from_iterator(table.rows.iter().map(|row| row[k]));
+                assert!((found - expected).norm() < 1e-15, "{}: {found}", table.columns[k]);
+            }
+        }
+    }
+}

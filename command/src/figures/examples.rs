@@ -64,4 +64,12 @@ mod tests {
             }
         }
     }
+
+    /// With `L` nearly along Z the axis goes round Z as fast as in free precession.
+    #[test]
+    fn the_rate_of_rotation_is_that_of_the_axis_about_the_momentum() {
+        let [example, ..] = examples().unwrap();
+        let rate = example.problem.initial().rates(example.problem.spheroid()).unwrap().alpha;
+        assert!((example.rotation_rate / rate - 1.0).abs() < 0.05, "{} {rate}", example.rotation_rate);
+    }
 }

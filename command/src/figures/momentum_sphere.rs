@@ -175,4 +175,24 @@ mod tests {
                           paths over 500 *t*_{c}; the star near *Y* starts 0.05 rad from it towards *Z*, with *Ω*^{*z*} = 1.";
         assert_eq!(caption().parameters, parameters);
     }
+
+    /// The columns are the unit vectors along `L` of each motion and their `l.(s l)`; the last star spins about its symmetry axis, beside Y.
+    #[test]
+    fn columns_are_the_directions_of_the_momentum() {
+        let near = near_separatrix().unwrap();
+        let start = near.problem.initial();
+        assert!((start.momentum.dot(&start.axis) / near.problem.spheroid().inertia_zz - SPIN).abs() < 1e-15);
+        assert!((start.axis - Vector3::new(0.0, TILT.cos(), TILT.sin())).norm() < 1e-15);
+        assert!((start.momentum.normalize() - start.axis).norm() < 1e-15);
+        let [example, ..] = super::super::examples().unwrap();
+        let table = &sheet("x", &[&example]).unwrap().tables[0];
+        for (place, motion) in [&example, &near].into_iter().enumerate() {
+            for row in table.rows.iter().step_by(500) {
+                let found = Vector3::from_row_slice(&row[1 + 4 * place..4 + 4 * place]);
+                let l = motion.state(row[0]).unwrap().momentum;
+                assert!((found - l / l.norm()).norm() < 1e-14, "{}: {found}", motion.name);
+                assert!((row[4 + 4 * place] - value(&found)).abs() < 1e-16, "{}: {found}", motion.name);
+            }
+        }
+    }
 }

@@ -240,6 +240,7 @@ mod tests {
     use super::*;
     use crate::figures::fixtures::free;
     use twofold::solutions::perturbation::{Constants, Form, Precession};
+    use twofold_scene::scene_file::{Scene, built_in};
     use twofold_verify::paper_examples::{COEFFICIENTS, spheroid};
 
     #[test]
@@ -276,6 +277,21 @@ mod tests {
             for (mean, shifted) in [(row[3], row[5]), (row[4], row[6])] {
                 assert!((mean / shifted - 1.0).abs() < 1e-12 && mean > 0.0, "{row:?}");
             }
+        }
+    }
+
+    /// A star that starts a turn further about its axis is the same star.
+    #[test]
+    fn mean_rates_are_those_since_the_start() {
+        let text = built_in("tp-1").unwrap().toml;
+        let of = |gamma: &str| {
+            let scene = Scene::from_toml("x", &text.replace("gamma = 0.0", gamma)).unwrap();
+            let subject = Subject::of_scene("x", &scene).unwrap();
+            curves(&subject, subject.printed.as_ref().unwrap()).unwrap()
+        };
+        let (start, turned) = (of("gamma = 0.0"), of("gamma = 6.283185307179586"));
+        for (a, b) in start.rows.iter().flatten().zip(turned.rows.iter().flatten()) {
+            assert!((a - b).abs() <= 1e-9 * b.abs() && !start.rows.is_empty(), "{a} {b}");
         }
     }
 

@@ -177,3 +177,26 @@ fn caption() -> Caption {
     let numbers = [("duration", DURATION), ("scale", SCALE)].into_iter().chain(of_single);
     Caption::of("perturbation-regimes", &numbers.map(written).collect::<Vec<_>>())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// At the places of the list, between them and beyond them.
+    #[test]
+    fn colours_go_from_light_to_dark() {
+        for (part, expected) in [
+            (-1.0, "#fde725"),
+            (0.0, "#fde725"),
+            (0.125, "#aed844"),
+            (0.25, "#5ec962"),
+            (0.5, "#21918c"),
+            (0.75, "#3b528b"),
+            (0.875, "#402a70"),
+            (1.0, "#440154"),
+            (1.5, "#440154"),
+        ] {
+            assert_eq!(colour(part), expected, "{part}");
+        }
+    }
+}

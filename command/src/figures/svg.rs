@@ -241,3 +241,23 @@ fn distance_to_piece(p: At, a: At, b: At) -> f64 {
     let part = part.clamp(0.0, 1.0);
     (p[0] - a[0] - part * dx).hypot(p[1] - a[1] - part * dy)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a line can do without is what lies on it, between its ends.
+    #[test]
+    fn a_line_keeps_its_corners_and_where_it_turns_back() {
+        let straight = [[0.0, 0.0], [1.0, 0.019], [2.0, -0.019], [4.0, 0.0]];
+        assert_eq!(simplified(&straight), [[0.0, 0.0], [4.0, 0.0]]);
+        let corner = [[0.0, 0.0], [2.0, 0.03], [4.0, 0.0]];
+        assert_eq!(simplified(&corner), corner);
+        for end in [10.0, -10.0] {
+            let back = [[0.0, 0.0], [end, 0.0], [0.5 * end, 0.0]];
+            assert_eq!(simplified(&back), back);
+        }
+        let beyond = [[0.0, 0.0], [-5.0, 0.0], [5.0, 0.0]];
+        assert_eq!(simplified(&beyond), beyond);
+    }
+}
