@@ -523,6 +523,19 @@ def test_sizes_of_figures():
     assert (axes.yaxis.label.get_fontsize(), axes.yaxis.get_ticklabels()[0].get_fontsize()) == (9.0, 8.0)
 
 
+@pytest.mark.parametrize(
+    ("column", "symbol"),
+    [("m.n", r"$\mathbf{m} \cdot \mathbf{n}$"), ("h_plus", "$h_+$"), ("h_cross", r"$h_\times$"), ("beta", r"$\beta$"), ("cos_lambda", r"$\cos\lambda$"), ("Theta", r"$\Theta$")],
+)
+def test_amplitudes_are_named_by_the_symbol_of_their_column(column, symbol):
+    assert plot.spectrum(twofold.Scene("tp-2"), column, least=1e-2, most=1).get_ylabel().startswith(f"amplitude of {symbol}")
+
+
+def test_shades_go_from_white_to_dark():
+    shades = plot._SHADES(np.linspace(0.0, 1.0, 11))[:, :3]
+    assert tuple(shades[0]) == (1.0, 1.0, 1.0) and np.all(np.diff(shades.sum(axis=1)) < 0.0) and shades[-1].max() < 0.3
+
+
 def test_parts_of_figures():
     assert plot._with_room(np.array([1.0, 3.0])) == pytest.approx((0.88, 3.12)) and plot._with_room(np.array([2.0])) == (1.0, 3.0)
     assert [plot._scaled(size) for size in (0.5, 0.49, 5e-4, 4.9e-4, 5e-7, 4.9e-7, 5e-10, 4.9e-10)] == [

@@ -242,3 +242,12 @@ def test_a_missing_package_is_named():
     done = subprocess.run([sys.executable, "-c", code], check=False, capture_output=True, text=True)
     assert "ImportError: twofold.units needs astropy" in done.stderr
     assert "pip install 'twofold[units]'" in done.stderr
+
+
+def test_units_of_the_paper_have_names():
+    assert [str(unit) for unit in (units.t_c, units.I_xx, units.C)] == ["t_c", "I_xx", "C"]
+    assert [unit.__doc__ for unit in (units.t_c, units.I_xx, units.C)] == [
+        "the unit of time of the paper, sqrt(I^xx / C)",
+        "the moment of inertia about an axis in the equator",
+        "the constant of the anisotropic self-energy",
+    ]

@@ -59,12 +59,18 @@ impl Measurement {
 
 /// Says where the error bars of a fit are rough: where `chi^2` is off its parabola at one standard deviation.
 pub(super) fn note_nonlinearity(nonlinearity: Result<f64, InferenceError>) {
+    if let Some(text) = roughness(nonlinearity) {
+        note(&text);
+    }
+}
+
+fn roughness(nonlinearity: Result<f64, InferenceError>) -> Option<String> {
     match nonlinearity {
-        Ok(nonlinearity) if nonlinearity < 0.3 => {}
-        Ok(nonlinearity) => note(&format!(
+        Ok(nonlinearity) if nonlinearity < 0.3 => None,
+        Ok(nonlinearity) => Some(format!(
             "chi^2 is off its parabola by {nonlinearity:.1} at one standard deviation: the error bars are rough"
         )),
-        Err(why) => note(&format!("the error bars are rough: a standard deviation away, {why}")),
+        Err(why) => Some(format!("the error bars are rough: a standard deviation away, {why}")),
     }
 }
 
@@ -137,10 +143,10 @@ mod tests {
     /// The numbers of an invented covariance: sigmas of 1e-2, 0.5, 2 and none, of which the second and third are correlated most.
     #[test]
     fn uncertainties_are_those_of_the_covariance() {
-        use TimingParameter::{Chi, F1, Rho, Wobble};
+        use TimingParameter::{Chi, F1, F2, Rho, Wobble};
         let unknowns = [Wobble, Chi, Rho, F1];
-        let parameters =
-            TimingModel::new([2.0, 0.0], &[(Wobble, 0.25), (Chi, 1.5), (Rho, 0.125)]).expect("a model of a star");
+        let parameters = TimingModel::new([2.0, 0.0], &[(Wobble, 0.25), (Chi, 1.5), (Rho, 0.125), (F1, -2.5e-13)])
+            .expect("a model of a star");
         let none = f64::NAN;
         let covariance = dmatrix![
             1e-4, 1e-3, -2e-3, none;
@@ -165,7 +171,7 @@ mod tests {
             ["wobble", "0.2500000000", "1.00e-2", "4.0e-2", "rad", "+0.2000 chi"],
             ["chi", "150.0000000", "5.00e1", "3.3e-1", "percent", "-0.9000 rho"],
             ["rho", "0.1250000000", "2.00e0", "1.6e1", "rad", "-0.9000 chi"],
-            ["f1", "0", "not determined", "", "Hz/s", ""],
+            ["f1", "-2.500000000e-13", "not determined", "", "Hz/s", ""],
         ];
         assert_eq!(short[1..], expected.map(|row| row.map(String::from).to_vec()));
         let expected = [
@@ -173,18 +179,28 @@ mod tests {
             ["wobble", "0.25", "0.01", "rad", "1.0", "0.2", "-0.1", ""],
             ["chi", "150.0", "50.0", "percent", "0.2", "1.0", "-0.9", ""],
             ["rho", "0.125", "2.0", "rad", "-0.1", "-0.9", "1.0", ""],
-            ["f1", "0.0", "", "Hz/s", "", "", "", ""],
+            ["f1", "-2.5e-13", "", "Hz/s", "", "", "", ""],
         ];
         let without_prefix = |cell: &String| cell.trim_start_matches("correlation_").to_owned();
         let found: Vec<Vec<_>> = all.iter().map(|row| row.iter().map(without_prefix).collect()).collect();
         assert_eq!(found, expected.map(|row| row.map(String::from).to_vec()));
         // An unknown that is zero has no relative error.
-        let fisher = Fisher { unknowns: vec![F1], covariance: dmatrix![4e-30], ..fisher };
+        let fisher = Fisher { unknowns: vec![F2], covariance: dmatrix![4e-30], ..fisher };
         assert_eq!(uncertainties(&fisher, |_| (1.0, String::new()))[0][1][2..4], ["2.00e-15", ""]);
         // Names on the left, numbers on the right.
         let page = readable(&short);
         let lines: Vec<_> = page.lines().collect();
         assert!(lines[2].starts_with(" wobble ") && page.ends_with('\n'), "{page}");
-        assert_eq!(lines[2].find("1.00e-2").map(|k| k + 7), lines[3].find("5.00e1").map(|k| k + 6), "{page}");
+        let end = |line: usize, number: &str| lines[line].find(number).map(|start| start + number.len());
+        assert_eq!(end(2, "0.2500000000"), end(3, "150.0000000"), "{page}");
+    }
+
+    #[test]
+    fn error_bars_are_called_rough_from_a_third_on() {
+        assert_eq!(roughness(Ok(0.29)), None);
+        let text = "chi^2 is off its parabola by 0.3 at one standard deviation: the error bars are rough";
+        assert_eq!(roughness(Ok(0.3)), Some(text.into()));
+        let text = roughness(Err(InferenceError::TooFew { data: 1, unknowns: 2 })).expect("a note");
+        assert!(text.starts_with("the error bars are rough: a standard deviation away, "), "{text}");
     }
 }

@@ -30,17 +30,17 @@ pub(super) fn typeset(text: &str) -> Markup {
 
 fn pieces(text: &str) -> Vec<Piece<'_>> {
     let (mut pieces, mut at) = (Vec::new(), 0);
-    // Whether what stands before is a symbol, whose indices and powers are set, or any word, whose powers are if numbers.
-    let (mut symbol, mut word_before) = (false, false);
+    // Whether a word stands before, whose powers are set if they are numbers, and whether it is a symbol, of which all are, and indices.
+    let mut word_is_symbol = None;
     while let Some(first) = text[at..].chars().next() {
         let rest = &text[at..];
         // `beta1` is a letter and a number.
         let end = |kind: fn(char) -> bool| rest.find(|c| !kind(c)).unwrap_or(rest.len());
         let (letters, word) = (&rest[..end(char::is_alphabetic)], &rest[..end(char::is_alphanumeric)]);
         let word = if symbol_of(letters).is_some() { letters } else { word };
-        let power = power_of_ten(rest).filter(|_| !word_before);
-        at += match (first, power) {
-            ('^' | '_', _) if word_before => match script(&rest[1..]) {
+        let power = power_of_ten(rest).filter(|_| word_is_symbol.is_none());
+        at += match (first, word_is_symbol, power) {
+            ('^' | '_', Some(symbol), _) => match script(&rest[1..]) {
                 Some((script, length)) if symbol || first == '^' && script.parse::<i32>().is_ok() => {
                     let script = symbol_of(script).unwrap_or(script);
                     pieces.push(if first == '^' { Piece::Above(script) } else { Piece::Below(script) });
@@ -51,25 +51,25 @@ fn pieces(text: &str) -> Vec<Piece<'_>> {
                     1
                 }
             },
-            (_, Some((mantissa, exponent, length))) => {
+            (_, _, Some((mantissa, exponent, length))) => {
                 pieces.push(Piece::Line(mantissa));
                 if exponent != "0" {
                     pieces.extend([Piece::Line("×10"), Piece::Above(exponent)]);
                 }
-                (symbol, word_before) = (false, true);
+                word_is_symbol = Some(false);
                 length
             }
             _ if !word.is_empty() => {
                 let letter = symbol_of(word);
-                symbol = letter.is_some()
+                let is_symbol = letter.is_some()
                     || word.chars().count() == 1 && first.is_alphabetic()
                     || ["sin", "cos", "tan", "cot"].contains(&word);
-                word_before = true;
+                word_is_symbol = Some(is_symbol);
                 pieces.push(Piece::Line(letter.unwrap_or(word)));
                 word.len()
             }
             _ => {
-                (symbol, word_before) = (false, false);
+                word_is_symbol = None;
                 let sign = rest.get(..2).and_then(|sign| Some((sign.len(), symbol_of(sign)?)));
                 let (length, mut sign) = sign.unwrap_or_else(|| (first.len_utf8(), &rest[..first.len_utf8()]));
                 if sign == "-" && is_minus(&text[..at], &rest[1..]) {
@@ -90,19 +90,15 @@ fn is_minus(before: &str, after: &str) -> bool {
     space_before && after.is_some()
 }
 
-/// Mantissa, exponent and length of the number `2.2e-16` at the beginning of `text`.
+/// Mantissa, exponent and length of the number `2e-16` at the beginning of `text`; of `2.2e-16` what is after the point is one.
 fn power_of_ten(text: &str) -> Option<(&str, &str, usize)> {
     let digits = |from: usize| from + text[from..].bytes().take_while(u8::is_ascii_digit).count();
-    let mut mantissa = digits(0);
-    if mantissa > 0 && text[mantissa..].starts_with('.') {
-        mantissa = digits(mantissa + 1);
-    }
-    let exponent = mantissa + 1;
-    let sign = usize::from(text.get(exponent..)?.starts_with('-'));
-    let end = digits(exponent + sign);
-    let is_number = mantissa > 0 && text[mantissa..].starts_with('e') && end > exponent + sign;
+    let mantissa = digits(0);
+    let exponent = text[mantissa..].starts_with('e').then_some(mantissa + 1)?;
+    let first = exponent + usize::from(text[exponent..].starts_with('-'));
+    let end = digits(first);
     let at_end = text[end..].chars().next().is_none_or(|c| !c.is_alphanumeric());
-    (is_number && at_end).then(|| (&text[..mantissa], &text[exponent..end], end))
+    (mantissa > 0 && end > first && at_end).then(|| (&text[..mantissa], &text[exponent..end], end))
 }
 
 fn symbol_of(word: &str) -> Option<&'static str> {
@@ -145,6 +141,7 @@ mod tests {
             ),
             ("the beta-decay of alphabet_soup, x^", "the β-decay of alphabet_soup, x^"),
             ("é < ü", "é &lt; ü"),
+            ("1e- e5 1e3^x 7e-2é 12.50e-3", "1e- e5 1×10<sup>3</sup>^x 7e-2é 12.50×10<sup>−3</sup>"),
         ] {
             assert_eq!(typeset(text).0, html, "{text}");
         }

@@ -107,6 +107,8 @@ fn widths_limit_the_motion_of_the_axis_and_s() {
     folder.succeeds(&["timing", "star.toml", "--epochs", "400", "--out", "."]);
     let args = ["limits", "star.toml", "star.csv", "--observe", "widths:1e-6"];
     let page = stdout(&folder.succeeds(&args));
+    let again = folder.run(&["limits", "star.toml", "star.csv", "star.csv", "--observe", "widths:1e-6"]);
+    is_refused(&again, &["star.csv: its first datum is in a file before it"]);
     let sigma: f64 = row(&page, "inclination_rate")[2].parse().expect("a number");
     let times: Vec<f64> = folder
         .read("star.csv")
