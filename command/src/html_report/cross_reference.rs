@@ -122,7 +122,6 @@ impl Index {
             }
         }
         pieces.push((&text[start..], None));
-        pieces.retain(|(piece, _)| !piece.is_empty());
         pieces
     }
 

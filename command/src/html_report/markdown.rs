@@ -129,7 +129,7 @@ mod tests {
             index.add(id);
         }
         let text = "# Title\n\n## 2. Of beta\n\nBy (25), `order` and `a < b`: $\\beta$ <script>x</script> \
-                    [there](claims.md), [far](https://example.org/a.md)\n\n    beta_0 (25)\n\n| a |\n|---|\n| b |\n";
+                    [there (25)](claims.md), [far](https://example.org/a.md), (25)\n\n    beta_0 (25)\n\n| a |\n|---|\n| b |\n";
         let html = page(text, &mut index).expect("Markdown").0;
         for part in [
             "<h3 id=\"discrepancy-2\">2. Of β</h3>",
@@ -138,10 +138,11 @@ mod tests {
             "<code>a &lt; b</code>",
             "<math><mi>β</mi></math>",
             "&lt;script&gt;",
-            "<a href=\"#claims\">there</a>",
-            "<a href=\"https://example.org/a.md\">far</a>",
+            "<a href=\"#claims\">there (25)</a>",
+            "<a href=\"https://example.org/a.md\">far</a>, <a href=\"#eq-25\">(25)</a>",
             "<code>beta_0 (25)\n</code>",
-            "<table>",
+            "<div class=\"wide\" tabindex=\"0\"><table>",
+            "</table>\n</div>",
         ] {
             assert!(html.contains(part), "no {part} in\n{html}");
         }

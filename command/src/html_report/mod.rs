@@ -121,9 +121,10 @@ mod tests {
     use super::*;
     use crate::figures::fixtures::OF_THE_PAPER;
     use twofold_verify::check::{Check, Measured, Outcome};
+    use twofold_verify::golden::Printed;
 
-    /// A page of all checks, none of them run, two of which fail; and their ids.
-    static FAILURES: LazyLock<(String, Vec<&'static str>)> = LazyLock::new(|| {
+    /// A page of all checks, none of them run, two of which fail; and what is on it.
+    static FAILURES: LazyLock<(String, Content)> = LazyLock::new(|| {
         let measured = |id| match id {
             "nordtvedt-form" => Ok(Measured::new(f64::NAN, "worst at <b>here</b> & there")),
             "forced-precession-direction" => Err("panicked: <script>alert(1)</script>".to_owned()),
@@ -134,11 +135,10 @@ mod tests {
             Outcome { passed: measured.as_ref().is_ok_and(|m| !m.figure.is_nan()), measured, seconds: 0.0 }
         };
         let results: Vec<_> = twofold_verify::checks::all().into_iter().map(|check| (check, outcome(&check))).collect();
-        let ids = results.iter().map(|(check, _)| check.id).collect();
         let figures: Vec<Figure> = OF_THE_PAPER.iter().map(|fixture| (**fixture).clone()).collect();
         let golden = crate::figures::golden_tables(&figures).expect("numbers");
         let content = Content { results, seconds: 1.0, golden, figures, environment: environment() };
-        (page(&content).expect("a page"), ids)
+        (page(&content).expect("a page"), content)
     });
 
     fn values<'p>(page: &'p str, attribute: &str) -> Vec<&'p str> {
@@ -149,10 +149,10 @@ mod tests {
 
     #[test]
     fn failures_stand_on_top_escaped_and_links_lead_somewhere() {
-        let (page, checks) = &*FAILURES;
+        let (page, content) = &*FAILURES;
         let top = page.split("<section").next().expect("a beginning");
         for part in [
-            format!("2 of {} checks FAIL", checks.len()),
+            format!("2 of {} checks FAIL", content.results.len()),
             "#check-nordtvedt-form".to_owned(),
             "#claim-opposite-forced-precession".to_owned(),
             "worst at &lt;b&gt;here&lt;/b&gt; &amp; there".to_owned(),
@@ -169,12 +169,66 @@ mod tests {
             assert!(link.strip_prefix('#').is_some_and(|id| ids.contains(id)), "a link to {link}, which is not there");
         }
         assert!(values(page, "src").is_empty() && !page.contains("@import"), "something from elsewhere");
-        for check in checks {
-            assert!(ids.contains(format!("check-{check}").as_str()), "{check} is not on the page");
+        for (check, _) in &content.results {
+            assert!(ids.contains(format!("check-{}", check.id).as_str()), "{} is not on the page", check.id);
         }
         for number in 1..=79 {
             assert!(ids.contains(format!("eq-{number}").as_str()), "({number}) is not on the page");
         }
+    }
+
+    /// The element with this id, to the end of its article or row.
+    fn part<'p>(page: &'p str, id: &str, end: &str) -> &'p str {
+        let start = page.find(&format!(" id=\"{id}\"")).unwrap_or_else(|| panic!("no {id}"));
+        page[start..].split(end).next().expect("a part")
+    }
+
+    /// Counts at the top, and from each thing links to those that name it.
+    #[test]
+    fn the_page_counts_what_it_has_and_links_both_ways() {
+        let (page, content) = &*FAILURES;
+        for verdict in ["confirmed", "differs", "derived"] {
+            let lines = content.golden.iter().flat_map(|table| &table.lines);
+            let count = lines.filter(|line| line.verdict() == verdict).count();
+            assert!(page.contains(&format!("<a href=\"#golden\">{count} {verdict}</a>")), "{count} {verdict}");
+        }
+        for table in &content.golden {
+            let prints = table.lines.iter().any(|line| line.printed != Printed::No);
+            assert_eq!(part(page, &cross_reference::golden(table.name), "</table>").contains(">Printed</th>"), prints);
+        }
+        let mut numbered = 0;
+        for claim in twofold_verify::claims::claims() {
+            let (id, article) =
+                (cross_reference::claim(claim.id), part(page, &cross_reference::claim(claim.id), "</article>"));
+            let fails = |check: &&&str| ["nordtvedt-form", "forced-precession-direction"].contains(check);
+            let failures = claim.checks.iter().filter(fails).count();
+            assert_eq!(article.matches("<b class=\"fail\">FAIL</b>").count(), failures, "{article}");
+            assert!(failures == 0 || article.contains("void, a check that it rests on fails"), "{article}");
+            let link = format!("<a href=\"#{id}\">{}</a>", claim.id);
+            for check in claim.checks {
+                assert!(part(page, &cross_reference::check(check), "</tr>").contains(&link), "{check} {link}");
+            }
+            // A claim that is said to be in Eq. (25) is named beside that equation.
+            let number = claim.place.split_once("Eq. (").and_then(|(_, rest)| rest.split(')').next()?.parse().ok());
+            if let Some(number) = number {
+                numbered += 1;
+                let equation = cross_reference::equation(number);
+                assert!(article.contains(&format!("<a href=\"#{equation}\">({number})</a>")), "{article}");
+                assert!(part(page, &equation, "</article>").contains(&link), "{equation} {link}");
+            }
+        }
+        assert!(numbered > 10, "{numbered}");
+        let claim = part(page, "claim-beyond-leading-order", "</article>");
+        assert!(claim.contains("href=\"#figure-method-regimes\""), "{claim}");
+        // Captions name equations too.
+        let equation = part(page, "eq-57", "</article>");
+        assert!(equation.contains("href=\"#figure-pulse-series\""), "{equation}");
+    }
+
+    #[test]
+    fn the_page_tells_on_what_it_was_made() {
+        let facts: Vec<_> = environment().into_iter().map(|(name, _)| name).filter(|name| *name != "Source").collect();
+        assert_eq!(facts, ["Version", "Compiler", "Target", "Processors", "Date and time"]);
     }
 
     #[test]
