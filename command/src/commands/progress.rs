@@ -158,7 +158,7 @@ mod tests {
     use super::{Lines, line, on_all_processors};
 
     #[test]
-    fn results_are_in_the_order_of_the_items_and_a_failure_ends_the_work() {
+    fn results_are_in_the_order_of_the_items_and_a_failure_is_returned() {
         let items: Vec<u32> = (0..1000).collect();
         let squares = on_all_processors(&items, "squares", |_| "", |x| Ok::<_, u32>(x * x));
         assert_eq!(squares, Ok(items.iter().map(|x| x * x).collect()));
