@@ -206,7 +206,10 @@ mod tests {
             // The quotient is off by 1e-8 / 6 of the third derivative.
             let period = TAU / rate(t);
             assert!((row[1] / period - 1.0).abs() < 1e-6, "t = {t}: {} and {period}", row[1]);
-            let theta = axis(angles(t)).z.acos();
+            let beam = axis(angles(t));
+            let seen = THETA_O.sin() * beam.x + THETA_O.cos() * beam.z;
+            assert!((row[0] - seen).abs() < 1e-12, "t = {t}: {} and {seen}", row[0]);
+            let theta = beam.z.acos();
             let half = (RHO.cos() - theta.cos() * THETA_O.cos()) / (theta.sin() * THETA_O.sin());
             // acos is 0 beyond 1 and pi beyond -1; means in steps of up to 0.025 are good to their square.
             let width = 2.0 * half.clamp(-1.0, 1.0).acos() / mean;

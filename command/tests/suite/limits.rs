@@ -71,7 +71,7 @@ fn the_limit_on_a_wobble_is_that_of_an_amplitude() {
     let page = stdout(&found);
     assert!(page.contains("Limits on the wobble at 95 %"), "{page}");
     // Nothing is said of s where the inclination is held fixed.
-    assert!(!page.contains("s^ZZ") && page.contains("chi = 1.3089969 rad, "), "{page}");
+    assert!(!page.contains("s^ZZ") && page.contains(" 20.00 ") && page.contains("chi = 1.3089969 rad, "), "{page}");
     assert!(page.ends_with("a braking torque along L, independent normal errors\n"), "{page}");
     let table = folder.read("limits.csv");
     let shown = page.lines().skip_while(|line| !line.contains("limit of the wobble")).skip(2);
@@ -109,6 +109,14 @@ fn widths_limit_the_motion_of_the_axis_and_s() {
     let page = stdout(&folder.succeeds(&args));
     let again = folder.run(&["limits", "star.toml", "star.csv", "star.csv", "--observe", "widths:1e-6"]);
     is_refused(&again, &["star.csv: its first datum is in a file before it"]);
+    // In two files they are the same data.
+    let table = folder.read("star.csv");
+    let lines: Vec<_> = table.lines().collect();
+    folder.write("first.csv", lines[..200].join("\n"));
+    folder.write("rest.csv", [&lines[..1], &lines[200..]].concat().join("\n"));
+    let halves = ["limits", "star.toml", "first.csv", "rest.csv", "--observe", "widths:1e-6"];
+    let halves = stdout(&folder.succeeds(&halves));
+    assert_eq!(row(&halves, "inclination_rate")[2], row(&page, "inclination_rate")[2]);
     let sigma: f64 = row(&page, "inclination_rate")[2].parse().expect("a number");
     let times: Vec<f64> = folder
         .read("star.csv")
