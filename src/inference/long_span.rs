@@ -139,24 +139,28 @@ mod tests {
         }
     }
 
-    /// A number is looked for from any time, also some turns away.
+    /// A number is looked for from any time, also some turns away; turns take 4.8 and 0.3 units of time.
     #[test]
     fn pulses_are_found_by_their_numbers() {
-        let (star, end) = (stars::weak(), 2e6);
-        let period = clock(&star, end).expect("a clock").period();
-        let near = pulses_near(&star, end, &[1e5, 1e6, 1.9e6]).expect("pulses");
-        assert_eq!(near.len(), 3);
-        for turns in [0.0, 0.4, -3.0, 7.0, 2_000.0] {
-            let wanted: Vec<_> = near.iter().map(|event| (event.turn, event.epoch + turns * period)).collect();
-            let found = pulses_numbered(&star, end, &wanted).expect("pulses");
-            assert_eq!(found.len(), 3, "{turns}");
-            for (event, before) in found.iter().zip(&near) {
-                assert_eq!(event.turn, before.turn);
-                let late = (event.epoch - before.epoch) + (event.midpoint() - before.midpoint());
-                assert!(late.abs() < 1e-9, "{turns}: {late:e}");
+        let weak = stars::weak();
+        let fast = Parameters { alpha_rate: 15.0 * weak.alpha_rate, ..weak.moved(&[Parameter::Spin], &[18.7]) };
+        for star in [weak, fast] {
+            let end = 2e6;
+            let period = clock(&star, end).expect("a clock").period();
+            let near = pulses_near(&star, end, &[1e5, 1e6, 1.9e6]).expect("pulses");
+            assert_eq!(near.len(), 3);
+            for turns in [0.0, 0.4, -3.0, 7.0, 2_000.0] {
+                let wanted: Vec<_> = near.iter().map(|event| (event.turn, event.epoch + turns * period)).collect();
+                let found = pulses_numbered(&star, end, &wanted).expect("pulses");
+                assert_eq!(found.len(), 3, "{period}: {turns}");
+                for (event, before) in found.iter().zip(&near) {
+                    assert_eq!(event.turn, before.turn);
+                    let late = (event.epoch - before.epoch) + (event.midpoint() - before.midpoint());
+                    assert!(late.abs() < 1e-9, "{period}: {turns}: {late:e}");
+                }
             }
         }
-        assert!(pulses_numbered(&star, end, &[]).expect("none asked for").is_empty());
+        assert!(pulses_numbered(&weak, 2e6, &[]).expect("none asked for").is_empty());
     }
 
     #[test]
