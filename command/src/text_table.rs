@@ -14,3 +14,10 @@ pub(crate) fn text_table(rows: &[Vec<String>], on_the_right: impl Fn(usize) -> b
     }
     table.trim_fmt()
 }
+
+/// The cells of each row of a table that are not empty.
+#[cfg(test)]
+pub(crate) fn cells(table: &str) -> Vec<Vec<&str>> {
+    let rows = table.lines().filter(|line| !line.contains('─'));
+    rows.map(|row| row.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect()).collect()
+}

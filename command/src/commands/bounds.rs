@@ -278,6 +278,7 @@ fn as_json(pulsar: &Pulsar, rows: &[Row]) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::text_table::cells;
 
     #[test]
     fn numbers_have_the_digits_that_are_read() {
@@ -297,28 +298,23 @@ mod tests {
             assert_eq!(two_digits(x), text);
         }
     }
+
     fn row(from_change: Option<f64>, printed: Option<&str>) -> Row {
         let (key, label, printed) = ("limit", "a limit".to_owned(), printed.map(String::from));
         Row { key, label, value: 3.14e-16, from_change, from_inputs: Some(0.0), printed }
-    }
-
-    /// The words of each line of a table but those that separate.
-    fn words(table: &str) -> Vec<Vec<&str>> {
-        let lines = table.lines().filter(|line| !line.contains('─'));
-        lines.map(|line| line.split("  ").map(str::trim).filter(|word| !word.is_empty()).collect()).collect()
     }
 
     #[test]
     fn columns_without_numbers_are_left_out() {
         let (plain, measured, printed) = (row(None, None), row(Some(2e-17), None), row(None, Some("~1e-16")));
         let table = table_of(&[plain]);
-        assert_eq!(words(&table), [vec!["value", "+- by others"], vec!["a limit", "3.14e-16", "0"]]);
+        assert_eq!(cells(&table), [vec!["value", "+- by others"], vec!["a limit", "3.14e-16", "0"]]);
         let table = table_of(&[measured]);
         let header = vec!["value", "+- by Delta W", "+- by others"];
-        assert_eq!(words(&table), [header, vec!["a limit", "3.14e-16", "2.00e-17", "0"]]);
+        assert_eq!(cells(&table), [header, vec!["a limit", "3.14e-16", "2.00e-17", "0"]]);
         let table = table_of(&[printed]);
         let header = vec!["value", "+- by others", "printed", "ours/printed"];
-        assert_eq!(words(&table), [header, vec!["a limit", "3.14e-16", "0", "~1e-16", "3.1"]]);
+        assert_eq!(cells(&table), [header, vec!["a limit", "3.14e-16", "0", "~1e-16", "3.1"]]);
         // Words on the left, numbers on the right, a line below.
         let lines: Vec<_> = table.lines().collect();
         assert!(lines[2].starts_with(" a limit ") && lines[3].contains('─'), "{table}");

@@ -106,6 +106,7 @@ pub fn json(comparison: &Comparison) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::text_table::cells;
 
     fn column(column: &str, reason: &'static str, verdict: Verdict) -> ColumnDifference {
         let (difference, time, allowed) = (1.25e-3, 17.5, Some(2e-3));
@@ -125,15 +126,12 @@ mod tests {
         ];
         let comparison = Comparison { folder: "x".into(), files, absent: vec!["c.dat"], not_read: Vec::new() };
         let text = text(&comparison);
-        let words: Vec<Vec<_>> = text
-            .lines()
-            .map(|line| line.split("  ").map(str::trim).filter(|word| !word.is_empty()).collect())
-            .collect();
+        let found = cells(&text);
         let numbers = ["1.25e-3 rad", "17.500", "2.000e-3"];
         let row = |before: &[&'static str], after: &[&'static str]| [before, &numbers, after].concat();
-        assert_eq!(words[2], row(&["a.dat", "7", "Eq. (34)", "alpha"], &["[1]", "agrees"]), "{text}");
-        assert_eq!(words[3], row(&["beta"], &["[2]", "DIFFERS"]), "{text}");
-        assert_eq!(words[4], row(&["b.dat", "7", "Eq. (34)", "gamma"], &["[1]", "not judged"]), "{text}");
+        assert_eq!(found[1], row(&["a.dat", "7", "Eq. (34)", "alpha"], &["[1]", "agrees"]), "{text}");
+        assert_eq!(found[2], row(&["beta"], &["[2]", "DIFFERS"]), "{text}");
+        assert_eq!(found[3], row(&["b.dat", "7", "Eq. (34)", "gamma"], &["[1]", "not judged"]), "{text}");
         let end = "\n\n[1] by A\n[2] by B\nnot in the folder: c.dat\n1 column agrees, 1 DIFFERS, 1 not judged";
         assert!(text.ends_with(end), "{text}");
     }
