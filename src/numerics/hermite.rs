@@ -135,6 +135,9 @@ fn one_sign(values: &[f64], error: f64) -> Option<bool> {
 
 #[cfg(test)]
 mod tests {
+    use rand::rngs::ChaCha8Rng;
+    use rand::{RngExt, SeedableRng};
+
     use super::*;
 
     const BOUNDS: [f64; 3] = [1.0; 3];
@@ -194,14 +197,10 @@ mod tests {
     /// Polynomials of any shape, many with three or five roots.
     #[test]
     fn the_root_is_close_to_one_of_the_polynomial() {
-        let mut state = 7_u64;
-        let mut random = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 - 1.0
-        };
+        let mut random = ChaCha8Rng::seed_from_u64(7);
         let mut far = 0;
         for _ in 0..20_000 {
-            let mut value: [f64; 6] = core::array::from_fn(|_| random());
+            let mut value: [f64; 6] = core::array::from_fn(|_| random.random_range(-1.0..1.0));
             (value[0], value[5]) = (-value[0].abs(), value[5].abs());
             let quintic = Quintic { value, rates: [0.0; 2], seconds: [0.0; 2], remainder: 0.0, rounding: 0.0 };
             let x = quintic.root();

@@ -28,7 +28,7 @@ pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
             let (data, left_out) = found.map_err(Failure::BadInput)?;
             if left_out > 0 {
                 note(&format!(
-                    "{left_out} data of the first turn are left out: their pulse may be cut in another model"
+                    "left out, since the pulse of the first turn may be cut in another model: {left_out} of the data"
                 ));
             }
             data
