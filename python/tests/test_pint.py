@@ -474,6 +474,10 @@ def test_limits_with_white_noise_are_those_of_the_library(tmp_path):
         assert ours["limit"].to_value(u.rad) == pytest.approx(theirs["limit"], rel=5e-3)
         assert ours["best"].to_value(u.rad) == pytest.approx(theirs["best"], rel=5e-3)
         assert ours["gain"].value == pytest.approx(theirs["gain"], rel=2e-2, abs=1e-2)
+    # Errors are those of the model's noise: twice as large, chi^2 and all gains are a quarter.
+    noisier = model_of(f"F0 {f0} 1\nF1 {f1} 1\nEFAC MJD 40000 70000 2\n")
+    gains = [wobble_limits(of, toas, periods * u.day, chi=45 * u.deg)["gain"].value for of in (model, noisier)]
+    assert gains[1] == pytest.approx(gains[0] / 4, rel=1e-6)
 
 
 def test_limits_find_the_period(b1828):

@@ -220,6 +220,13 @@ def test_dates_are_counted_from_the_start():
     assert units.times(star, Time(49621.5, format="mjd", scale="tdb")) == pytest.approx(43212.0, abs=1e-6)
 
 
+def test_arrivals_are_sought_at_dates_of_any_scale():
+    """Of each date the nearest pulse, within half of its period; UTC is a minute from TDB."""
+    dates = Time([50000.0, 50300.0, 50700.0, 51000.0, 52000.0], format="mjd", scale="utc")
+    found = units.arrivals(twofold.Scene("b1828-11").pulsar(), dates)
+    assert np.abs((found["arrival"] - dates).to_value(u.s)).max() < 0.51 / 2.4688717147
+
+
 def test_what_a_fit_to_arrivals_leaves_in_the_table():
     pulsar = twofold.Scene("b1828-11").pulsar()
     dates = Time([50000.0, 50300.0, 50700.0, 51000.0, 52000.0], format="mjd", scale="tdb")

@@ -245,11 +245,14 @@ mod tests {
         let star = stars::weak();
         let signal = Signal::new(&star, 3e6).expect("a motion");
         assert!(signal.is_long());
-        let events = signal.events_after(&[10.0, 2e6, 2.9e6]).expect("pulses");
+        let wanted = [10.0, 2e6, 2.9e6];
+        let events = signal.events_after(&wanted).expect("pulses");
         let data =
             data_of(&signal, &events, &[], &[(Observable::Arrivals, 1e-9), (Observable::Widths, 1e-9)]).expect("data");
-        for (datum, event) in data.iter().zip(events.iter().chain(&events)) {
+        for ((datum, event), time) in data.iter().zip(events.iter().cycle()).zip(wanted.iter().cycle()) {
             assert_eq!(datum.epoch, if datum.observable == Observable::Arrivals { event.epoch } else { 0.0 });
+            let Place::Turn { number, near } = datum.place else { panic!("{datum:?}") };
+            assert!(number == event.turn && (near - time).abs() < 20.0, "{datum:?} near {time:e}");
         }
         let (residuals, _) = compared(&star, &data, 3e6).expect("the same star");
         assert!(residuals.iter().all(|residual| residual.abs() < 1e-2), "{residuals:?}");

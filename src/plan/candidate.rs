@@ -264,6 +264,25 @@ mod tests {
         assert_relative_eq!(value, 0.7 * (2.0 * 14e-4_f64).sqrt(), max_relative = 1e-12);
     }
 
+    /// Only a proof is a bound: those of the averaged motion and of the series on the torus are estimates, whatever their tests found.
+    #[test]
+    fn no_estimate_is_called_a_bound() {
+        let cases = [
+            (Method::Free, [2e-9, 1e-9, -3e-9], Promise::Bound),
+            (Method::Steady, [0.0; 3], Promise::Bound),
+            (Method::Symmetric, [0.2, 0.2, -0.4], Promise::Bound),
+            (Method::Averaged, [2e-7, 1e-7, -3e-7], Promise::Estimate),
+            (Method::Torus, [0.2, 0.1, -0.3], Promise::Estimate),
+        ];
+        for (method, s, promise) in cases {
+            assert_eq!(forecast(method, s, (0.0, 7.0), Vec::new()).prediction.unwrap().promise, promise, "{method:?}");
+        }
+        for method in [Method::Splitting, Method::Taylor] {
+            let found = forecast(method, [0.2, 0.1, -0.3], (0.0, 7.0), Vec::new()).prediction.unwrap().promise;
+            assert!(matches!(found, Promise::Goal(share) if share > 0.9 && share < 1.0), "{method:?}: {found:?}");
+        }
+    }
+
     #[test]
     fn errors_and_work_go_by_the_length_of_the_span_alone() {
         // Free motion and its error by a torque, a steady motion, two equal eigenvalues and nearly equal ones, a weak violation, and a strong one.

@@ -107,7 +107,7 @@ fn rounded_up(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figures::fixtures::{CONSTANTS, star};
+    use crate::figures::fixtures::{CONSTANTS, star, tone};
 
     #[test]
     fn the_end_of_an_axis_is_half_a_digit_up_at_most() {
@@ -136,5 +136,13 @@ mod tests {
         for (subjects, end) in [(vec![&slow], 0.035), (vec![&slow, &fast], 3.5), (vec![&fast, &slow], 3.5)] {
             assert!((highest(&subjects, 2.2) / end - 1.0).abs() < 1e-12, "{end}");
         }
+    }
+
+    /// 57 Hz times `1.001 / cos 0.3` and `-0.001`.
+    #[test]
+    fn rates_of_a_physical_star_are_in_hertz() {
+        let [unit, (_, rates)] = of_rates(&[&tone(1.0, 1.0)]).unwrap();
+        assert_eq!(unit.1, "Hz");
+        assert_eq!(rates, "tone: *α* = 59.72451, *γ* = \u{2212}0.057, *ν* = 59.72451");
     }
 }

@@ -51,12 +51,22 @@ fn source() -> Option<String> {
     git(&["ls-files", "--error-unmatch", "Cargo.toml"])?;
     let commit = git(&["rev-parse", "HEAD"])?;
     let changes = git(&["status", "--porcelain", "--untracked-files=no", "--", ":/"])?;
-    Some(format!("commit {commit}{}", if changes.is_empty() { "" } else { ", with changes not committed" }))
+    Some(in_words(&commit, &changes))
+}
+
+fn in_words(commit: &str, changes: &str) -> String {
+    format!("commit {commit}{}", if changes.is_empty() { "" } else { ", with changes not committed" })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn changes_that_are_not_committed_are_told() {
+        assert_eq!(in_words("61a92c83", ""), "commit 61a92c83");
+        assert_eq!(in_words("61a92c83", " M src/lib.rs"), "commit 61a92c83, with changes not committed");
+    }
 
     #[test]
     fn any_clock_is_told() {

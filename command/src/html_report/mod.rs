@@ -132,7 +132,7 @@ mod tests {
         };
         let outcome = |check: &Check| {
             let measured = measured(check.id);
-            Outcome { passed: measured.as_ref().is_ok_and(|m| !m.figure.is_nan()), measured, seconds: 0.0 }
+            Outcome { passed: measured.as_ref().is_ok_and(|m| !m.figure.is_nan()), measured, seconds: 1.25 }
         };
         let results: Vec<_> = twofold_verify::checks::all().into_iter().map(|check| (check, outcome(&check))).collect();
         let figures: Vec<Figure> = OF_THE_PAPER.iter().map(|fixture| (**fixture).clone()).collect();
@@ -223,6 +223,63 @@ mod tests {
         // Captions name equations too.
         let equation = part(page, "eq-57", "</article>");
         assert!(equation.contains("href=\"#figure-pulse-series\""), "{equation}");
+    }
+
+    /// What stands in the column of this name, row by row.
+    fn column<'p>(article: &'p str, name: &str) -> Vec<&'p str> {
+        let start = format!(" data-label=\"{name}\">");
+        article.split(start.as_str()).skip(1).filter_map(|rest| rest.split("</td>").next()).collect()
+    }
+
+    #[test]
+    fn the_columns_of_the_page_hold_what_their_heads_say() {
+        let (page, content) = &*FAILURES;
+        assert_eq!(column(page, "Time [s]"), vec!["1.250"; content.results.len()]);
+        let mut apart = 0;
+        for table in &content.golden {
+            let article = part(page, &cross_reference::golden(table.name), "</article>");
+            let typeset = |text: String| typography::typeset(&text).into_string();
+            let [printed, ours]: [Vec<_>; 2] = [
+                table.lines.iter().map(|line| typeset(line.printed_text())).collect(),
+                table.lines.iter().map(|line| typeset(line.ours_text())).collect(),
+            ];
+            assert_eq!(column(article, "Ours"), ours, "{}", table.name);
+            if table.lines.iter().any(|line| line.printed != Printed::No) {
+                assert_eq!(column(article, "Printed"), printed, "{}", table.name);
+                apart += usize::from(printed != ours);
+            }
+        }
+        assert!(apart > 3, "{apart}");
+        // Each form of an equation by the word before its remark in the source.
+        let source = include_str!("../../data/equations.tex");
+        for (word, name) in [("used", "Used"), ("corrected", "Corrected"), ("note", "Note")] {
+            let written =
+                source.lines().filter(|line| line.starts_with("% (") && line.contains(&format!(") {word}: ")));
+            let shown = page.matches(&format!("<div class=\"form {word}\"><p><b>{name}. </b>")).count();
+            assert_eq!(shown, written.count(), "{word}");
+            assert!(shown > 0, "{word}");
+        }
+    }
+
+    /// One of several is enough.
+    #[test]
+    fn a_verdict_is_void_if_any_of_its_checks_fails() {
+        let claim =
+            twofold_verify::claims::claims().find(|claim| claim.checks.len() > 1).expect("a claim of two checks");
+        for failing in claim.checks.iter().map(Some).chain([None]) {
+            let of_claim = twofold_verify::checks::all()
+                .into_iter()
+                .filter(|check| claim.checks.contains(&check.id))
+                .map(|check| {
+                    let measured = Ok(Measured::new(0.0, ""));
+                    let passed = failing.is_none_or(|id| *id != check.id);
+                    (check, Outcome { passed, measured, seconds: 0.0 })
+                });
+            let results = of_claim.collect();
+            let content =
+                Content { results, seconds: 0.0, golden: Vec::new(), figures: Vec::new(), environment: Vec::new() };
+            assert_eq!(claims::is_void(claim, &content), failing.is_some(), "{failing:?}");
+        }
     }
 
     #[test]

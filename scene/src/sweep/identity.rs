@@ -55,3 +55,37 @@ fn changed_line(what: &str, then: &Value, now: &Value) -> String {
     let line = |text: &str| text.lines().nth(same).map_or("missing".to_owned(), |line| format!("`{}`", line.trim()));
     format!("{what} has changed since: line {} was {} and is {}", same + 1, line(then), line(now))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Anything that the bytes follow from, named with the line where it can be; the name of a scene alone does not tell.
+    #[test]
+    fn a_table_is_continued_with_the_same_texts_alone() {
+        let of = |sweep: &str, scene: Option<&str>, scenes: Range<u64>| {
+            let scene = scene.map(|text| ("star.toml".to_owned(), text.to_owned()));
+            Identity::new(&SweepText { file: "grid.toml".into(), text: sweep.to_owned(), scene }, &scenes)
+        };
+        let begun = of("a = 1\nb = 2\n", Some("c = 3\nd = 4\n"), 0..10);
+        let difference = |now: Identity| now.difference_from(begun.facts());
+        assert_eq!(difference(begun.clone()), None);
+        for (now, told) in [
+            (
+                of("a = 1\nb = 3\n", Some("c = 3\nd = 4\n"), 0..10),
+                "the sweep file grid.toml has changed since: line 2 was `b = 2` and is `b = 3`",
+            ),
+            (
+                of("a = 1\nb = 2\n", Some("c = 3\n"), 0..10),
+                "the scene has changed since: line 2 was `d = 4` and is missing",
+            ),
+            (
+                of("a = 1\nb = 2\n", Some("x\nc = 3\nd = 4\n"), 0..10),
+                "the scene has changed since: line 1 was `c = 3` and is `x`",
+            ),
+            (of("a = 1\nb = 2\n", Some("c = 3\nd = 4\n"), 0..9), "it holds the scenes [0,10] (from, to) and not [0,9]"),
+        ] {
+            assert_eq!(difference(now).as_deref(), Some(told));
+        }
+    }
+}

@@ -528,6 +528,31 @@ mod tests {
         PulsarClock::new(&problem, &Beam::new(1.1, 0.4, 0.3), &Observer::at(1.2, -0.5), AveragingOrder::Second).unwrap()
     }
 
+    /// The star goes through the same pulses later and later: rates are smaller and pulses longer by the rate of the stretched time.
+    #[test]
+    fn pulses_of_a_braked_star_are_those_of_the_free_one_at_the_stretched_time() {
+        let free = precessing(5e-4);
+        let clock = free.clone().braked(&Braking { rate: 1e-4, index: 3.0, torque_share: 0.5 }).unwrap();
+        let stretched = |t: f64| clock.stretched_time().stretched_at([t, 0.0]).unwrap()[0];
+        let mut compared = 0;
+        // The wobble takes the beam away and back.
+        for t in (-18..=18).map(|k| 50.0 * f64::from(k)) {
+            let Some(pulse) = clock.pulse_near([t, 0.0]).unwrap() else { continue };
+            let middle = pulse.midpoint[0];
+            let slowing = (stretched(middle + 0.5) - stretched(middle - 0.5)).abs();
+            let freely = free.pulse_near([stretched(middle), 0.0]).unwrap().expect("a pulse");
+            assert_eq!(pulse.number, freely.number);
+            for (found, expected) in [
+                (pulse.position_angle_rate, freely.position_angle_rate * slowing),
+                (pulse.duration, freely.duration / slowing),
+            ] {
+                assert!((found / expected - 1.0).abs() < 1e-3, "{t}: {found:e} {expected:e}");
+            }
+            compared += usize::from((slowing - 1.0).abs() > 0.02);
+        }
+        assert!(compared > 3, "{compared}");
+    }
+
     /// As for the motion; of a star that is braked, whose wobble is damped or excited, or both, its terms written out with the numbers of this star.
     #[test]
     fn what_a_clock_leaves_out() {

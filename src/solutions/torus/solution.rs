@@ -353,6 +353,18 @@ mod tests {
         }
     }
 
+    /// Twice what the ends of a row are apart, where the series is closer to the flow than that.
+    #[test]
+    fn rows_that_do_not_close_are_rounding() {
+        let torus = Torus::of(&problem([[0.2, 0.1, -0.3], [0.48, 0.6, 0.64], [0.3, -0.2, 1.5]])).unwrap();
+        let phases = phases(&torus.spheroid, &torus.initial, &torus.ways);
+        let mut sampled = coefficients(&torus, |quarter| torus.starts(quarter), 1e-12, FIRST_GRID).unwrap().unwrap();
+        sampled.open = 1e-6;
+        let (solution, gap) = TorusSolution::on(&torus, phases, 0.0, 1e-12, &sampled);
+        let beyond = solution.rounding(0.0) - 2e-6;
+        assert!(gap < 1e-11 && beyond > 0.0 && beyond < 1e-11, "{gap:e} {beyond:e}");
+    }
+
     /// With wrong phases no grid is good enough: after two finer ones that is told.
     #[test]
     fn a_series_that_does_not_follow_the_flow_is_refused() {

@@ -90,3 +90,22 @@ impl TimingParameter {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rate_has_the_unit_of_what_changes_over_seconds() {
+        for (of, rate) in [(PrecessionPhase, PrecessionRate), (Inclination, InclinationRate), (F0, F1)] {
+            assert_eq!(rate.unit(), format!("{}/s", of.unit()));
+        }
+        for angle in [Wobble, Chi, PrecessionPhase, Inclination, Rho] {
+            assert_eq!(angle.unit(), "rad");
+        }
+        let others = [(Phase, "1"), (F0, "Hz"), (F2, "Hz/s^2"), (TorqueShare, "1"), (Damping, "1/s")];
+        for (parameter, unit) in others {
+            assert_eq!(parameter.unit(), unit, "{}", parameter.key());
+        }
+    }
+}
