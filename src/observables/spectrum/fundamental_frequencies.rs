@@ -293,11 +293,17 @@ mod tests {
 
     /// `L` goes round Z, `n` round `L`, `e_x` round `n`, each once with one angle of the torus and, `n` and `e_x`, some more often with the second.
     fn turning(tilt: f64, opening: f64, more: [f64; 2]) -> impl Fn([f64; 3]) -> BodyState<f64> {
+        leaning(tilt, 0.0, opening, more)
+    }
+
+    /// The same with a cone of `n` whose axis leans away from `L`.
+    fn leaning(tilt: f64, lean: f64, opening: f64, more: [f64; 2]) -> impl Fn([f64; 3]) -> BodyState<f64> {
         let about_y = |angle| Rotation3::from_axis_angle(&Vector3::y_axis(), angle);
         let about_z = |turns: f64| Rotation3::from_axis_angle(&Vector3::z_axis(), TAU * turns);
         move |[a, b, c]| {
             let momentum = about_z(-b) * about_y(tilt);
-            let body = momentum * about_z(a + more[0] * b) * about_y(opening) * about_z(more[1] * a - c);
+            let cone = momentum * about_y(lean) * about_z(a + more[0] * b);
+            let body = cone * about_y(opening) * about_z(more[1] * a - c);
             BodyState {
                 axis: body * Vector3::z(),
                 momentum: momentum * Vector3::z() * 1.5,
@@ -333,6 +339,9 @@ mod tests {
         assert_eq!(turns(&single, "psi'"), Some([-1, 0, -1]));
         assert_eq!(turns(&single, "gamma'"), Some([0, 2, -1]));
         assert_eq!(symbols(&single), ["alpha'", "gamma'", "nu'"]);
+        // L stays outside of the cone: n does not go round it, its fast part does.
+        let aside = found(leaning(0.9, 0.3, 0.1, [2.0, 0.0]));
+        assert_eq!(turns(&aside, "nu'"), Some([1, 2, 0]));
         // n passes the pole: at a point of the grid, beside one, and with loops on both sides that differ.
         let passing = turning(0.6, 0.6, [0.0, 0.0]);
         let beside = |turns: [f64; 3]| passing(turns.map(|part| part + 0.0137));
