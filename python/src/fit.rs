@@ -10,7 +10,7 @@ use pyo3::types::PyDict;
 use twofold::inference::{self, Fisher, MeasuredArrival, MeasuredWidth, Model, Prior, Residuals, Unknown};
 use twofold::nalgebra::{DMatrix, DVector};
 use twofold::observables::pulsar::timing_model::TimingParameter;
-use twofold_scene::measurements::{DataFile, named, parse_noise};
+use twofold_scene::measurements::{named, parse_noise, read_timing};
 
 use crate::arrays::{Array, Numbers, array};
 use crate::error::raised;
@@ -79,19 +79,20 @@ impl TimingData {
     }
 
     /// The data of files: a `.tim` (FORMAT 1, barycentred), or tables as `Pulsar.arrivals` has them, whose standard deviations `observe` gives as `"arrivals:1e-6,widths:1e-5"` (s). Times
-    /// are counted from the epoch of a model (MJD, TDB).
+    /// are counted from the epoch of a model (MJD, TDB). Each file counts its pulses from one of its own: where more than one has numbers, `model` is the
+    /// timing model by which they are found.
     #[staticmethod]
-    #[pyo3(signature = (paths, epoch, *, observe=None))]
-    fn read(paths: Vec<PathBuf>, epoch: &Bound<'_, PyAny>, observe: Option<&str>) -> PyResult<Self> {
+    #[pyo3(signature = (paths, epoch, *, model=None, observe=None))]
+    fn read(
+        paths: Vec<PathBuf>,
+        epoch: &Bound<'_, PyAny>,
+        model: Option<&TimingModel>,
+        observe: Option<&str>,
+    ) -> PyResult<Self> {
         let epoch = read_epoch(epoch)?;
         let noise = observe.map_or_else(|| Ok(Vec::new()), |text| parse_noise(text, 1.0)).map_err(raised)?;
-        let mut data = inference::TimingData::default();
-        for path in paths {
-            DataFile::read(&path.to_string_lossy())
-                .and_then(|file| file.add_timing(&epoch, &noise, &mut data))
-                .map_err(raised)?;
-        }
-        Ok(Self { data })
+        let paths: Vec<_> = paths.iter().map(|path| path.to_string_lossy().into_owned()).collect();
+        Ok(Self { data: read_timing(&paths, &epoch, &noise, model.map(|model| &model.model)).map_err(raised)? })
     }
 
     /// Times of the arrivals (s): an array of shape (n, 2), two parts each.

@@ -553,11 +553,35 @@ class TestFits:
             assert np.array_equal(np.diff(data.numbers), np.diff(table["pulse"]))
         assert tim.widths.shape == (0, 3) and repr(tim) == "<TimingData: 4 arrivals, 0 widths>"
         assert np.allclose(csv.widths, np.stack([expected, table["duration"], np.full(4, 1e-5)], axis=-1), rtol=1e-12)
-        both = twofold.TimingData.read([tmp_path / "a.tim", tmp_path / "a.csv"], 49621.0, observe="arrivals:1e-6")
-        assert np.array_equal(both.sigmas, [2e-6] * 4 + [1e-6] * 4)
+        with pytest.raises(twofold.Error, match=r"a.csv: its first datum is in a file before it"):
+            twofold.TimingData.read([tmp_path / "a.csv", tmp_path / "a.csv"], 49621.0, observe="arrivals:1e-6")
         assert repr(twofold.TimingData.read([], 0.5)) == "<TimingData: 0 arrivals, 0 widths>"
         # Half a day from midnight, in a double and in a text.
         assert twofold.TimingData.read([tmp_path / "a.tim"], 49620.5) == twofold.TimingData.read([tmp_path / "a.tim"], "49620.5")
+
+    def test_every_file_counts_its_pulses_from_one_of_its_own(self, tmp_path):
+        """A file that starts at another pulse, and one without numbers."""
+        pulsar = twofold.Scene("b1828-11").pulsar()
+        model = pulsar.timing_model()
+        for name, dates in (("a", [49700.0, 50000.0, 52000.0]), ("b", [50100.0, 51000.0]), ("c", [50200.0])):
+            (tmp_path / f"{name}.csv").write_bytes(pulsar.arrivals(dates).table.csv)
+        lines = (tmp_path / "b.csv").read_text().splitlines()
+        column = lines[0].split(",").index("pulse")
+        cells = [line.split(",") for line in lines]
+        moved = [cells[0], *([*row[:column], str(int(row[column]) - 1234), *row[column + 1 :]] for row in cells[1:])]
+        (tmp_path / "b.csv").write_text("".join(",".join(row) + "\n" for row in moved))
+        cells = [line.split(",") for line in (tmp_path / "c.csv").read_text().splitlines()]
+        (tmp_path / "c.csv").write_text("".join(",".join([*row[:column], *row[column + 1 :]]) + "\n" for row in cells))
+
+        def read(names, model=None):
+            return twofold.TimingData.read([tmp_path / f"{name}.csv" for name in names], pulsar.epoch, model=model, observe="arrivals:1e-6")
+
+        data = read("abc", model)
+        turns, fraction = model.phase(data.times[:, 0], data.times[:, 1])
+        assert np.array_equal(data.numbers, turns) and np.abs(fraction).max() < 1e-9
+        assert np.isnan(read("ac").numbers[3]) and np.array_equal(np.diff(read("ac").numbers[:3]), np.diff(data.numbers[:3]))
+        with pytest.raises(twofold.Error, match=r"b.csv: it numbers its pulses, and so does a file before it.*allowed is a model"):
+            read("acb")
 
     def test_one_number_for_all_arrivals(self):
         assert twofold.TimingData([1.0, 2.0], 1e-6, rest=1e-9, numbers=3.0) == twofold.TimingData([1.0, 2.0], [1e-6, 1e-6], rest=[1e-9, 1e-9], numbers=[3.0, 3.0])

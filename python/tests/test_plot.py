@@ -89,6 +89,23 @@ def test_pulses_are_drawn_where_they_are_and_gaps_break_the_line():
     assert 3.0 < np.nanmin(shown) and np.nanmax(shown) < 7.0
 
 
+def test_back_in_time_pulses_follow_one_another_too():
+    scene = twofold.Scene("tp-1", time={"span": -60.0})
+    table = scene.pulses()
+    whole = np.array([cut == "" for cut in table["cut"]])
+    period, length = plot.pulses(scene)
+    assert np.isfinite(length.lines[0].get_ydata()).all() and np.isfinite(drawn(period, "beam 1")[1]).sum() == whole.sum() - 1
+    first, mean, count = plot._turns(scene)
+    mesh = plot.waterfall(scene, rows=5, samples=101).collections[0]
+    corners = mesh.get_coordinates()
+    np.testing.assert_allclose((corners[1:, 0, 1] + corners[:-1, 0, 1]) / 2.0, -np.arange(5.0), atol=1e-12)
+    assert mean > 0.0 and first + count * mean >= -60.0 > first + (count - 1) * mean
+    # Every turn has its pulse, a tenth of the brightness at the edge of the beam.
+    light = np.asarray(mesh.get_array()).reshape(5, 101)
+    step = (corners[0, -1, 0] - corners[0, 0, 0]) / 101
+    np.testing.assert_allclose((light > 0.1).sum(axis=1) * step, table["duration"][whole][:5], atol=2.0 * step)
+
+
 def test_a_second_beam_is_told_apart():
     scene = twofold.Scene("tp-1", pulsar={"second_beam": True, "rho": 1.2})
     _, length = plot.pulses(scene)
@@ -130,6 +147,9 @@ def test_shapes_over_years_are_as_late_and_as_wide_as_the_table_says():
         assert width == pytest.approx(1e3 * table["duration"][k], abs=0.2)
     with pytest.raises(twofold.Error, match="rows = 1: allowed"):
         plot.waterfall(scene, rows=1)
+    damped = twofold.Scene("b1828-11", spin_down={"f1": -3.65e-13, "damping_time": 1e5})
+    with pytest.raises(twofold.Error, match="spin_down.damping_time: allowed here are stars without friction"):
+        plot.waterfall(damped)
 
 
 def test_uprights_stand_at_the_lines_and_bear_their_names():

@@ -1,7 +1,9 @@
 """Quantities of astropy in and out."""
 
+import re
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -145,6 +147,7 @@ KEYS = [
     ("spin_down", "f1", -2e-13 * np.pi * u.rad / u.s**2, -1e-13),
     ("spin_down", "f2", 2e-25 * np.pi * u.rad / u.s**3, 1e-25),
     ("spin_down", "index", 300 * u.percent, 3.0),
+    ("spin_down", "damping_time", 100 * u.yr, 36525.0),
     ("lorentz_violation", "eigenvalues", [2, 1, -3] * u.percent, [0.02, 0.01, -0.03]),
     ("lorentz_violation", "tensor", np.diag([2, 1, -3]) * u.percent, [[0.02, 0.0, 0.0], [0.0, 0.01, 0.0], [0.0, 0.0, -0.03]]),
     ("lorentz_violation", "alpha_2", 1e-7 * u.percent, 1e-9),
@@ -173,7 +176,16 @@ def test_every_key_has_its_unit(section, key, quantity, number):
 
 
 def test_every_key_is_in_the_list():
-    assert {(section, key) for section, key, _, _ in KEYS} == set(units._KEYS)
+    listed = {(section, key) for section, key, _, _ in KEYS}
+    assert listed == set(units._KEYS)
+    page = (Path(__file__).parents[2] / "docs" / "scenes.md").read_text()
+    documented = set()
+    for section, text in re.findall(r"^### `\[(\w+)\]`(.*?)(?=^##)", page, re.M | re.S):
+        for table in text.split("\n| key | meaning | unit | allowed |\n|---|---|---|---|\n")[1:]:
+            for row in table.split("\n\n")[0].splitlines():
+                _, names, _, unit, *_ = row.replace("\\|", "").split("|")
+                documented |= {(section, name) for name in re.findall(r"`(\w+)`", names) if unit.strip()}
+    assert len(documented) > 25 and documented - listed == set()
 
 
 def test_sections_and_texts_without_quantities():

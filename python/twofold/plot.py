@@ -197,7 +197,8 @@ def pulses(scene: Scene, *, axes: Sequence[Axes] | None = None) -> list[Axes]:
         if not of.any():
             continue
         t, turn = table["midpoint"][of], table["turn"][of]
-        follows = np.diff(turn) == 1.0
+        # Back in time where the span is.
+        follows = np.abs(np.diff(turn)) == 1.0
         period = np.where(np.append(False, follows), table["period"][of], np.nan)
         filled: dict[str, Any] = {"color": BLACK, "markersize": 3.0, "markeredgewidth": 0.8, "ls": "none", "marker": "o"}
         if beam == 2:
@@ -226,8 +227,8 @@ def waterfall(
 ) -> Axes:
     """The shapes of pulses as shades, later turns above earlier ones.
 
-    A pulsar with a `time.epoch` is shown over the years of the scene, at `rows` of its epochs, against the time from the pulse that the fit of its frequency foretells. Other scenes are
-    shown turn by turn, folded with their mean period. `window` is the first and last time shown of a turn, in the unit of the scene; if it is not given the pulses fill two thirds of it, or
+    A pulsar with a `time.epoch` is shown over the years of the scene, at `rows` of its epochs, against the time from the pulse that the fit of its frequency foretells; one with
+    `spin_down.damping_time` is not, since its shapes change with the wobble. Other scenes are shown turn by turn, folded with their mean period. `window` is the first and last time shown of a turn, in the unit of the scene; if it is not given the pulses fill two thirds of it, or
     it is a turn.
 
     `intensity` is that of the beam as a function of the angle from its axis, in units of `pulsar.rho`; by default a Gaussian that falls to a tenth at the edge, so that the pulse is as
@@ -243,10 +244,12 @@ def waterfall(
         first, period, count = _turns(scene)
         earliest, latest = window or (-period / 2.0, period / 2.0)
         x = np.linspace(earliest, latest, samples)
-        lines = np.arange(min(count, rows), dtype=float)
+        lines = np.sign(count) * np.arange(min(abs(count), rows), dtype=float)
         times = first + period * lines[:, None] + x
         heights = lines
     else:
+        if "damping_time" in tomllib.loads(scene.toml).get("spin_down", {}):
+            raise Error(f"scene {scene.name}: spin_down.damping_time: allowed here are stars without friction, whose wobble stays as it is")
         timing = pulsar.arrivals()
         chosen = np.unique(np.linspace(0, len(timing.table) - 1, rows).round().astype(int))
         residual, number = timing.table["residual"][chosen], timing.table["pulse"][chosen]
@@ -419,7 +422,7 @@ def _sampled(scene: Scene, until: float | None, samples: int) -> Scene:
 
 
 def _turns(scene: Scene) -> tuple[float, float, int]:
-    """The mean of turn zero, the mean period and the number of turns in the span, by a straight line through the pulses."""
+    """The mean of turn zero, the mean period and the number of turns in the span, below zero back in time, by a straight line through the pulses."""
     table = scene.pulses()
     turn, t = table["turn"], table["closest_approach"]
     good = np.isfinite(turn) & np.isfinite(t) & (table["beam"] == 1)

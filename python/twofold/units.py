@@ -57,6 +57,7 @@ _KEYS: dict[tuple[str, str], Any] = {
     ("spin_down", "f1"): u.Hz / u.s,
     ("spin_down", "f2"): u.Hz / u.s**2,
     ("spin_down", "index"): _ONE,
+    ("spin_down", "damping_time"): u.d,
     **{("lorentz_violation", key): _ONE for key in ("eigenvalues", "tensor", "alpha_2")},
     ("lorentz_violation", "w"): constants.c,
     **{("initial", k): _ANGLE for k in ["alpha", "beta", "gamma", "alpha_0", "beta_0", "phase", "wobble", "azimuth", "precession_phase"]},

@@ -10,12 +10,12 @@ use crate::error::Error;
 pub enum InferenceError {
     /// The data do not determine the unknowns: each direction along which they do not change.
     Degenerate(Vec<String>),
-    /// Fewer data than unknowns.
+    /// Fewer data than the unknowns take.
     TooFew {
         /// Data.
         data: usize,
-        /// Unknowns.
-        unknowns: usize,
+        /// How many would do: as many as there are unknowns for a Fisher matrix, one more for a fit.
+        least: usize,
     },
     /// A datum of a turn in which the model has no pulse, or two.
     NoPulse {
@@ -71,8 +71,8 @@ impl fmt::Display for InferenceError {
                 directions.iter().try_for_each(|direction| write!(f, "\n  {direction}"))?;
                 write!(f, "\nleave out one of each, or add data of another kind")
             }
-            Self::TooFew { data, unknowns } => {
-                write!(f, "{data} data: allowed are more than the {unknowns} unknowns")
+            Self::TooFew { data, least } => {
+                write!(f, "{data} data: allowed are {least} or more for so many unknowns")
             }
             Self::NoPulse { turn, near } => write!(
                 f,

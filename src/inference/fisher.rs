@@ -43,7 +43,7 @@ impl Fisher {
         unknowns: &[Parameter],
     ) -> Result<Self, InferenceError> {
         if data.len() < unknowns.len() {
-            return Err(InferenceError::TooFew { data: data.len(), unknowns: unknowns.len() });
+            return Err(InferenceError::TooFew { data: data.len(), least: unknowns.len() });
         }
         Ok(Self::of_jacobian(&jacobian(parameters, events, data, unknowns)?.weighted(data), unknowns, parameters))
     }
@@ -187,7 +187,7 @@ mod tests {
         let datum =
             Datum { observable: Observable::StrainPlus, place: Place::Time(1.0), epoch: 0.0, value: 0.0, sigma: 1.0 };
         let refused = Fisher::of(&star, &[], &[datum], &[Parameter::Spin, Parameter::Beta]).expect_err("too few");
-        assert_eq!(refused, InferenceError::TooFew { data: 1, unknowns: 2 });
+        assert_eq!(refused, InferenceError::TooFew { data: 1, least: 2 });
         assert!(Fisher::of(&star, &[], &[datum], &[Parameter::Spin]).is_ok());
     }
 

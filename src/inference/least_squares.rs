@@ -99,7 +99,7 @@ pub(super) fn least_squares<M: Model>(
     unknowns: &[M::Unknown],
 ) -> Result<Fit<M>, InferenceError> {
     if comparison.len() <= unknowns.len() {
-        return Err(InferenceError::TooFew { data: comparison.len(), unknowns: unknowns.len() });
+        return Err(InferenceError::TooFew { data: comparison.len(), least: unknowns.len() + 1 });
     }
     if unknowns.is_empty() {
         return Err(Error::Unsupported { what: "a fit", why: "it has no unknowns" }.into());
@@ -319,10 +319,10 @@ mod tests {
     fn too_few_data_and_no_unknowns_are_refused() {
         let two = Functions { count: 2, ..LINE };
         let found = least_squares(&Numbers::unbounded([1.0; 3]), &two, &[A, B, Fraction]).expect_err("too few");
-        assert_eq!(found, InferenceError::TooFew { data: 2, unknowns: 3 });
+        assert_eq!(found, InferenceError::TooFew { data: 2, least: 4 });
         let found = least_squares(&Numbers::unbounded([1.0; 3]), &Functions { count: 2, ..LINE }, &[A, B])
             .expect_err("as many");
-        assert_eq!(found, InferenceError::TooFew { data: 2, unknowns: 2 });
+        assert_eq!(found, InferenceError::TooFew { data: 2, least: 3 });
         let found = least_squares(&Numbers::unbounded([1.0; 3]), &LINE, &[]).expect_err("none");
         assert!(matches!(found, InferenceError::Model(Error::Unsupported { what: "a fit", .. })), "{found:?}");
     }

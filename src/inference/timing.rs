@@ -199,7 +199,7 @@ pub fn timing_fisher(
 ) -> Result<Fisher<TimingModel>, InferenceError> {
     data.check()?;
     if data.len() < unknowns.len() {
-        return Err(InferenceError::TooFew { data: data.len(), unknowns: unknowns.len() });
+        return Err(InferenceError::TooFew { data: data.len(), least: unknowns.len() });
     }
     Ok(Fisher::of_jacobian(&data.numbered(model)?.linearised(model, unknowns)?.1, unknowns, model))
 }
@@ -352,7 +352,7 @@ mod tests {
         let few =
             TimingData { priors: vec![Prior { parameter: Phase, mean: 0.0, sigma: 1.0 }], ..TimingData::default() };
         let refused = timing_fisher(&model, &few, &[Phase, F0]).expect_err("too few");
-        assert_eq!(refused, InferenceError::TooFew { data: 1, unknowns: 2 });
+        assert_eq!(refused, InferenceError::TooFew { data: 1, least: 2 });
         let enough = timing_fisher(&model, &few, &[Phase]).expect("one of each");
         assert!((enough.sigmas()[0] - 1.0).abs() < 1e-12);
     }

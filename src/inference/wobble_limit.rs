@@ -54,7 +54,7 @@ pub fn wobble_limits(
         fitted.moved(&[(Wobble, -wobble), (PrecessionRate, rate - old_rate), (PrecessionPhase, phase - old_phase)])
     };
     if data.arrivals.len() <= unknowns.len() {
-        return Err(InferenceError::TooFew { data: data.arrivals.len(), unknowns: unknowns.len() });
+        return Err(InferenceError::TooFew { data: data.arrivals.len(), least: unknowns.len() + 1 });
     }
     let rest = without(0.0, 0.0)?;
     let data = data.numbered(&rest)?;
@@ -119,7 +119,7 @@ mod tests {
             let data = TimingData { arrivals, ..TimingData::default() };
             let found = wobble_limits(&model, &data, &unknowns, &[1e-6], 0.95);
             assert!(
-                matches!(found, Err(InferenceError::TooFew { data, unknowns: 2 }) if data == times.len()),
+                matches!(found, Err(InferenceError::TooFew { data, least: 3 }) if data == times.len()),
                 "{found:?}"
             );
         }

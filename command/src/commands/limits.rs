@@ -11,7 +11,7 @@ use twofold::nalgebra::Vector3;
 use twofold::observables::bound::preferred_frame_bound;
 use twofold::observables::pulsar::timing_model::{TimingModel, TimingParameter};
 use twofold::units::geometrised::KILOMETRE;
-use twofold_scene::measurements::{DataFile, named, parse_noise};
+use twofold_scene::measurements::{named, parse_noise, read_timing};
 use twofold_scene::pulsar_table::{CONFIDENCE, limit_over_directions};
 use twofold_scene::pulsar_timing::{PulsarScene, decimal};
 use twofold_scene::scene_file::Columns;
@@ -176,23 +176,7 @@ fn read(args: &LimitsArgs, pulsar: &PulsarScene, start: &TimingModel) -> Result<
         let key = observable.key();
         return Err(Failure::BadInput(format!("--observe {key}: allowed here are arrivals and widths")));
     }
-    let mut data = TimingData { priors: args.prior.clone(), ..TimingData::default() };
-    for path in &args.data {
-        let file = DataFile::read(path).map_err(Failure::BadInput)?;
-        let mut more = TimingData::default();
-        file.add_timing(&pulsar.epoch, &noise, &mut more).map_err(Failure::BadInput)?;
-        // Each file counts its pulses from one of its own.
-        let more = more.numbered(start)?;
-        let again =
-            more.arrivals.first().is_some_and(|first| data.arrivals.iter().any(|other| other.time == first.time));
-        if again || more.widths.first().is_some_and(|first| data.widths.iter().any(|other| other.time == first.time)) {
-            return Err(Failure::BadInput(format!(
-                "{path}: its first datum is in a file before it: allowed are data measured once"
-            )));
-        }
-        data.arrivals.extend(more.arrivals);
-        data.widths.extend(more.widths);
-    }
+    let data = read_timing(&args.data, &pulsar.epoch, &noise, Some(start)).map_err(Failure::BadInput)?;
     for (observable, none) in
         [(Observable::Arrivals, data.arrivals.is_empty()), (Observable::Widths, data.widths.is_empty())]
     {
@@ -204,7 +188,7 @@ fn read(args: &LimitsArgs, pulsar: &PulsarScene, start: &TimingModel) -> Result<
     if data.arrivals.is_empty() && data.widths.is_empty() {
         return Err(Failure::BadInput(format!("{}: no data", args.data.join(", "))));
     }
-    Ok(data)
+    Ok(TimingData { priors: args.prior.clone(), ..data })
 }
 
 fn tell_fit(found: &Fit<TimingModel>, data: &TimingData, pulsar: &PulsarScene) {

@@ -200,7 +200,7 @@ mod tests {
         assert_eq!(roughness(Ok(0.29)), None);
         let text = "chi^2 is off its parabola by 0.3 at one standard deviation: the error bars are rough";
         assert_eq!(roughness(Ok(0.3)), Some(text.into()));
-        let text = roughness(Err(InferenceError::TooFew { data: 1, unknowns: 2 })).expect("a note");
+        let text = roughness(Err(InferenceError::TooFew { data: 1, least: 2 })).expect("a note");
         assert!(text.starts_with("the error bars are rough: a standard deviation away, "), "{text}");
     }
 }

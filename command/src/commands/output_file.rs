@@ -69,4 +69,13 @@ impl OutputFile {
             Err(error) => Err(Failure::Failed(format!("{} cannot be written: {}", self.path.display(), error.error))),
         }
     }
+
+    /// There is nothing to write: an older file of the name, if it may be replaced, goes.
+    pub(super) fn nothing(self) -> Result<(), Failure> {
+        if self.replace && self.path.is_file() {
+            let cannot = |error| Failure::Failed(format!("{} cannot be removed: {error}", self.path.display()));
+            fs::remove_file(&self.path).map_err(cannot)?;
+        }
+        Ok(())
+    }
 }

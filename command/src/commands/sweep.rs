@@ -182,7 +182,10 @@ fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<()
     for path in &args.merge {
         let file = File::open(path).map_err(|error| bad(path, error))?;
         parts.push((format!("--merge {}", path.display()), Box::new(BufReader::new(file))));
-        let Ok(part) = File::open(errors_beside(path)) else { continue };
+        let part = match File::open(errors_beside(path)) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+            part => part.map_err(|error| bad(&errors_beside(path), error))?,
+        };
         let mut part = BufReader::new(part);
         part.skip_until(b'\n').and_then(|_| io::copy(&mut part, &mut errors)).map_err(cannot)?;
         any_failed = true;
@@ -205,6 +208,8 @@ fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<()
     }
     if any_failed {
         errors_output.complete()?;
+    } else {
+        errors_output.nothing()?;
     }
     output.complete()?;
     if any_failed { Err(some_failed(&args.out)) } else { Ok(()) }

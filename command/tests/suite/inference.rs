@@ -159,7 +159,7 @@ fn data_that_are_too_few_or_of_no_pulse_are_refused() {
     let truth = model("tp-2");
     let all = data(&truth, 100.0, &TIMES_AND_WIDTHS);
     let too_few = fit(&truth, &all[..13], &Parameter::OF_PULSES, 100.0).expect_err("as many data as unknowns");
-    assert_eq!(too_few, InferenceError::TooFew { data: 13, unknowns: 13 });
+    assert_eq!(too_few, InferenceError::TooFew { data: 13, least: 14 });
     let mut strange = all.clone();
     let place = Place::Turn { number: 4000, near: 50.0 };
     strange.push(Datum { observable: Observable::Arrivals, place, epoch: 0.0, value: 50.0, sigma: 1e-5 });

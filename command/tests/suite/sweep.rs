@@ -166,6 +166,10 @@ fn threads_and_shards_do_not_change_a_byte() {
         assert!(why == "part-1.csv" || stderr(&refused).contains(why), "{}", stderr(&refused));
         assert!(!folder.names().iter().any(|name| name.contains("refused")), "{:?}", folder.names());
     }
+    // Errors that cannot be read, here a folder, are not taken for none.
+    let errors = folder.at("part-1.csv.errors.csv");
+    fs::remove_file(&errors).and_then(|()| fs::create_dir(&errors)).expect("a folder");
+    is_refused(&merge(&names, "refused.csv"), &["part-1.csv.errors.csv"]);
 }
 
 #[test]
@@ -198,8 +202,13 @@ fn bad_rows_are_reported_and_do_not_end_the_sweep() {
     folder.write("sweep.toml", SWEEP.replace("to = 2.1", "to = 2.0"));
     let refused = ends(folder.run(&["sweep", "sweep.toml", "--out", "table.csv"]), 2);
     assert!(stderr(&refused).contains("--out table.csv: exists; --force replaces it"), "{}", stderr(&refused));
+    let errors = folder.bytes("table.csv.errors.csv");
     ends(folder.run(&["sweep", "sweep.toml", "--out", "table.csv", "--force"]), 0);
     assert_eq!(folder.names(), ["sweep.toml", "table.csv"]);
+    // Nor does a merged one.
+    folder.write("merged.csv.errors.csv", errors);
+    ends(folder.run(&["sweep", "sweep.toml", "--out", "merged.csv", "--force", "--merge", "table.csv"]), 0);
+    assert_eq!(folder.names(), ["merged.csv", "sweep.toml", "table.csv"]);
 }
 
 /// A sweep of seconds, killed again and again, at a mark of its journal or some rows after one, is in the end the uninterrupted one.

@@ -1,7 +1,8 @@
-//! MeasuredArrival times and pulse widths over decades: `.tim` files, and tables as `twofold timing` writes them.
+//! Arrival times and pulse widths over decades: `.tim` files, and tables as `twofold timing` writes them.
 
 use twofold::epoch::Epoch;
 use twofold::inference::{MeasuredArrival, MeasuredWidth, Noise, Observable, TimingData};
+use twofold::observables::pulsar::timing_model::TimingModel;
 
 use super::DataFile;
 use super::data_file::MOST_ROWS;
@@ -15,6 +16,43 @@ const SIGMAS: std::ops::RangeInclusive<f64> = 1e-15..=1e6;
 
 /// Flags of a `.tim` that change a time or its phase.
 const CHANGING: [&str; 4] = ["-to", "-padd", "-addsat", "-jump"];
+
+/// The arrival times and widths of several files, as [`DataFile::add_timing`] reads each. Every file counts its pulses from one of its own: `model`
+/// tells which these are ([`TimingData::numbered`]). Without a model the numbers stay as they are, and one file alone may have some.
+///
+/// # Errors
+/// A file that cannot be read; a second file with numbers where there is no model; a file whose first datum is in one before it.
+pub fn read_timing(
+    paths: &[String],
+    epoch: &Epoch,
+    noise: &[Noise],
+    model: Option<&TimingModel>,
+) -> Result<TimingData, String> {
+    let has_numbers = |data: &TimingData| data.arrivals.iter().any(|arrival| arrival.number.is_some());
+    let mut data = TimingData::default();
+    for path in paths {
+        let mut more = TimingData::default();
+        DataFile::read(path)?.add_timing(epoch, noise, &mut more)?;
+        match model {
+            Some(model) => more = more.numbered(model).map_err(|error| format!("{path}: {error}"))?,
+            None if has_numbers(&data) && has_numbers(&more) => {
+                return Err(format!(
+                    "{path}: it numbers its pulses, and so does a file before it, perhaps from another pulse: allowed is a model to count them by, \
+                     or one file with numbers"
+                ));
+            }
+            None => (),
+        }
+        let again =
+            more.arrivals.first().is_some_and(|first| data.arrivals.iter().any(|other| other.time == first.time));
+        if again || more.widths.first().is_some_and(|first| data.widths.iter().any(|other| other.time == first.time)) {
+            return Err(format!("{path}: its first datum is in a file before it: allowed are data measured once"));
+        }
+        data.arrivals.extend(more.arrivals);
+        data.widths.extend(more.widths);
+    }
+    Ok(data)
+}
 
 impl DataFile {
     /// Adds the arrival times and widths of a `.tim` (FORMAT 1, barycentred, infinite frequency), or of a table with the columns `arrival_day [MJD]`, `arrival_fraction [d]` and, for widths,
