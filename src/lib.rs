@@ -1,7 +1,7 @@
 //! The rotation of spheroidal neutron stars under Lorentz violation: motions, what an observer sees of them, gradients of both, and fits.
 //!
 //! The model is that of Xu, Gao and Shao, *Precession of spheroids under Lorentz violation and observational consequences for neutron
-//! stars*. Every numbered equation but the action is a function, generic over the scalar type, with its number and LaTeX label. Nothing
+//! stars* ([arXiv:2012.01320](https://arxiv.org/abs/2012.01320)). Every numbered equation but the action is a function, generic over the scalar type, with its number and LaTeX label. Nothing
 //! here reads a file, prints or starts a thread.
 //!
 //! ```

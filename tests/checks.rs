@@ -32,7 +32,58 @@ fn main() {
     let mut trials: Vec<_> = all().into_iter().map(of_check).collect();
     // Last, when most of its figures are there.
     trials.push(Trial::test("page-of-claims", page_of_claims));
+    trials.push(Trial::test("figures-of-the-documentation", figures_of_the_documentation));
     libtest_mimic::run(&Arguments::from_args(), trials).exit();
+}
+
+/// In tables of `docs/` with a column `figure`, that of each check named in the last column is the one it measures: to the digits written, or, where
+/// rounding makes it and the machine matters, to a factor of two.
+fn figures_of_the_documentation() -> Result<(), Failed> {
+    let (mut seen, mut stale) = (0, String::new());
+    for page in std::fs::read_dir("docs")? {
+        let page = page?.path();
+        if page.extension().is_none_or(|extension| extension != "md") {
+            continue;
+        }
+        let mut has_figures = false;
+        for line in std::fs::read_to_string(&page)?.lines() {
+            let line = line.replace("\\|", "");
+            let cells: Vec<_> = line.trim_matches('|').split('|').map(str::trim).collect();
+            if !line.starts_with('|') || cells.len() < 3 {
+                has_figures = false;
+                continue;
+            }
+            has_figures |= cells[1] == "figure";
+            let name = cells[cells.len() - 1].trim_matches('`');
+            let Some(found) = has_figures.then(|| outcome(name.trim_start_matches("verify --filter "))).flatten()
+            else {
+                continue;
+            };
+            let measured = found.measured.as_ref().map_err(|message| format!("{name}: {message}"))?.figure;
+            seen += 1;
+            if !agrees(cells[1], measured) {
+                stale += &format!("\n{}: {name}: `{}`, and it measures {measured:e}", page.display(), cells[1]);
+            }
+        }
+    }
+    if seen < 50 || !stale.is_empty() { Err(format!("{seen} figures{stale}").into()) } else { Ok(()) }
+}
+
+/// Whether a text begins with a number, in percent or not, that is another one rounded.
+fn agrees(text: &str, measured: f64) -> bool {
+    let length = text.find(|c: char| !(c.is_ascii_digit() || ".e-".contains(c))).unwrap_or(text.len());
+    let (number, rest) = text.split_at(length);
+    let Ok(written) = number.parse::<f64>() else { return false };
+    let unit = if rest.trim_start().starts_with('%') { 0.01 } else { 1.0 };
+    let (digits, power) = number.split_once('e').unwrap_or((number, "0"));
+    let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len()) as i32;
+    let step = 10.0_f64.powi(power.parse::<i32>().expect("an exponent") - decimals);
+    let (least, most) = if written * unit < 1e-8 && written > 0.0 {
+        (written / 2.0, written * 2.0)
+    } else {
+        (written - 0.501 * step, written + 0.501 * step)
+    };
+    (least * unit..=most * unit).contains(&measured)
 }
 
 /// `docs/claims.md` is the generated page, and every check of it passes.

@@ -23,7 +23,7 @@ pub const KINDS: [(Kind, &str); 5] = [
 /// what each figure is.
 pub fn tables(results: &[Result], width: u16, detailed: bool) -> String {
     let longest_id = results.iter().map(|(check, _)| check.id.len()).max().unwrap_or(0);
-    let id_width = u16::try_from(longest_id).unwrap_or(u16::MAX).clamp(6, 38) + 2;
+    let id_width = u16::try_from(longest_id).unwrap_or(u16::MAX).max(6).saturating_add(2);
     let mut text = String::new();
     for (kind, about) in KINDS {
         let of_kind: Vec<_> = results.iter().filter(|(check, _)| check.kind == kind).collect();

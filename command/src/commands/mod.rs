@@ -228,3 +228,34 @@ fn end(status: u8, message: &str) -> ExitCode {
 fn note(text: &str) {
     let _ = writeln!(io::stderr(), "note: {text}");
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What the help, README and the pages of `docs/` tell the reader to type.
+    #[test]
+    fn commands_of_the_documentation_are_understood() {
+        let read = |path: &std::path::Path| std::fs::read_to_string(path).expect("a page");
+        let root = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
+        let pages = std::fs::read_dir(root.join("docs")).expect("the pages").map(|page| page.expect("a page").path());
+        let pages: Vec<_> = pages.filter(|page| page.is_file()).chain([root.join("README.md")]).collect();
+        let help = include_str!("../../data/examples.txt").lines().filter_map(|line| line.strip_prefix("  twofold "));
+        let pages: Vec<String> = pages.iter().map(|page| read(page)).collect();
+        let shown = pages.iter().flat_map(|page| page.lines()).filter_map(|line| {
+            let line = line.trim_start();
+            line.strip_prefix("$ twofold ").or_else(|| line.strip_prefix("cargo run --release -- "))
+        });
+        let mut count = 0;
+        for line in help.chain(shown) {
+            // Without remarks, redirections and the brackets of what may be left away.
+            let typed =
+                ["  ", " >", " 2>", " |", " #"].iter().fold(line, |line, end| line.split(end).next().unwrap_or(line));
+            let typed = typed.replace(['[', ']'], "");
+            let parsed = Cli::try_parse_from(std::iter::once("twofold").chain(typed.split_whitespace()));
+            assert!(parsed.is_ok(), "{line}");
+            count += 1;
+        }
+        assert!(count > 50, "{count}");
+    }
+}

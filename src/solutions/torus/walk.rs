@@ -63,13 +63,13 @@ pub(super) fn lattice(integrals: &Integrals<f64>, unit: f64, start: &Axes<f64>) 
             Walked::Thin if thin == THIN[1] => (),
             _ => return None,
         }
-        // The ways of a circle are the limit of those of the tori about it: `n` and `L` are moved.
+        // The ways of a circle are the limit of those of the tori about it: `n` or also `L` are moved.
         let [n, momentum, u] = start;
         let moved = Vector3::new(0.6, 0.5, -0.3) * MOVED;
-        match from(&[(n + moved).normalize(), momentum + moved * unit, *u]) {
+        [0.0, unit].into_iter().find_map(|size| match from(&[(n + moved).normalize(), momentum + moved * size, *u]) {
             Walked::Lattice(lattice) => Some(lattice),
             _ => None,
-        }
+        })
     })
 }
 

@@ -1,7 +1,7 @@
 //! The equations of motion in Euler angles and in regular form. Eq. (25).
 
 use crate::derivation::euler_lagrange::euler_lagrange;
-use crate::derivation::spheroid_motion::{accelerations, axis_angles, gamma_acceleration};
+use crate::derivation::spheroid_motion::{accelerations, axis_angles, fixed_coefficients, gamma_acceleration};
 use crate::prelude::*;
 
 checks! {
@@ -17,6 +17,10 @@ checks! {
     inertial_frame: Property "inertial-frame" [7, 25, 60];
     /// with any three eigenvalues a spin along X, Y or Z, both ways, is stationary: along X and Y beta stays at pi/2
     spin_along_principal_axis: Property "spin-along-principal-axis" [25, 27];
+    /// where beta' = 0, beta'' changes at the rate -(C/I^xx) (s^XX - s^YY) sin(2 alpha) sin(beta) (4 cos(beta) alpha' - I^zz Omega^z/I^xx)
+    constant_inclination: Autodiff "constant-inclination" [24, 25, 27];
+    /// a star without spin whose axis turns in a principal plane stays in it: in X-Y, beta stays at pi/2
+    swing_in_principal_plane: Property "swing-in-principal-plane" [25, 27];
 }
 
 fn spin_equation<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -82,4 +86,30 @@ fn spin_along_principal_axis<F: Differentiable>(p: &Point<F>) -> Vec<F> {
         [turning, torque]
     };
     components![[Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| [rates(axis), rates(-axis)])]
+}
+
+fn constant_inclination<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (spheroid, q) = (&p.spheroid, &p.angles);
+    let v = EulerRates { beta: F::zero(), ..p.rates };
+    let a = accelerations(spheroid, &p.s, q, &v);
+    let moving = axis_angles(&moving_angles(q, &v), &moving_rates(&v, &a));
+    let spin = F::fixed(spin_in_angles(q, &v));
+    let (_, acceleration) =
+        euler_angle_accelerations(&fixed_spheroid(spheroid), &fixed_coefficients(&p.s), spin, &moving);
+    let ((sa, ca), (sb, cb)) = (q.alpha.sin_cos(), q.beta.sin_cos());
+    let pull = spheroid.constant_c * p.s.asymmetry() * sa * ca * 2.0 / spheroid.inertia_xx;
+    let omega = spheroid.free_precession_constant(spin_in_angles(q, &v));
+    vec![F::derivative(acceleration) + pull * sb * (cb * v.alpha * 4.0 - omega)]
+}
+
+fn swing_in_principal_plane<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (sine, cosine) = p.angles.alpha.sin_cos();
+    let off = |normal: usize| {
+        let [one, other] = [1, 2].map(|step| (normal + step) % 3);
+        let (mut axis, mut momentum) = (Vector3::zeros(), Vector3::zeros());
+        (axis[one], axis[other], momentum[normal]) = (cosine, sine, p.spheroid.inertia_xx * p.rates.alpha);
+        let (turning, torque) = reduced_rates(&p.spheroid, &p.s.tensor(), &axis, &momentum);
+        [turning[normal], torque[one], torque[other]]
+    };
+    components![[0, 1, 2].map(off)]
 }
