@@ -235,7 +235,7 @@ fn a_killed_sweep_goes_on_to_the_same_bytes() {
         is_killed = is_killed && (kills % 2 == 0 || comes_to(&mut child, || folder.length(rows) > more));
         child.kill().expect("a signal");
         let output = child.wait_with_output().expect("status");
-        continued += usize::from(stderr(&output).contains("scenes are there already"));
+        continued += usize::from(stderr(&output).contains("scenes are already computed"));
         if !is_killed || output.status.code().is_some() {
             break output;
         }
@@ -270,9 +270,9 @@ fn a_huge_sweep_takes_little_memory_and_can_be_interrupted() {
         assert!(peak < 150_000, "{peak} kB");
         crate::common::send(&child, "TERM");
         let message = stderr(&ends(child.wait_with_output().expect("status"), 130));
-        assert!(message.contains("; the same command goes on from there"), "{message}");
-        assert_eq!(message.contains("scenes are there already"), continued, "{message}");
-        assert!(!continued || message.contains(&format!("note: {there} of 500000000 scenes are there already")));
+        assert!(message.contains("; the same command continues from there"), "{message}");
+        assert_eq!(message.contains("scenes are already computed"), continued, "{message}");
+        assert!(!continued || message.contains(&format!("note: {there} of 500000000 scenes are already computed")));
         assert!(message.contains(" rows of 19 columns, about 180.5 GB") || continued, "{message}");
         // `COMPUTED scenes in SECONDS s, RATE scenes/s; FAILED of ALL failed`, then `ALL of 500000000 scenes are in`.
         let before = there;
@@ -289,7 +289,7 @@ fn a_huge_sweep_takes_little_memory_and_can_be_interrupted() {
     let before = folder.bytes(rows);
     let refused = ends(folder.run(&["sweep", "sweep.toml", "--out", "table.csv", "--shard", "2/2"]), 2);
     let message = stderr(&refused);
-    assert!(message.contains("line 3 was `seed = 3` and is `seed = 4`; --restart begins anew"), "{message}");
+    assert!(message.contains("line 3 was `seed = 3` and is `seed = 4`; --restart starts over"), "{message}");
     assert!(before == folder.bytes(rows));
 }
 
