@@ -79,7 +79,10 @@ pub(super) fn bounds(args: &BoundsArgs) -> Result<(), Failure> {
         let _ = writeln!(text, "{}\n", table_of(rows));
     }
     text.push_str(&recommendation(chosen, &limit, of_chosen.map_or(&[], |(_, rows)| rows)));
-    let _ = writeln!(text, "\nLimits published by others; components in the Sun-centred frame, most from fits with all of them free");
+    let _ = writeln!(
+        text,
+        "\nLimits published by others; components in the Sun-centred frame, most from fits with all of them free"
+    );
     let _ = writeln!(text, "{}", published_table());
     print(&text)
 }
@@ -347,7 +350,10 @@ mod tests {
             recommendation(chosen, &limit, &rows(chosen, None).expect("rows"))
         };
         let (measured, stated) = (text("[0.020, 0.108]"), text("0.020"));
-        for part in ["or for the limit given:\n  the choice depends on the errors, not on the measured values. ", "  Included:\n  - the error of Delta W"] {
+        for part in [
+            "or for the limit given:\n  the choice depends on the errors, not on the measured values. ",
+            "  Included:\n  - the error of Delta W",
+        ] {
             assert!(measured.contains(part) && stated.contains(part), "{measured}{stated}");
         }
         assert!(

@@ -100,9 +100,7 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
     };
     if let Some(prior) = data.priors.iter().find(|prior| !unknowns.contains(&prior.parameter)) {
         let key = prior.parameter.key();
-        return Err(refuse(format!(
-            "--prior {key}: allowed is a parameter that is fitted; --parameters has no {key}"
-        )));
+        return Err(refuse(format!("--prior {key}: allowed is a parameter that is fitted; --parameters has no {key}")));
     }
     let refused = |error: InferenceError| match error {
         InferenceError::Model(error) => super::run::failed(error),
@@ -137,10 +135,7 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
             rows.push(either(&|value| significant(value, 4), "none"));
             plain.push(either(&|value| format!("{value:?}"), ""));
         }
-        page += &format!(
-            "\nLimits on the wobble at {} %, with chi and torque_share held fixed\n",
-            100.0 * CONFIDENCE
-        );
+        page += &format!("\nLimits on the wobble at {} %, with chi and torque_share held fixed\n", 100.0 * CONFIDENCE);
         page += &readable(&rows);
         tables = plain;
     }

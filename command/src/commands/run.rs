@@ -120,7 +120,9 @@ pub(super) fn failed(error: twofold::Error) -> Failure {
 pub(super) fn read_scene(name: &str, columns: Columns<'_>) -> Result<Scene, Failure> {
     let scene = read_with_spin_down(name, columns)?;
     if scene.spin_down.is_some() {
-        note(&format!("{name}: [spin_down] is for `twofold timing`; here the star keeps the rotation rate that it has at the epoch"));
+        note(&format!(
+            "{name}: [spin_down] is for `twofold timing`; here the star keeps the rotation rate that it has at the epoch"
+        ));
     }
     Ok(scene)
 }

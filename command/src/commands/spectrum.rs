@@ -50,7 +50,9 @@ fn note_lines(column: &Column, summary: &LinesSummary) {
     }
     let [x, y, z] = summary.pole;
     if z < 1.0 {
-        note(&format!("these are rates of angles about the axis ({x:.6}, {y:.6}, {z:.6}), about which L precesses, not about Z"));
+        note(&format!(
+            "these are rates of angles about the axis ({x:.6}, {y:.6}, {z:.6}), about which L precesses, not about Z"
+        ));
     }
     note(&format!("{name} has the constant term {:?}{unit}", summary.constant));
     if let Some(rounding) = summary.rounding {

@@ -101,7 +101,10 @@ fn rounding_beside_a_constant_is_not_listed() {
     for (scene, column) in [("b1937+21", "h_plus"), ("tp-1", "E")] {
         let output = twofold(&["spectrum", scene, "--of", column]);
         assert!(lines_of(&output).is_empty(), "{scene} {column}: {}", stdout(&output));
-        has_all(&stderr(&output), &["constant term", "lines below ", "a constant has as much by rounding", "has no line"]);
+        has_all(
+            &stderr(&output),
+            &["constant term", "lines below ", "a constant has as much by rounding", "has no line"],
+        );
     }
 }
 
