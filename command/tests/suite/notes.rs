@@ -87,7 +87,7 @@ fn notes_and_plans_of_a_physical_star_have_its_times_in_seconds() {
     let first = 7.0 + 0.1 / (40.0 * std::f64::consts::PI);
     assert!((number_after(&told, "first at t = ") - first).abs() < 1e-8, "{told}");
     let plan = stdout(&folder.run(&["run", "scene.toml", "--columns", "e_z", "--method", "taylor", "--explain"]));
-    let line = plan.lines().find(|line| line.starts_with("stretch ")).expect("a stretch");
+    let line = plan.lines().find(|line| line.starts_with("span ")).expect("a span");
     let [_, from, "to", to, "s"] = line.split_whitespace().collect::<Vec<_>>()[..] else { panic!("{line}") };
     assert!(
         [(from, 7.0), (to, 7.2)].iter().all(|(text, t)| (text.parse::<f64>().expect("a time") - t).abs() < 1e-12),

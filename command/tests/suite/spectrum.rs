@@ -129,7 +129,7 @@ fn a_star_that_spins_about_its_axis_has_one_line() {
 #[test]
 fn what_has_no_lines_is_refused_with_a_reason() {
     for (scene, column, words) in [
-        ("tp-1", "alpha", "turns without end"),
+        ("tp-1", "alpha", "grows without bound"),
         ("tp-1", "beta_printed", "a formula in time"),
         ("tp-1", "gravity", "no column"),
     ] {

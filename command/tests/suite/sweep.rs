@@ -159,7 +159,7 @@ fn threads_and_shards_do_not_change_a_byte() {
     for (parts, why) in [
         (&names[1..], "part-1.csv") as (&[&str], &str),
         (&names[..6], "is the last and ends before scene 685: the sweep has 800"),
-        (&[names[0], names[0]], "has scene 0 where scene 114 is to come"),
+        (&[names[0], names[0]], "has scene 0 where scene 114 is expected"),
         (&["sweep.toml"], "does not begin with the header"),
     ] {
         let refused = ends(merge(parts, "refused.csv"), 2);

@@ -62,7 +62,7 @@ fn width_change(entry: &Entry<'_>) -> Result<Quantity, Fault> {
     const MOST: f64 = 10.0;
     let change = quantity_within(entry, "from -10 to 10 [deg]", |change| change.abs() <= MOST, |_| MOST)?;
     if change.value == 0.0 && (change.spread == Spread::Rounded || change.uncertainty == 0.0) {
-        return Err(entry.refuse("another number, or 0 with an uncertainty above zero: a limit of zero is none"));
+        return Err(entry.refuse("a number other than zero, or 0 with an uncertainty above zero: zero is not a limit"));
     }
     Ok(change)
 }

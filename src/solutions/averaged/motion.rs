@@ -247,7 +247,7 @@ impl<S: Real> AveragedSolution<S> {
             spread > 0.0,
             "largest difference of two eigenvalues of s^IJ",
             spread,
-            "above zero, if derivatives are wanted",
+            "above zero: derivatives of the averaged motion need an anisotropic s^IJ",
         )?;
         require_round(&self.top)
     }
