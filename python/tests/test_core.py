@@ -128,7 +128,7 @@ class TestScene:
             (lambda: twofold.Scene("tp-1", toml="x = 1"), ["one source"]),
             (lambda: twofold.Scene("tp-1").table(["foo"]), ["foo", "angles"]),
             (lambda: twofold.Scene("tp-1").table(tolerance=1.0), ["tolerance", "1", "1e-14"]),
-            (lambda: twofold.Scene("tp-1").lines("alpha"), ["alpha", "turns"]),
+            (lambda: twofold.Scene("tp-1").lines("alpha"), ["alpha", "without bound"]),
             (lambda: twofold.Scene("tp-1").pulsar(), ["physical"]),
             (lambda: twofold.Scene("tp-1").motion(method="euler"), ["euler", "taylor"]),
             (lambda: twofold.Scene("tp-1").fisher({"arrival": 1.0}), ["arrival", "arrivals"]),

@@ -131,7 +131,7 @@ fn what_has_no_lines_is_refused_with_a_reason() {
     for (scene, column, words) in [
         ("tp-1", "alpha", "grows without bound"),
         ("tp-1", "beta_printed", "a formula in time"),
-        ("tp-1", "gravity", "no column"),
+        ("tp-1", "gravity", "not a column"),
     ] {
         let output = ends(twofold(&["spectrum", scene, "--of", column]), 2);
         assert!(stderr(&output).contains(words), "{}", stderr(&output));
