@@ -101,7 +101,7 @@ fn eta(section: &Section<'_>) -> Result<Eta<Quantity>, Fault> {
         return Ok(Eta::Given(quantity(&eta, "above 0 and at most 1e6", |x| x > 0.0 && x <= 1e6)?));
     }
     let Some(beta_0) = section.optional("beta_0") else { return Ok(Eta::Unknown) };
-    let allowed = "above 0 and below 180 [deg], 0.001 or more from 0, 90 and 180: an axis at rest bounds nothing";
+    let allowed = "above 0 and below 180 [deg], 0.001 or more from 0, 90 and 180: an axis at rest gives no bound";
     let moves = |b: f64| [0.0, 90.0, 180.0].iter().all(|rest| (b - rest).abs() >= 1e-3) && b > 0.0 && b < 180.0;
     Ok(Eta::Inclination(quantity(&beta_0, allowed, moves)?))
 }
