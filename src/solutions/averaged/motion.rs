@@ -62,7 +62,7 @@ fn require_round<S: Real>(top: &Top<S>) -> Result<(), Error> {
         complement > 0.0,
         "distance k' of L from rest and from the separatrix",
         complement,
-        "above zero, if derivatives are wanted",
+        "above zero, for derivatives",
     )
 }
 
