@@ -101,7 +101,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     let (word, error) = match summary.error {
         None => return Ok(()),
         Some(ErrorAtEnd::Estimated(error)) => ("estimated error", error),
-        Some(ErrorAtEnd::Foreseen(error)) => ("error predicted by the plan", error),
+        Some(ErrorAtEnd::Foreseen(error)) => ("predicted error", error),
     };
     note(&format!("{word} of n, e_x and L / |L| at the end of the span: {error:.1e}"));
     Ok(())

@@ -125,7 +125,7 @@ fn the_next_method_is_the_second_cheapest() {
 #[test]
 fn an_error_that_is_foreseen_is_not_called_estimated() {
     let (before, _) = built_in("tp-1").expect("tp-1").toml.split_once("[time]").expect("times");
-    for (span, words) in [(100.0, "note: estimated error"), (45_000.0, "note: error predicted by the plan")] {
+    for (span, words) in [(100.0, "note: estimated error"), (45_000.0, "note: predicted error")] {
         let times = format!("[time]\nspan = {span}\nsamples = 2\n[output]\ntolerance = 1e-6\nmethod = \"taylor\"\n");
         let folder = Folder::with(&[("scene.toml", &format!("{before}{times}"))]);
         let told = stderr(&folder.run(&["run", "scene.toml", "--columns", "e_z"]));
