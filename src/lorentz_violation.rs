@@ -145,7 +145,7 @@ pub fn principal_frame_with_derivatives<S: Real>(
                 gap.abs() > 1e-12 * size,
                 "difference of two eigenvalues of s^IJ",
                 gap,
-                "above 1e-12 of the largest, if derivatives are wanted",
+                "above 1e-12 of the largest, for derivatives",
             )?;
             turn[axis] = off / (turned[(i, i)] - turned[(j, j)]);
         }
@@ -184,7 +184,7 @@ pub fn principal_frame_along(
         xx - zz > 1e-12 * xx.max(-zz),
         "difference of two eigenvalues of s^IJ",
         xx - zz,
-        "above 1e-12 of the largest, if derivatives are wanted",
+        "above 1e-12 of the largest, for derivatives",
     )?;
     let slope = tensor.map(|entry| entry.eps);
     let slope_in = |frame: &Matrix3<f64>| frame * (slope + slope.transpose()) * 0.5 * frame.transpose();
@@ -259,9 +259,9 @@ impl SymmetryOfTensor {
     pub(crate) fn refuse_asymmetry(&self) -> Result<(), Error> {
         Error::ensure(
             self.is_symmetric_within_rounding(),
-            "part of s^IJ without symmetry about an axis, relative",
+            "relative deviation of s^IJ from two equal eigenvalues",
             self.asymmetry.norm() / self.size,
-            "at most 8 roundings: two equal eigenvalues",
+            "at most 8 roundings: two equal eigenvalues are needed",
         )
     }
 }

@@ -78,9 +78,9 @@ impl TimingData {
         Ok(Self { data: inference::TimingData { arrivals, widths, priors: Vec::new() } })
     }
 
-    /// The data of files: a `.tim` (FORMAT 1, barycentred), or tables as `Pulsar.arrivals` has them, whose standard deviations `observe` gives as `"arrivals:1e-6,widths:1e-5"` (s). Times
-    /// are counted from the epoch of a model (MJD, TDB). Each file counts its pulses from one of its own: where more than one has numbers, `model` is the
-    /// timing model by which they are found.
+    /// The data of files: a `.tim` (FORMAT 1, barycentred), or tables as `Pulsar.arrivals` gives them, with the standard deviations in `observe`, as `"arrivals:1e-6,widths:1e-5"` (s). Times
+    /// are counted from the epoch of a model (MJD, TDB). Each file numbers its pulses from its own first: where more than one has numbers, `model` is the
+    /// timing model by which they are matched.
     #[staticmethod]
     #[pyo3(signature = (paths, epoch, *, model=None, observe=None))]
     fn read(
@@ -156,7 +156,7 @@ fn read(name: &str, given: Option<Numbers>) -> PyResult<Vec<f64>> {
     given.map_or_else(|| Ok(Vec::new()), |given| given.list(name))
 }
 
-/// What data tell of unknown parameters: values, standard deviations, correlations. The result of `Scene.fisher` and, with residuals, of fits.
+/// Estimates of unknown parameters: values, standard deviations, correlations. The result of `Scene.fisher` and, with residuals, of fits.
 #[pyclass(frozen, module = "twofold", name = "Fit")]
 pub struct Fit {
     /// The names of the unknowns.
@@ -165,23 +165,23 @@ pub struct Fit {
     values: Vec<f64>,
     sigmas: Vec<f64>,
     covariance: Vec<f64>,
-    /// What the data do not determine, in words.
+    /// The combinations that the data do not determine, in words.
     #[pyo3(get)]
     undetermined: Vec<String>,
-    /// The fitted model: a `TimingModel`. None of a fit of a scene's motion, whose values are all there is.
+    /// The fitted model: a `TimingModel`. None for a fit of a scene's motion, which has only its values.
     #[pyo3(get)]
     model: Option<TimingModel>,
-    /// The sum of the squares of the residuals in standard deviations. None of a Fisher matrix.
+    /// The sum of the squares of the residuals in standard deviations. None for a Fisher matrix.
     #[pyo3(get)]
     chi_squared: Option<f64>,
-    /// Data less unknowns.
+    /// Degrees of freedom: the number of data less that of unknowns.
     #[pyo3(get)]
     degrees: Option<usize>,
     residuals: Option<Vec<f64>>,
     /// Whether the residuals are `"as stated"` by their errors, `"larger"` or `"smaller"`, at six standard deviations of chi^2.
     #[pyo3(get)]
     judged: Option<&'static str>,
-    /// By how much chi^2 is off its parabola at one standard deviation: error bars are rough from 0.3 on.
+    /// Deviation of chi^2 from its parabola at one standard deviation: error bars are rough from 0.3 on.
     #[pyo3(get)]
     nonlinearity: Option<f64>,
 }
@@ -245,7 +245,7 @@ impl Fit {
         Ok(Array(PyArray1::from_slice(py, &self.covariance).reshape([count, count])?.into_any()))
     }
 
-    /// Measured less fitted, in standard deviations.
+    /// Residuals, measured less fitted, in standard deviations.
     #[getter]
     fn residuals<'py>(&self, py: Python<'py>) -> Option<Array<'py>> {
         self.residuals.as_ref().map(|residuals| array(py, residuals.iter().copied()))
@@ -269,7 +269,7 @@ impl Fit {
     }
 }
 
-/// Fits a timing model to data. `unknowns` are names as of `TimingModel.names`; `priors` gives a mean and a standard deviation of some, as `{"chi": (1.2, 0.05)}`.
+/// Fits a timing model to data. `unknowns` are names from `TimingModel.names`; `priors` gives a mean and a standard deviation of some, as `{"chi": (1.2, 0.05)}`.
 #[pyfunction]
 #[pyo3(signature = (model, data, unknowns, *, priors=None))]
 pub fn fit_timing(
@@ -304,7 +304,7 @@ pub fn fit_timing(
     Ok(Fit { model: Some(model), ..Fit::of_fit(found, |_| 1.0, nonlinearity) })
 }
 
-/// The wobble that arrival times allow at some periods of precession (s), of a star that was fitted to them without one by the `unknowns`. A dict of arrays: `period` (s), the `best` wobble (rad), the `gain` of chi^2 by it, and the `limit` (rad) that is not exceeded with the probability `confidence`; infinite where the data do not limit it. chi and the share of the torque are those of the model.
+/// Upper limits on the wobble at some precession periods (s), for a model that was fitted to the arrival times without a wobble by the `unknowns`. A dict of arrays: `period` (s), the `best` wobble (rad), the `gain` (the decrease of chi^2 by it), and the `limit` (rad) that is not exceeded with the probability `confidence`; infinite where the data do not limit it. chi and the torque share are those of the model.
 #[pyfunction]
 #[pyo3(signature = (model, data, unknowns, periods, *, confidence=0.95))]
 pub fn wobble_limits<'py>(
@@ -334,7 +334,7 @@ pub fn wobble_limits<'py>(
     Ok(table)
 }
 
-/// What data tell of a small wobble `x = theta (cos psi_0, sin psi_0)` (rad) in which residuals are linear, in standard deviations and without what other unknowns take up: `residuals + along x[0] + across x[1]`. A dict: the `best` x, the `gain` of chi^2 by it, and the `limit` on theta that is not exceeded with the probability `confidence`, with a flat prior for theta and psi_0; infinite above 0.1 rad.
+/// The posterior of a small wobble `x = theta (cos psi_0, sin psi_0)` (rad) in which the residuals are linear: `residuals + along x[0] + across x[1]`, in standard deviations and with the other unknowns projected out. A dict: the `best` x, the `gain` (the decrease of chi^2 by it), and the `limit` on theta that is not exceeded with the probability `confidence`, with a flat prior for theta and psi_0; infinite above 0.1 rad.
 #[pyfunction]
 #[pyo3(signature = (along, across, residuals, *, confidence=0.95))]
 pub fn wobble_posterior<'py>(

@@ -83,7 +83,7 @@ pub mod kernels {
         broadcast(py, [spin], |[spin]| Ok(bound::fluid_inertia_over_c(spin)))
     }
 
-    /// The change of the angle `lambda` (rad) of the spin axis to the line of sight that changes the pulse width by `width_change`, Eq. (42).
+    /// The change of the angle `lambda` (rad) between the spin axis and the line of sight for a change `width_change` of the pulse width, Eq. (42).
     #[pyfunction]
     fn lambda_change<'py>(
         py: Python<'py>,
@@ -96,7 +96,7 @@ pub mod kernels {
         broadcast(py, given, |[lambda, chi, width, change]| bound::lambda_change(lambda, chi, width, change))
     }
 
-    /// The bound on `|2 s^ZZ - s^XX - s^YY|` by a change of `cos lambda` over an `interval` (s), Eq. (41), for `I^zz / C` (s^2), a spin (rad/s) and a factor `eta`.
+    /// The bound on `|2 s^ZZ - s^XX - s^YY|` from a change of `cos lambda` over an `interval` (s), Eq. (41), for `I^zz / C` (s^2), a spin (rad/s) and a factor `eta`.
     #[pyfunction]
     fn combination_bound<'py>(
         py: Python<'py>,

@@ -62,7 +62,7 @@ impl Motion {
         Ok((part(0)?, part(1)?, part(2)?))
     }
 
-    /// The Euler angles alpha, beta and gamma (rad), which count their turns from the start: an array of shape (..., 3). NaN where the symmetry axis is on a pole.
+    /// The Euler angles alpha, beta and gamma (rad), continuous (unwrapped) from the start: an array of shape (..., 3). NaN where the symmetry axis is on a pole.
     fn angles<'py>(&self, py: Python<'py>, t: Numbers) -> PyResult<Array<'py>> {
         let angles = ContinuousAngles::new(&*self.motion, 0.0, &self.scene.initial_angles).map_err(raised)?;
         let angles = Mutex::new(angles);

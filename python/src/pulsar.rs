@@ -14,7 +14,7 @@ use crate::scene::Scene;
 use crate::table::Table;
 use crate::timing_model::TimingModel;
 
-/// The pulsar of a scene, by its phases: exact after any number of turns. Times `t` are in seconds since the epoch of the scene (TDB at the barycentre).
+/// The pulsar of a scene, computed by its phases, which stay exact after any number of turns. Times `t` are in seconds since the epoch of the scene (TDB at the barycentre).
 #[pyclass(frozen, module = "twofold")]
 pub struct Pulsar {
     pub(crate) scene: Py<Scene>,
@@ -29,8 +29,8 @@ pub fn epoch(date: f64) -> PyResult<Epoch> {
 
 #[pymethods]
 impl Pulsar {
-    /// The pulses nearest to `epochs` (MJD), or to the times of the scene, and a fit of F0 and so many `derivatives` of it to them. With `causes` the table says what the residuals
-    /// are made of.
+    /// The pulses nearest to `epochs` (MJD), or to the times of the scene, and a fit of F0 and the given number of `derivatives` to them. With `causes` the table has the causes of the
+    /// residuals.
     #[pyo3(signature = (epochs=None, *, derivatives=None, causes=false))]
     fn arrivals(
         &self,
@@ -132,7 +132,7 @@ impl Pulsar {
     }
 }
 
-/// Arrival times and what they are late by against a fitted frequency.
+/// Arrival times and their residuals from a fitted frequency.
 #[pyclass(frozen, module = "twofold")]
 pub struct Timing {
     /// Number, arrival time, residual, width, position angle and wave of each pulse.

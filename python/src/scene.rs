@@ -171,25 +171,25 @@ impl Scene {
         &self.toml
     }
 
-    /// What the scene is, one line.
+    /// A description of the scene, in one line.
     #[getter]
     fn about(&self) -> &str {
         &self.scene.about
     }
 
-    /// Sentences about what is allowed but looks like a mistake.
+    /// Warnings about input that is allowed but looks like a mistake.
     #[getter]
     fn cautions(&self) -> Vec<&str> {
         self.scene.cautions.iter().map(String::as_str).collect()
     }
 
-    /// Modified Julian date (TDB) of the start, as a text; none of a scene without one.
+    /// Modified Julian date (TDB) of the start, as a text; None for a scene without one.
     #[getter]
     fn epoch(&self) -> Option<String> {
         self.scene.epoch.as_ref().map(ToString::to_string)
     }
 
-    /// The beam: the angle `chi` of the magnetic axis to the symmetry axis, its azimuth `delta` and the semi-open angle `rho` (rad); none of a scene without one.
+    /// The beam: the angle `chi` of the magnetic axis to the symmetry axis, its azimuth `delta` and the semi-open angle `rho` (rad); None for a scene without one.
     #[getter]
     fn beam(&self) -> Option<(f64, f64, f64)> {
         self.scene.pulsar.map(|pulsar| (pulsar.chi, pulsar.delta, pulsar.rho))
@@ -236,7 +236,7 @@ impl Scene {
         Ok(written(py, progress, |writer, tell| write_pulses(&scene, writer, tell))?.0)
     }
 
-    /// The spectral lines of a column (`"m.n"`, `"h_plus"`), strongest first, down to an amplitude of `least` of the largest one. Frequencies are in rad per
+    /// The spectral lines of a column (`"m.n"`, `"h_plus"`), strongest first, down to the fraction `least` of the largest amplitude. Frequencies are in rad per
     /// `time_unit`, phases those at the start.
     #[pyo3(signature = (column, *, least=1e-6, most=50))]
     fn lines(&self, py: Python<'_>, column: &str, least: f64, most: usize) -> PyResult<Table> {
@@ -246,7 +246,7 @@ impl Scene {
         Ok(written(py, None, |writer, _| write_lines(&self.scene, &column, &wanted, writer))?.0)
     }
 
-    /// What would be computed for groups of columns, or for those of the scene: the method, its cost and error, and what is left out, in words.
+    /// The plan for groups of columns, or for those of the scene, in words: the method, its cost and error, and what is left out.
     #[pyo3(signature = (columns=None, *, method=None, tolerance=None))]
     fn plan(&self, columns: Option<Vec<String>>, method: Option<&str>, tolerance: Option<f64>) -> PyResult<String> {
         let scene = self.with(columns, method, tolerance)?;
@@ -266,7 +266,7 @@ impl Scene {
         Motion::new(slf.unbind(), scene, end, method)
     }
 
-    /// What measurements of the scene would tell of its parameters. `observe` has the standard deviation of each kind of data in the units of the scene, as
+    /// How well measurements of the scene would determine its parameters. `observe` has the standard deviation of each kind of data in the units of the scene, as
     /// `{"arrivals": 1e-4, "widths": 1e-4}`; kinds are arrivals, closest_approaches, widths, periods, h_plus, h_cross and strain. `parameters` are names (docs/inference.md); if none are given, those that such data can determine.
     #[pyo3(signature = (observe, parameters=None))]
     fn fisher(&self, py: Python<'_>, observe: BTreeMap<String, f64>, parameters: Option<Vec<String>>) -> PyResult<Fit> {
@@ -279,7 +279,7 @@ impl Scene {
         Ok(Fit::of_fisher(&fisher.map_err(raised)?, |unknown| measurement.unit(unknown).0))
     }
 
-    /// Fits parameters of the scene to data: tables of `pulses()` and of `table(["h"])`, or paths of such files. `observe` and `parameters` are as of `fisher`; the fit begins at the values of the scene.
+    /// Fits parameters of the scene to data: tables of `pulses()` and of `table(["h"])`, or paths of such files. `observe` and `parameters` are as for `fisher`; the fit starts from the values of the scene.
     #[pyo3(signature = (data, observe, parameters=None))]
     fn fit(
         &self,

@@ -19,7 +19,7 @@ const AT_ONCE: u64 = 256;
 
 /// Many scenes: grids, lists and random draws over the parameters of one (docs/sweep.md). `Sweep("grid.toml")` reads a file, `Sweep(toml=text)` a text.
 ///
-/// A row depends on nothing but its scene: any part can be computed anywhere, in one thread, and the parts together are the table to the byte.
+/// A row depends only on its scene: any part can be computed anywhere, in one thread, and the parts together are the table to the byte.
 #[pyclass(frozen, module = "twofold._twofold", subclass)]
 pub struct Sweep {
     text: SweepText,
@@ -73,7 +73,7 @@ impl Sweep {
         PyBytes::new(py, &csv_line(&self.header))
     }
 
-    /// The rows of the scenes from `start` to before `stop` as CSV, without the header, those of the table of errors, and how many scenes failed: by one thread.
+    /// The rows of the scenes from `start` to before `stop` as CSV, without the header, those of the table of errors, and the number of failed scenes; one thread is used.
     fn rows<'py>(
         &self,
         py: Python<'py>,
@@ -128,7 +128,7 @@ impl Sweep {
     }
 }
 
-/// The table of a sweep in a file that grows in order, with a journal beside it: what `twofold sweep` writes, begun and continued by either.
+/// The table of a sweep in a file that grows in order, with a journal beside it, as `twofold sweep` writes it; either can continue what the other has begun.
 #[pyclass(frozen, module = "twofold._twofold")]
 pub struct SweepFile {
     out: PathBuf,
@@ -138,7 +138,7 @@ pub struct SweepFile {
 
 #[pymethods]
 impl SweepFile {
-    /// Begins a table at `out`, or continues what is there of it. A file that exists is refused unless it may be replaced.
+    /// Begins a table at `out`, or continues an existing part of it. A file that exists is refused unless it may be replaced.
     #[new]
     #[pyo3(signature = (sweep, out, *, replace=false))]
     fn new(sweep: &Sweep, out: PathBuf, replace: bool) -> PyResult<Self> {
@@ -161,7 +161,7 @@ impl SweepFile {
         self.spool.lock().expect("nobody panics with it").next()
     }
 
-    /// Appends what `Sweep.rows` has of the scenes from `next` to before `stop`, so that it outlives the process.
+    /// Appends the rows that `Sweep.rows` gives for the scenes from `next` to before `stop`, so that they outlive the process.
     fn append(&self, stop: u64, rows: &[u8], errors: &[u8], failed: u64) -> PyResult<()> {
         let mut spool = self.spool.lock().expect("nobody panics with it");
         spool.append(stop, [rows, errors], failed).and_then(|()| spool.commit()).map_err(raised)

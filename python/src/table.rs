@@ -74,7 +74,7 @@ impl Table {
             Some(Values::Numbers(numbers)) => Ok(PyArray1::from_slice(py, numbers).into_any()),
             Some(Values::Words(words)) => Ok(PyList::new(py, words)?.into_any()),
             None => {
-                Err(PyKeyError::new_err(format!("`{name}` is no column; this table has {}", self.keys().join(", "))))
+                Err(PyKeyError::new_err(format!("`{name}` is not a column; this table has {}", self.keys().join(", "))))
             }
         }
     }

@@ -10,8 +10,8 @@ use twofold_scene::measurements::named;
 use crate::error::raised;
 use crate::pickle::{Reduced, called_with};
 
-/// A pulsar by its timing parameters (docs/timing-model.md). `TimingModel(f0, f1=..., wobble=..., chi=...)`: F0 in Hz, and in SI units and rad what else is not zero; chi and inclination are
-/// a right angle if not given. F0 is the sum of two doubles, `f0 + f0_rest`.
+/// A pulsar by its timing parameters (docs/timing-model.md). `TimingModel(f0, f1=..., wobble=..., chi=...)`: F0 in Hz, the others in SI units and rad. Those not given are zero, but chi and inclination are
+/// a right angle. F0 is the sum of two doubles, `f0 + f0_rest`.
 ///
 /// Times are in seconds since the epoch, the sum of two doubles `t + rest`; arrays of any shape are taken.
 #[pyclass(frozen, module = "twofold", from_py_object)]
@@ -63,14 +63,14 @@ impl TimingModel {
         self.model.frequency()
     }
 
-    /// The model with numbers added to some parameters. F0 keeps 32 digits, so that small changes add up.
+    /// The model with increments added to some parameters. F0 keeps 32 digits, so that small changes add up.
     #[pyo3(signature = (**changes: "float"))]
     fn moved(&self, changes: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let changes = changes.map_or_else(|| Ok(Vec::new()), values)?;
         Ok(Self { model: self.model.moved(&changes).map_err(raised)? })
     }
 
-    /// The phase at times: whole turns and the rest in turns, two arrays. A pulse is where the rest is zero.
+    /// The phase at times: whole turns and the fraction of a turn, two arrays. A pulse is where the fraction is zero.
     #[pyo3(signature = (t, rest=None))]
     fn phase<'py>(
         &self,
@@ -100,7 +100,7 @@ impl TimingModel {
         Ok((whole, fraction, t.shaped(py, derivatives, &[TimingParameter::ALL.len()])?))
     }
 
-    /// When pulses of given numbers arrive: two arrays whose sum is the time.
+    /// The arrival times of the pulses with given numbers: two arrays whose sum is the time.
     fn arrival<'py>(&self, py: Python<'py>, number: Numbers) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         for value in &number.values {
             twofold::Error::ensure(value.fract() == 0.0, "number", *value, "a whole number").map_err(raised)?;

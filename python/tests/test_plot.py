@@ -259,7 +259,7 @@ def test_shapes_over_years_are_centred_on_what_is_foretold():
     middles = (corners[0, 1:, 0] + corners[0, :-1, 0]) / 2.0
     half = 1.5 * (np.abs(table["residual"][[0, -1]]).max() + table["duration"].max() / 2.0)
     assert tuple(middles) == pytest.approx((-1e3 * half, 1e3 * half))
-    assert axes.get_xlabel() == "time from the foretold pulse [ms]" and axes.get_ylabel() == "date [MJD]"
+    assert axes.get_xlabel() == "time from the predicted pulse [ms]" and axes.get_ylabel() == "date [MJD]"
     axes = plot.waterfall(scene, rows=2, samples=3, window=(-0.01, 0.02))
     corners = axes.collections[0].get_coordinates()
     assert (corners[0, 1, 0] + corners[0, 0, 0]) / 2.0 == pytest.approx(-10.0)

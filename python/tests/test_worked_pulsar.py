@@ -102,7 +102,7 @@ def test_files_of_timing_programs(timing):
 
 
 def test_both_precessions(pulsar):
-    text = PAGE.split("precession of the body about its axis: ")[1].splitlines()[0]
+    text = PAGE.split("precession period of the body about its axis: ")[1].splitlines()[0]
     periods = [float(word) for word in re.findall(r"(\S+) d", text)]
     same(2.0 * np.pi / np.abs(pulsar.precession_rates) / DAY, periods, rel=1e-6)
     # F0 of the page, of a star that does not slow down; L precesses meanwhile.

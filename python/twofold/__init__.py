@@ -8,8 +8,8 @@
 Scenes, motions, pulsars, timing models, fits and sweeps, by the verified equations of the Rust library of this name. Times are in the unit that a scene
 states (`t_c`, or seconds of a physical star); angles are in rad, arrays are of float64.
 
-`twofold.units` takes and gives quantities of astropy, `twofold.plot` draws with matplotlib, `twofold.pint` is a component of PINT's timing models,
-`twofold.waves` gives waveforms to lalpulsar, `twofold.likelihood` likelihoods to samplers. Each needs the package that it serves.
+`twofold.units` accepts and returns quantities of astropy, `twofold.plot` draws with matplotlib, `twofold.pint` is a component of PINT's timing models,
+`twofold.waves` gives waveforms to lalpulsar, `twofold.likelihood` likelihoods to samplers. Each needs the package that it works with.
 """
 
 from twofold._twofold import (

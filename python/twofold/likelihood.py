@@ -1,6 +1,6 @@
-"""What arrival times say of a pulsar, as a likelihood for samplers.
+"""The likelihood of arrival times, for samplers.
 
-`TimingLikelihood` goes to bilby as it is, and with it to dynesty and all other samplers there; without bilby it is a plain class with `log_likelihood(parameters)`.
+`TimingLikelihood` can be given to bilby directly, and so to dynesty and all its other samplers; without bilby it is a plain class with `log_likelihood(parameters)`.
 """
 
 from __future__ import annotations
@@ -32,12 +32,12 @@ class TimingLikelihood(_Likelihood):  # type: ignore[misc, valid-type]
     `parameters` of a call are values of a model's parameters (`TimingModel.names`) that replace those of `model`. F0 is the exception: `f0_offset` (Hz) is what is added to the model's, since a double of F0 itself is too coarse for decades of data.
     Widths of pulses in the data are not used.
 
-    The pulses have the numbers of the data (`TimingData(numbers=...)`, `-pn` of a `.tim`) or `numbers`, and where these are not known those of the turns nearest to them at `model`; they keep them. So the model must be right to half a turn
+    The pulses have the numbers of the data (`TimingData(numbers=...)`, `-pn` of a `.tim`) or `numbers`, and where these are not known those of the nearest turns of `model`; the numbers then stay fixed. So the model must be right to half a turn
     at the first pulse with a number, and at each without.
 
-    `marginalised` names parameters on which the phase depends linearly, to all that matters (`"phase"`, `"f0"`, `"f1"`, `"f2"`): they are integrated over with flat priors, exactly, and do not appear among the parameters. The sampler has less to do, and finds the same. The prior's width is left out, so that evidences compare only where the same are marginalised.
+    `marginalised` names parameters on which the phase depends linearly to sufficient accuracy (`"phase"`, `"f0"`, `"f1"`, `"f2"`): they are integrated over exactly, with flat priors, and do not appear among the parameters. The sampler then has less work, with the same result. The width of the prior is left out, so that evidences can be compared only if the same parameters are marginalised.
 
-    A parameter outside its range has the logarithm `-inf`.
+    A parameter outside its range gives a log-likelihood of `-inf`.
     """
 
     def __init__(
@@ -108,7 +108,7 @@ class TimingLikelihood(_Likelihood):  # type: ignore[misc, valid-type]
         return [name for name in names if name.removesuffix("_offset") not in self.marginalised]
 
     def residuals(self, parameters: Mapping[str, float]) -> NDArray[np.float64]:
-        """Measured less expected arrival times, in standard deviations, nothing marginalised."""
+        """Residuals, measured less expected arrival times, in standard deviations, with nothing marginalised."""
         whole, fraction = self._moved(parameters).phase(self._t, self._rest)
         return ((whole - self.numbers) + fraction) * self._scale
 
@@ -133,7 +133,7 @@ class TimingLikelihood(_Likelihood):  # type: ignore[misc, valid-type]
                 self._moved({name: parameters[name]})
 
     def noise_log_likelihood(self) -> float:
-        """Not a number: there is no model without a pulsar."""
+        """NaN: there is no model without a pulsar."""
         return np.nan
 
     def log_likelihood_ratio(self, parameters: Mapping[str, float] | None = None) -> Any:

@@ -3,7 +3,7 @@
 >>> import twofold.pint                                     # registers the component, so that get_model reads its parameters
 >>> twofold.pint.add_wobble(model, toas, period=500 * u.day, chi=89 * u.deg, torque=1.0)
 
-`Wobble` is a phase component beside PINT's `Spindown`. `wobble_limits` says how large a wobble arrival times allow, by its period.
+`Wobble` is a phase component beside PINT's `Spindown`. `wobble_limits` gives upper limits on the wobble from arrival times, by its period.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ class _Star:
 
 
 class _Beyond:
-    """The turns of a wobbling star beyond those of the same star without a wobble, at times (s) since the epoch.
+    """The difference in turns between a wobbling star and the same star without a wobble, at times (s) since the epoch.
 
     `F0 (tau - tau_0) + B(psi) / 2 pi`: the stretched times with the varying torque and without it obey `t = tau + kappa tau^2 / 2 + Q(tau) - Q(0)` and `t = tau_0 + kappa tau_0^2 / 2`. Their difference
     `delta` is found from `delta (1 + kappa (tau_0 + delta / 2)) = Q(0) - Q(tau)`, where nothing large is subtracted.
@@ -335,9 +335,9 @@ def _times(model: TimingModel, toas: TOAs, delay: u.Quantity) -> np.ndarray:
 
 
 class _Projected:
-    """Residuals and columns in standard deviations, less what the free parameters of a model and its noise can take up.
+    """Residuals and columns in standard deviations, with the free parameters of a model and its noise projected out.
 
-    The noise that PINT has as a basis with weights (ECORR, red noise) is as many unknowns with a normal prior: rows below those of the arrivals.
+    The noise that PINT represents by a basis with weights (ECORR, red noise) adds one unknown with a normal prior for each column: rows below those of the arrivals.
     """
 
     def __init__(self, model: TimingModel, toas: TOAs):
@@ -407,10 +407,10 @@ def add_wobble(
     phase: u.Quantity | None = None,
     free: Iterable[str] = ("WOBBLE", "WOBPERIOD", "WOBPHASE"),
 ) -> Wobble:
-    """Adds a wobble to a timing model and returns the component; the parameters `free` are fitted, the others held.
+    """Adds a wobble to a timing model and returns the component; the parameters `free` are fitted, the others are held fixed.
 
     Start values of `wobble` and `phase` that are not given are those which agree best with `toas`: of a small wobble by linear least squares beside all free parameters and the noise of the model, and of
-    a grid of larger ones. The model has to be connected in phase without the wobble.
+    a grid of larger ones. The model must be phase-connected without the wobble.
     """
     days, angle = period.to_value(u.day), chi.to_value(u.rad)
     if "Wobble" in model.components:
@@ -442,7 +442,7 @@ def add_wobble(
 def _start(
     data: _Projected, days: float, chi: float, torque: float, wobble: float | None, phase: float | None
 ) -> tuple[float, float]:
-    """The wobble and its phase (rad) that agree best with data."""
+    """The wobble and its phase (rad) that fit the data best."""
     most = min(chi, np.pi - chi)
     x = np.linalg.lstsq(data.small(days, chi, torque).T, -data.residuals, rcond=None)[0]
     linear = (float(np.hypot(*x)), float(np.arctan2(x[1], x[0]) % (2.0 * np.pi)))
@@ -464,10 +464,10 @@ def wobble_limits(
     torque: float = 0.0,
     probability: float = 0.95,
 ) -> dict[str, u.Quantity]:
-    """The wobble that arrival times allow at some periods of precession: arrays `period`, `best` and `phase` (the wobble of least chi^2), `gain` (by how much chi^2 falls by it) and `limit`.
+    """Upper limits on the wobble from arrival times at some periods of precession: arrays `period`, `best` and `phase` (the wobble of least chi^2), `gain` (the decrease of chi^2 by it) and `limit`.
 
-    The likelihood is PINT's of generalised least squares, made linear: all free parameters of the model and its correlated noise are taken out, the noise with the sizes that the model has. The limit
-    is the quantile of the posterior of the wobble angle with a flat prior for it and for the phase; it is infinite above 0.1 rad. `chi` and the share of the torque are held.
+    The likelihood is that of PINT's generalised least squares, linearised: all free parameters of the model and its correlated noise are projected out, the noise with the amplitudes of the model. The limit
+    is the quantile of the posterior of the wobble angle with a flat prior for it and for the phase; it is infinite above 0.1 rad. `chi` and the share of the torque are held fixed.
     """
     if "Wobble" in model.components:
         raise ValueError("model: it has a Wobble component: allowed is a model without one")

@@ -1,7 +1,7 @@
 """Figures with matplotlib, in the style of those that the command draws.
 
-Every function takes a scene, a motion or arrival times and returns the `Axes` it drew on, for you to change: `angles(scene)`, `sphere(motion)`, `pulses(scene)`,
-`waterfall(scene)`, `spectrum(scene, "m.n")`, `arrivals(timing)`. Given `axes` are drawn on; else a figure of the width of a journal's column or page is made.
+Every function takes a scene, a motion or arrival times and returns the `Axes` it drew on, for further changes: `angles(scene)`, `sphere(motion)`, `pulses(scene)`,
+`waterfall(scene)`, `spectrum(scene, "m.n")`, `arrivals(timing)`. It draws on `axes` if these are given; otherwise it makes a figure of the width of a journal's column or page.
 
 >>> import matplotlib.pyplot as plt
 >>> from twofold import Scene, plot
@@ -81,7 +81,7 @@ def angles(
 ) -> list[Axes]:
     """The Euler angles of a scene against time, one panel each.
 
-    With `perturbation` the paper's solution, Eq. (33) as printed, is drawn too; if it is not said, where the scene has the constants of that solution. `until` is the last time, that
+    With `perturbation` the paper's solution, Eq. (33) as printed, is drawn too; by default it is drawn if the scene gives the constants of that solution. `until` is the last time, that
     of the scene if none is given.
     """
     allowed = ("alpha", "beta", "gamma")
@@ -121,7 +121,7 @@ def sphere(
 ) -> Axes:
     """The paths of the symmetry axis n and of the direction of the angular momentum L on the unit sphere, with arrows where they start.
 
-    The eye is far away at azimuth and elevation `view` (degrees); paths are pale on the far side. `equatorial` draws the axis e_x of the body too, for so long.
+    The eye is far away at azimuth and elevation `view` (degrees); paths are pale on the far side. `equatorial` also draws the axis e_x of the body, for that length of time.
     """
     if samples < 2:
         raise Error(f"samples = {samples}: allowed is a whole number above one")
@@ -184,7 +184,7 @@ def sphere(
 def pulses(scene: Scene, *, axes: Sequence[Axes] | None = None) -> list[Axes]:
     """The periods of the pulses of a scene, from midpoint to midpoint, and their lengths, against time.
 
-    Lines join pulses of turns that follow one another, and break where a turn is dark; there is no period then. Pulses of a second beam are
+    Lines join pulses of consecutive turns, and break at a turn without a pulse, where there is no period. Pulses of a second beam are
     rings. Pulsars over years, of which not every pulse can be listed, are drawn by `arrivals`.
     """
     table = scene.pulses()
@@ -227,12 +227,12 @@ def waterfall(
 ) -> Axes:
     """The shapes of pulses as shades, later turns above earlier ones.
 
-    A pulsar with a `time.epoch` is shown over the years of the scene, at `rows` of its epochs, against the time from the pulse that the fit of its frequency foretells; one with
+    A pulsar with a `time.epoch` is shown over the years of the scene, at `rows` of its epochs, against the time from the pulse that the fit of its frequency predicts; one with
     `spin_down.damping_time` is not, since its shapes change with the wobble. Other scenes are shown turn by turn, folded with their mean period. `window` is the first and last time shown of a turn, in the unit of the scene; if it is not given the pulses fill two thirds of it, or
     it is a turn.
 
-    `intensity` is that of the beam as a function of the angle from its axis, in units of `pulsar.rho`; by default a Gaussian that falls to a tenth at the edge, so that the pulse is as
-    wide as `duration` at a tenth of the brightest. The model has the edge of the beam, not what is in it.
+    `intensity` is the intensity of the beam as a function of the angle from its axis, in units of `pulsar.rho`; by default a Gaussian that falls to a tenth at the edge, so that the pulse is as
+    wide as `duration` at a tenth of the brightest. The model defines only the edge of the beam, not its profile.
     """
     for name, value, least in (("rows", rows, 2), ("samples", samples, 2)):
         if value < least:
@@ -290,7 +290,7 @@ def waterfall(
         axes.set_xlabel(rf"$t$ from the mean turn {unit}", fontsize=_LABEL)
         axes.set_ylabel("turn", fontsize=_LABEL)
     else:
-        axes.set_xlabel(f"time from the foretold pulse {unit}", fontsize=_LABEL)
+        axes.set_xlabel(f"time from the predicted pulse {unit}", fontsize=_LABEL)
         axes.set_ylabel("date [MJD]", fontsize=_LABEL)
     frame(axes, minor=False)
     axes.tick_params(which="both", top=False, right=False, direction="out")
@@ -308,10 +308,10 @@ def spectrum(
     span: tuple[float, float] | None = None,
     axes: Axes | None = None,
 ) -> Axes:
-    """The spectral lines of a column (`"m.n"`, `"h_plus"`) as uprights, the `named` strongest with their combination of the fundamental frequencies.
+    """The spectral lines of a column (`"m.n"`, `"h_plus"`) as vertical lines, the `named` strongest labelled with their combination of the fundamental frequencies.
 
     Lines down to an amplitude of `least` of the largest one are drawn, at most `most`. Frequencies are angular, per `time_unit`, less `around`; `span` are the first and last shown.
-    A name that has no room beside those of stronger lines is left out.
+    A label that has no room beside those of stronger lines is left out.
     """
     table = scene.lines(column, least=least, most=most)
     if len(table) == 0:
@@ -359,7 +359,7 @@ def spectrum(
 def arrivals(timing: Timing, *, axes: Sequence[Axes] | None = None) -> list[Axes]:
     """Residuals of arrival times against the date, and the lengths of the pulses.
 
-    With `Pulsar.arrivals(causes=True)` what the residuals are made of is drawn too. Small causes are enlarged, by as much as their name says; one below a thousandth of the residuals is
+    With `Pulsar.arrivals(causes=True)` the causes of the residuals are drawn too. Small causes are enlarged by the factor in their label; one below a thousandth of the residuals is
     left out.
     """
     table = timing.table

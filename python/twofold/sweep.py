@@ -69,7 +69,7 @@ def _end_if_broken(executor: ProcessPoolExecutor) -> None:
 class Sweep(_twofold.Sweep):
     """Many scenes: grids, lists and random draws over the parameters of one (docs/sweep.md).
 
-    `Sweep("grid.toml")` reads a file, `Sweep(toml=text)` a text. A row depends on nothing but its scene: any part can be computed anywhere, in one thread, and the parts
+    `Sweep("grid.toml")` reads a file, `Sweep(toml=text)` a text. A row depends only on its scene: any part can be computed anywhere, in one thread, and the parts
     together are the table to the byte. Sweeps can be pickled.
     """
 
@@ -84,7 +84,7 @@ class Sweep(_twofold.Sweep):
         """The whole table in memory, by the workers of an executor: processes, threads, MPI ranks, Dask.
 
         The executor has at most `parts_at_once` parts of `scenes_at_once` scenes at a time: if not given, a 256th of the sweep, from 8 to 256. Take fewer where a scene takes seconds, and
-        twice as many parts as there are workers, or more. `progress` is called with the part that is done, from 0 to 1.
+        twice as many parts as there are workers, or more. `progress` is called with the fraction that is done, from 0 to 1.
         """
         rows = [self.header]
         with closing(self._parts(executor, 0, scenes_at_once, parts_at_once)) as parts:
@@ -106,7 +106,7 @@ class Sweep(_twofold.Sweep):
     ) -> None:
         """Writes the table to a CSV file, by the workers of an executor; memory does not grow with the number of scenes.
 
-        The file grows as `path.partial` with a journal beside it. After an interruption, a dead worker or a loss of power the same call, or `twofold sweep`, goes on
+        The file grows as `path.partial` with a journal beside it. After an interruption, a dead worker or a loss of power the same call, or `twofold sweep`, continues
         where it ended. Scenes that failed are in `path.errors.csv`, with the reason.
         """
         path = os.fspath(path)

@@ -1,4 +1,4 @@
-"""Quantities of astropy in and out.
+"""Input and output with quantities of astropy.
 
 >>> from astropy import units as u
 >>> from twofold import units
@@ -10,7 +10,7 @@
 `scene` takes quantities for the keys of scene files, `table` gives a table of twofold as a `QTable`, `axis`, `state` and `angles` take and give quantities of a motion, `arrivals`
 takes and gives `Time`.
 
-Scenes in the paper's units have the units `t_c` of time and `I_xx` of inertia; `C`, the unit of energy, is `I_xx / t_c^2`. They convert into one another and into nothing else.
+Scenes in the paper's units have the units `t_c` of time and `I_xx` of inertia; `C`, the unit of energy, is `I_xx / t_c^2`. They convert into one another and into no other units.
 """
 
 from __future__ import annotations
@@ -160,7 +160,7 @@ def arrivals(of: Pulsar, epochs: Time | None = None, *, derivatives: int | None 
 
 
 def _plain(section: str, key: str, value: Any, in_tc: list[str], in_seconds: list[str]) -> Any:
-    """A value of a scene file; what goes with the unit of time is noted, by the unit that it has."""
+    """A value of a scene file; values that depend on the unit of time are recorded with their unit."""
     name = f"{section}.{key}"
     if isinstance(value, Time):
         if name != "time.epoch":

@@ -34,7 +34,7 @@ def _gps_of_epoch(pulsar: Pulsar) -> Fraction:
 
 
 def _nearest(angle: NDArray[np.float64]) -> NDArray[np.float64]:
-    """An angle less whole turns, in [-pi, pi]."""
+    """An angle modulo 2 pi, in [-pi, pi]."""
     return angle - _TAU * np.rint(angle / _TAU)
 
 
@@ -42,13 +42,13 @@ class Waveform:
     """One harmonic of the wave of a pulsar: `waveform(dt) -> (dphi, a_plus, a_cross)`, with `h_+ = a_plus cos(dphi)` and `h_x = a_cross sin(dphi)` to the axes at the polarization angle `psi`.
 
     `harmonic` is `"once"` or `"twice"` a turn. `dt` (s) is a number or an array, counted from `reference` (s since the epoch of the scene). `dphi` counts turns
-    from there on and does not jump. Give `phi0=0.0` and `psi=waveform.psi` to `CWSimulator`: `dphi` begins with the phase at the reference.
+    from there on without jumps. Give `phi0=0.0` and `psi=waveform.psi` to `CWSimulator`: `dphi` begins with the phase at the reference.
 
-    `psi` is that of lalpulsar, from the projection of `L` on the sky at the reference: it is one of the true sky if Z of the scene is the north pole (`observer.frame = "equatorial"`). `L` may turn: from 1e-3 rad of
-    position angle on, a waveform of one `psi` is refused. Then take two, `hand="right"` and `hand="left"`: the circular parts of the harmonic, whose sum is the wave however `L` turns.
+    `psi` is that of lalpulsar, from the projection of `L` on the sky at the reference: it is an angle on the true sky if Z of the scene is the north pole (`observer.frame = "equatorial"`). `L` may turn: for a change of more than 1e-3 rad in
+    position angle, a waveform with one `psi` is refused. Then take two, `hand="right"` and `hand="left"`: the circular parts of the harmonic, whose sum is the wave however `L` turns.
 
-    Turns are counted from knots `knot_distance` apart (s; 16384 periods if not given), at most a million on a side, between which the rate of turns may change smoothly. A strong violation of Lorentz symmetry, by which `L` goes
-    round in some 1e5 turns or less, needs a smaller distance. A phase of `n` turns is rounded to `1.4e-15 n` rad: a reference in the data is best.
+    Turns are counted from knots `knot_distance` apart (s; 16384 periods if not given), at most a million on a side, between which the rate of turns may change smoothly. A strong violation of Lorentz symmetry, by which `L`
+    precesses in some 1e5 turns or less, needs a smaller distance. A phase of `n` turns is rounded to `1.4e-15 n` rad: choose a reference within the data.
     """
 
     def __init__(
@@ -174,7 +174,7 @@ class Waveform:
         return found
 
     def _missed(self, difference: NDArray[np.float64]) -> NDArray[np.float64]:
-        """What phases are beside those expected, without whole turns: less than half a radian, or turns are not counted safely."""
+        """Deviations of phases from those expected, modulo a turn: at half a radian or more turns cannot be counted safely."""
         off = _nearest(difference)
         if off.size and not abs(off).max() < 0.5:
             raise Error(

@@ -131,7 +131,7 @@ impl Column {
     pub fn oscillating(name: &str, scene: &Scene) -> Result<Self, String> {
         if TURNING.contains(&name) {
             return Err(format!(
-                "`{name}` turns without end and has no spectrum; take its rate, a component of an axis or m.n"
+                "`{name}` grows without bound and has no line spectrum; take its rate, a component of an axis or m.n"
             ));
         }
         let columns = COLUMN_GROUPS.iter().flat_map(|(_, group)| Self::of_group(*group, scene));
@@ -148,14 +148,14 @@ impl Column {
         found.unwrap_or_else(|| {
             let possible: Vec<_> = possible.iter().map(String::as_str).collect();
             let guess = did_you_mean(name, &possible);
-            Err(format!("`{name}` is no column; this scene has {}.{guess}", listed(&possible)))
+            Err(format!("`{name}` is not a column; this scene has {}.{guess}", listed(&possible)))
         })
     }
 
     fn of_the_state(self) -> Result<Self, String> {
         if self.group.need().state == State::Nothing {
             return Err(format!(
-                "`{}` is a formula in time and no function of the state, of which lines are found",
+                "`{}` is a formula in time, not a function of the state, and lines are found only for such functions",
                 self.name
             ));
         }

@@ -30,7 +30,7 @@ pub fn explained(scene: &Scene, plan: &Plan) -> String {
     let (from, to) = (in_output(plan.span.0), in_output(plan.span.1));
     let closed = plan.method.is_none_or(|method| method.is_closed_form());
     row(
-        "stretch",
+        "span",
         match plan.state {
             State::Nothing => "none".to_owned(),
             _ if closed => format!("none is integrated; times up to {to:?} {time}"),
@@ -210,7 +210,7 @@ mod tests {
         let method = "method       taylor (Taylor series with adaptive steps and dense output)";
         // Times are 100 + 4 t; the other method costs 2.5 times as much.
         let rest = format!(
-            "stretch      102.0 to 120.0 s\nsamples      7\nderivatives  {derivatives}\nsteps        about 40 of order 20: 800 right-hand sides\n\
+            "span         102.0 to 120.0 s\nsamples      7\nderivatives  {derivatives}\nsteps        about 40 of order 20: 800 right-hand sides\n\
              evaluations  about 7 of n, L\nmemory       about 1.0 kB\ncost         about 1.0 us on {MACHINE}\n\
              error        goal 2.0e-9 by the method, which 98 % of random motions stay below; asked is 1e-6\n\
              rounding     about 3.0e-13, as the motion's error estimate will count it\n\nskipped\n  orientation: no output needs it\n\n\

@@ -69,7 +69,7 @@ impl Scene {
             rotation <= LARGEST_ROTATION || plan.costs_the_same_at_any_time(),
             "rotation over the span (rad)",
             rotation,
-            "at most 1e8 for pulses, angles that count their turns and motions without a closed form",
+            "at most 1e8 for pulses, continuous angles and motions without a closed form",
         )?;
         Ok(plan)
     }
@@ -87,8 +87,8 @@ impl Scene {
             Err(_) => {}
         }
         Err(format!(
-            "[time] asks for a rotation by {rotation:.1e} rad: allowed is at most {LARGEST_ROTATION:.0e} rad, which takes \
-             minutes, for pulses, angles that count their turns and motions without a closed form; shorten the span, lower the rates \
+            "[time] covers {rotation:.1e} rad of rotation: allowed is at most {LARGEST_ROTATION:.0e} rad, which takes \
+             minutes, for pulses, continuous angles and motions without a closed form; shorten the span, lower the rates \
              or choose other columns"
         ))
     }

@@ -31,7 +31,7 @@ impl<U: Unknown> fmt::Display for Direction<U> {
             [symbol] => write!(f, "{symbol} alone")?,
             _ => write!(f, "{} = {}", symbols.join(" : "), sizes.join(" : "))?,
         }
-        write!(f, " (the data change by {:.1e} of what each of these does alone)", self.ratio)
+        write!(f, " (the data change by {:.1e} of what these do alone, added in quadrature)", self.ratio)
     }
 }
 
@@ -177,7 +177,7 @@ mod tests {
     #[test]
     fn directions_are_written_with_four_digits() {
         let direction = |words, change: &[(Name, f64)]| Direction { words, change: change.to_vec(), ratio: 1.25e-13 };
-        let alone = " (the data change by 1.2e-13 of what each of these does alone)";
+        let alone = " (the data change by 1.2e-13 of what these do alone, added in quadrature)";
         assert_eq!(direction(None, &[(A, 1.0)]).to_string(), format!("d(a) alone{alone}"));
         let found = direction(Some("a against b"), &[(A, 1.0), (B, -0.5), (Fraction, 1e-3)]).to_string();
         assert_eq!(found, format!("a against b; d(a) : d(b) : d(f) = 1.0000 : -0.5000 : 0.0010{alone}"));

@@ -86,17 +86,17 @@ impl fmt::Display for InferenceError {
             ),
             Self::Rounding { observable, rounding } => write!(
                 f,
-                "the residuals are rounding: the scene agrees with the data as far as doubles tell, {} to {rounding:.1e}{}, and a fit is to a \
+                "the residuals are rounding: the scene agrees with the data as far as doubles resolve, {} to {rounding:.1e}{}, and a fit is to a \
                  hundredth of an error; allowed in --observe are larger standard deviations, {:.1e}{1} for certain",
                 observable.key(),
                 if observable.is_of_pulses() { " t_c" } else { "" },
                 100.0 * rounding
             ),
             Self::OnLimit { unknown, value } => {
-                write!(f, "the fit ended at {unknown} = {value:?}, a limit of what it can be: no error bar holds there")
+                write!(f, "the fit ended at {unknown} = {value:?}, a limit of its range: no error bar holds there")
             }
             Self::PeriodsForecast => f.write_str(
-                "periods: allowed for a forecast is what one pulse alone gives, such as arrivals and widths",
+                "periods: allowed for a forecast are observables of a single pulse, such as arrivals and widths",
             ),
             Self::Model(error) => error.fmt(f),
         }

@@ -156,7 +156,7 @@ pub(super) fn least_squares<M: Model>(
     }
     if is_off {
         return Err(InferenceError::NotConverged {
-            why: if ended.success == MPSuccess::MaxIter { "too many steps" } else { "no step makes chi^2 less" },
+            why: if ended.success == MPSuccess::MaxIter { "too many steps" } else { "no step reduces chi^2" },
             cosine,
         });
     }
@@ -369,7 +369,7 @@ mod tests {
         let wrong = uphill(|_| vec![[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]]);
         let start = Numbers::unbounded([0.0; 3]);
         let (what, cosine) = why(least_squares(&start, &wrong, &[A]));
-        assert_eq!(what, "no step makes chi^2 less");
+        assert_eq!(what, "no step reduces chi^2");
         assert!((cosine - 0.6).abs() < 1e-6, "{cosine}");
         let (_, cosine) = why(least_squares(&start, &wrong, &[A, B]));
         assert!((cosine - 0.8).abs() < 1e-6, "{cosine}");

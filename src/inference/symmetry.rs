@@ -26,15 +26,15 @@ pub(super) fn symmetries(parameters: &Parameters<f64>) -> Vec<Symmetry<Parameter
     let Parameters { s_scale, strain_scale, .. } = *parameters;
     let (constant_c, oblateness) = (parameters.spheroid.constant_c, parameters.spheroid.oblateness());
     let named = [
-        ("the trace of s^IJ: a multiple of the unit tensor turns nothing", vec![(STrace, 1.0)]),
+        ("the trace of s^IJ: a multiple of the unit tensor exerts no torque", vec![(STrace, 1.0)]),
         (
             "C against the size of s^IJ: only C s^IJ / I^xx moves the star",
             vec![(ConstantC, constant_c), (SScale, -s_scale)],
         ),
         ("C against s^IJ: only C s^IJ / I^xx moves the star", with_s((ConstantC, -constant_c))),
-        ("the size of s^IJ against its components, which say the same", with_s((SScale, -s_scale))),
+        ("the size of s^IJ against its components, which it only scales", with_s((SScale, -s_scale))),
         ("gamma against delta: only gamma + delta, the place of the beam, is seen", vec![(Gamma, 1.0), (Delta, -1.0)]),
-        ("gamma: a spheroid looks alike from all sides, and no beam is seen", vec![(Gamma, 1.0)]),
+        ("gamma: a spheroid looks the same at any gamma, and no beam is seen", vec![(Gamma, 1.0)]),
         ("chi: no pulses are among the data", vec![(Chi, 1.0)]),
         ("delta: no pulses are among the data", vec![(Delta, 1.0)]),
         ("rho: no pulses are among the data", vec![(Rho, 1.0)]),

@@ -43,7 +43,12 @@ pub fn wobble_limits(
 ) -> Result<Vec<WobbleLimit>, InferenceError> {
     use TimingParameter::{Chi, PrecessionPhase, PrecessionRate, TorqueShare, Wobble};
     let wobble = fitted.value(Wobble);
-    Error::ensure(wobble < NO_WOBBLE, "wobble (rad)", wobble, "zero, for a limit of what can be")?;
+    Error::ensure(
+        wobble < NO_WOBBLE,
+        "wobble (rad)",
+        wobble,
+        "zero: the limit is for a model fitted without a wobble",
+    )?;
     let of_wobble = [Wobble, Chi, PrecessionPhase, PrecessionRate, TorqueShare];
     if let Some(unknown) = unknowns.iter().find(|unknown| of_wobble.contains(unknown)) {
         let why = "residuals without a wobble do not depend on it: it is held fixed";

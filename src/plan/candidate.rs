@@ -137,7 +137,7 @@ fn free(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Result<F
         request.derivatives.is_empty() || torque == 0.0,
         "largest torque C |s^IJ|",
         torque,
-        "zero, if derivatives are wanted",
+        "zero, for derivatives",
     )?;
     let motion = UniformMotion::free(problem, span);
     let elapsed = span.1 - span.0;
@@ -159,9 +159,9 @@ fn symmetric(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Res
     let truncation = motion.truncation(elapsed);
     Error::ensure(
         request.derivatives.is_empty() || truncation == 0.0,
-        "part of s^IJ without symmetry about an axis",
+        "truncation error of the elliptic solution",
         truncation,
-        "zero within rounding, if derivatives are wanted",
+        "zero within rounding, for derivatives",
     )?;
     // The rounding costs more than the motion: only for one that may be used.
     let usable = truncation <= request.tolerance || request.method == Some(Method::Symmetric);

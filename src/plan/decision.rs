@@ -128,7 +128,7 @@ impl Plan {
         match &averaged.expect("considered where no method was asked for").prediction {
             Err(error) => error.clone(),
             Ok(prediction) => Error::Domain {
-                quantity: "what the averaged motion, the only one of a star with a bulge, leaves out at the end",
+                quantity: "truncation error of the averaged motion, the only method for a star with a bulge, at the end",
                 value: prediction.truncation,
                 allowed: "at most the tolerance: a weaker violation, a shorter span or a larger tolerance",
             },
@@ -152,17 +152,17 @@ impl Plan {
             skip("integration", "the motion has a closed form");
             let counts_turns = self.outputs.contains(&Output::EulerAngles);
             if !for_events && !counts_turns {
-                skip("times between samples", "a closed form needs no time before the one asked");
+                skip("times between samples", "a closed form needs no time before the requested one");
             }
         }
         if self.state != State::Nothing && self.samples == 0 {
             skip("samples", "events are found on the dense output, wherever they are");
         }
         if self.span.1 != request.span.1 {
-            skip("the span after the last sample", "nothing is asked there");
+            skip("the span after the last sample", "nothing is requested there");
         }
         if self.derivatives.is_empty() {
-            skip("derivatives", "none is asked");
+            skip("derivatives", "none is requested");
         } else if self.derivatives.len() < Parameter::OF_MOTION.len() {
             skip("derivatives by the other parameters", "only those named are computed");
         }
@@ -235,7 +235,7 @@ mod tests {
             Err(Error::Domain { quantity, .. }) => quantity,
             other => panic!("{other:?}"),
         };
-        assert!(refused(&star([0.02, 0.01, -0.03]), &request).starts_with("what the averaged motion"));
+        assert!(refused(&star([0.02, 0.01, -0.03]), &request).starts_with("truncation error of the averaged motion"));
         assert!(refused(&star([0.7, 0.1, -0.8]), &request).starts_with("|C| (s_max"));
         assert!(refused(&weak.with_bulge(1e6).unwrap(), &request).ends_with("with a bulge"));
         for method in [Method::Steady, Method::Symmetric, Method::Torus, Method::Splitting, Method::Taylor] {

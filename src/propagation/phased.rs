@@ -104,7 +104,7 @@ impl PhasedMotion {
             complement > 0.0,
             "distance k' of L from the separatrix",
             complement,
-            "above zero: there L goes round no axis",
+            "above zero: on the separatrix L precesses about no axis",
         )?;
         let given_from_principal = frame.principal_from_given.transpose();
         Ok(Self { problem: *problem, solution: Solution::Averaged { mean, given_from_principal } })

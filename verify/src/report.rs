@@ -53,7 +53,7 @@ fn table(results: &[&Result], id_width: u16, width: u16, detailed: bool) -> Tabl
         .set_header([
             "check",
             "Eqs.",
-            if detailed { "what holds, and the figure measured for it" } else { "what holds" },
+            if detailed { "statement, and the number measured for it" } else { "statement" },
             "measured",
             "bound",
             "verdict",

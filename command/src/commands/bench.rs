@@ -11,7 +11,7 @@ use twofold_bench::{Effort, growth, overhead, scaling, work_precision};
 
 #[derive(Args)]
 pub(crate) struct BenchArgs {
-    /// Some ten seconds instead of minutes: fewer repeats, and long motions to 1e4 t_c only
+    /// Take about ten seconds instead of minutes: fewer repeats, and long motions only to 1e4 t_c
     #[arg(long)]
     pub(crate) quick: bool,
     /// Write the tables, every run as CSV and the work-precision plot into this folder

@@ -25,14 +25,14 @@ pub(crate) struct BoundsArgs {
 /// What the recommended limit includes, and what it leaves out.
 const INCLUDES: [&str; 5] = [
     "the error of Delta W, where one is given",
-    "the other numbers, uncertain by their last digits or as given",
-    "directions, unless eta or beta_0 is given: all orientations of the axes of s, for the known lambda, are as probable",
+    "the uncertainties of the other numbers, as given or of their last digits",
+    "directions, unless eta or beta_0 is given: an isotropic prior on the orientation of the axes of s, at the known lambda",
     "s symmetric about Z, which has the largest eta at 95 % if nothing is known of its axes",
     "the star's own deformation, unless I^zz/C is given: 4/Omega^2 by the paper's virial relation T_rot = 2C of a fluid",
 ];
 const LEAVES_OUT: [&str; 2] = [
-    "relativistic structure of the star, beams that are no cones, other causes of a change of width",
-    "what several pulses together, and for alpha_2 the directions of w and of the pulsars, would add",
+    "relativistic structure of the star, beams that are not cones, other causes of a change of width",
+    "the gain from several pulses together and, for alpha_2, from the directions of w and of the pulsars",
 ];
 
 pub(super) fn bounds(args: &BoundsArgs) -> Result<(), Failure> {
@@ -79,7 +79,10 @@ pub(super) fn bounds(args: &BoundsArgs) -> Result<(), Failure> {
         let _ = writeln!(text, "{}\n", table_of(rows));
     }
     text.push_str(&recommendation(chosen, &limit, of_chosen.map_or(&[], |(_, rows)| rows)));
-    let _ = writeln!(text, "\nPublished by others; components in the Sun-centred frame, most with all of them free");
+    let _ = writeln!(
+        text,
+        "\nLimits published by others; components in the Sun-centred frame, most from fits with all of them free"
+    );
     let _ = writeln!(text, "{}", published_table());
     print(&text)
 }
@@ -150,22 +153,22 @@ fn rows(pulsar: &Pulsar, printed: Option<PrintedBounds>) -> Result<Vec<Row>, Str
         rows.push(Row { key, label: label.to_owned(), value, from_change: None, from_inputs: None, printed });
     };
     if let Some(by_change) = limit.over_eta_by_change {
-        push("limit_over_eta_by_change", "(c) as (b), by the error of Delta W: limit / eta", by_change, over_eta());
+        push("limit_over_eta_by_change", "(c) as (b), with the error of Delta W: limit / eta", by_change, over_eta());
         if printed.is_some() {
-            let ten = format!("(c) as (b), by the error of Delta W: limit, eta = {CONSERVATIVE_ETA}");
+            let ten = format!("(c) as (b), with the error of Delta W: limit, eta = {CONSERVATIVE_ETA}");
             push("limit_eta_ten_by_change", &ten, by_change * CONSERVATIVE_ETA, with_ten());
         }
     }
-    push("limit_over_eta_by_inputs", "the other numbers alone: limit / eta", limit.over_eta_by_inputs, None);
+    push("limit_over_eta_by_inputs", "input uncertainties only: limit / eta", limit.over_eta_by_inputs, None);
     let unknown = pulsar.directions()?.is_some();
-    push("eta", if unknown { "directions alone, lambda known: limit of eta" } else { "eta as given" }, limit.eta, None);
+    push("eta", if unknown { "directions only, lambda known: limit on eta" } else { "eta as given" }, limit.eta, None);
     if limit.over_eta_by_change.is_some() {
         let without = pulsar.limit(&Figure { from_change: None, ..own })?.all;
-        push("limit_without_error", "both, Delta W as it stands: limit", without, with_ten());
+        push("limit_without_error", "all but the error of Delta W: limit", without, with_ten());
     }
-    push("limit", "all together: limit", limit.all, with_ten());
+    push("limit", "total: limit", limit.all, with_ten());
     if let Ok(alpha_2) = pulsar.figure("alpha_2_over_eta_own") {
-        push("alpha_2_limit", "all together: limit on |alpha_2|", pulsar.limit(&alpha_2)?.all, None);
+        push("alpha_2_limit", "total: limit on |alpha_2|", pulsar.limit(&alpha_2)?.all, None);
     }
     Ok(rows)
 }
@@ -175,7 +178,7 @@ fn table_of(rows: &[Row]) -> String {
     let compares = rows.iter().any(|row| row.printed.is_some());
     let mut header = vec!["", "value"];
     header.extend(measured.then_some("+- by Delta W"));
-    header.push("+- by others");
+    header.push("+- by inputs");
     header.extend(compares.then_some(["printed", "ours/printed"]).into_iter().flatten());
     let mut table = vec![header.into_iter().map(String::from).collect()];
     let cell = |x: Option<f64>| x.map(rounded).unwrap_or_default();
@@ -213,11 +216,11 @@ fn recommendation(pulsar: &Pulsar, limit: &Limit, rows: &[Row]) -> String {
         let _ = writeln!(text, "  Source: {source}");
     }
     if let Some(without) = value_of(rows, "limit_without_error") {
-        let _ = writeln!(text, "  Without the error of Delta W, with its value as it stands: {without:.1e}");
+        let _ = writeln!(text, "  Without the error of Delta W, with its value taken as exact: {without:.1e}");
     }
     text.push_str(
-        "  Of the pulses it has the strongest limit for a measured change of zero, or for the limit given: it is chosen by errors,\n\
-         \x20 not by what was found.",
+        "  This pulse has the best expected sensitivity, the strongest limit for a Delta W of zero or for the limit given:\n\
+         \x20 the choice depends on the errors, not on the measured values.",
     );
     text.push_str(match pulsar.measured_change() {
         Some(_) => " With random directions and errors the limit is above the true value in 95 % of cases or more.\n",
@@ -308,12 +311,12 @@ mod tests {
     fn columns_without_numbers_are_left_out() {
         let (plain, measured, printed) = (row(None, None), row(Some(2e-17), None), row(None, Some("~1e-16")));
         let table = table_of(&[plain]);
-        assert_eq!(cells(&table), [vec!["value", "+- by others"], vec!["a limit", "3.14e-16", "0"]]);
+        assert_eq!(cells(&table), [vec!["value", "+- by inputs"], vec!["a limit", "3.14e-16", "0"]]);
         let table = table_of(&[measured]);
-        let header = vec!["value", "+- by Delta W", "+- by others"];
+        let header = vec!["value", "+- by Delta W", "+- by inputs"];
         assert_eq!(cells(&table), [header, vec!["a limit", "3.14e-16", "2.00e-17", "0"]]);
         let table = table_of(&[printed]);
-        let header = vec!["value", "+- by others", "printed", "ours/printed"];
+        let header = vec!["value", "+- by inputs", "printed", "ours/printed"];
         assert_eq!(cells(&table), [header, vec!["a limit", "3.14e-16", "0", "~1e-16", "3.1"]]);
         // Words on the left, numbers on the right, a line below.
         let lines: Vec<_> = table.lines().collect();
@@ -347,7 +350,10 @@ mod tests {
             recommendation(chosen, &limit, &rows(chosen, None).expect("rows"))
         };
         let (measured, stated) = (text("[0.020, 0.108]"), text("0.020"));
-        for part in ["it is chosen by errors,\n  not by what was found. ", "  Included:\n  - the error of Delta W"] {
+        for part in [
+            "or for the limit given:\n  the choice depends on the errors, not on the measured values. ",
+            "  Included:\n  - the error of Delta W",
+        ] {
             assert!(measured.contains(part) && stated.contains(part), "{measured}{stated}");
         }
         assert!(

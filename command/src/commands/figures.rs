@@ -16,7 +16,7 @@ pub(crate) struct FiguresArgs {
     /// Figures to draw, by name or by number of the paper's figure; all if none is named
     #[arg(value_name = "NAME")]
     pub(crate) names: Vec<String>,
-    /// Folder for the files, made if it is not there
+    /// Folder for the files, created if it does not exist
     #[arg(long, value_name = "DIR", default_value = "figures")]
     pub(crate) out: PathBuf,
     /// Draw the figures of a motion for this built-in scene or scene file (TOML)

@@ -24,7 +24,7 @@ pub(super) fn fisher(args: &FisherArgs) -> Result<(), Failure> {
     let values = &fisher.singular_values;
     if let (Some(largest), Some(smallest)) = (values.first(), values.last()) {
         note(&format!(
-            "singular values of the scaled Jacobian from {largest:.1e} to {smallest:.1e}; rounding makes of zero at most {:.1e}",
+            "singular values of the scaled Jacobian from {largest:.1e} to {smallest:.1e}; rounding turns a zero into at most {:.1e}",
             fisher.rounding
         ));
     }

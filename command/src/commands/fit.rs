@@ -28,7 +28,7 @@ pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
             let (data, left_out) = found.map_err(Failure::BadInput)?;
             if left_out > 0 {
                 note(&format!(
-                    "left out, since the pulse of the first turn may be cut in another model: {left_out} of the data"
+                    "{left_out} of the data are left out, since the pulse of the first turn may be cut in another model"
                 ));
             }
             data
@@ -42,7 +42,7 @@ pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
             let events = measurement.events(&signal).map_err(|error| refused(error.into()))?;
             let fisher = Fisher::of(parameters, &events, &data, unknowns).and_then(Fisher::determined);
             start = beside(&fisher.map_err(refused)?, 3.0, &mut random)?;
-            note("simulated: the fit begins three standard deviations beside the scene");
+            note("simulated data: the fit starts three standard deviations away from the scene");
         }
     }
     let found = fit(&start, &data, unknowns, end).map_err(refused)?;
@@ -60,12 +60,12 @@ pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
     match found.judged() {
         Residuals::AsStated => {}
         Residuals::Larger => note(&format!(
-            "the residuals are {size} times the errors of --observe (root mean square): the scene is no model of the data, or their errors \
-             are larger; the error bars are for the errors stated"
+            "the residuals are {size} times the errors of --observe (root mean square): the scene does not describe the data, or their errors \
+             are larger; the error bars hold for the errors stated"
         )),
         Residuals::Smaller => note(&format!(
             "the residuals are {size} times the errors of --observe (root mean square): the scene fits the data better than such errors allow, \
-             as it does data without errors; the error bars are for the errors stated"
+             as it does for data without errors; the error bars hold for the errors stated"
         )),
     }
     note_nonlinearity(nonlinearity(&found.fisher, &data, end));

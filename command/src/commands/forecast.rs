@@ -16,7 +16,7 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
             refuse(format!("--of {}: allowed is one of the parameters, {}", args.of, keys.join(", ")))
         })?;
     if measurement.noise.iter().any(|(observable, _)| *observable == Observable::Periods) {
-        return Err(refuse("--observe periods: allowed for a forecast is what one pulse alone gives".into()));
+        return Err(refuse("--observe periods: allowed for a forecast are observables of a single pulse".into()));
     }
     let unit = measurement.scene.units.time;
     let spans = match &args.spans {
@@ -62,7 +62,7 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
     let unknown = found.iter().filter(|forecast| !forecast.sigma.is_finite()).count();
     if unknown > 0 {
         note(&format!(
-            "{unknown} of {} rows have no sigma: too few data, or data that do not determine {}; allowed are longer spans and more epochs",
+            "{unknown} of {} rows have no sigma: too few data, or data that do not determine {}; longer spans or more epochs may help",
             found.len(),
             target.key()
         ));
@@ -71,7 +71,7 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
     for (what, slope) in [("span", by_span), ("number of data", by_epochs)] {
         if let Some(slope) = slope {
             let error = as_printed(slope.error, 0.5e-3);
-            note(&format!("sigma goes as the {what} to the power of {:.3} +- {error:.3}", slope.value));
+            note(&format!("sigma scales as the {what} to the power of {:.3} +- {error:.3}", slope.value));
         }
     }
     note("sigma is proportional to the errors of the data");

@@ -8,19 +8,19 @@ use clap::Args;
 pub(crate) struct MeasurementArgs {
     /// A built-in scene (see `twofold scenes`) or the path of a scene file (TOML)
     pub(crate) scene: String,
-    /// What is measured, each with the standard deviation of its independent errors in the scene's unit: arrivals,
+    /// The observables, each with the standard deviation of its independent errors in the scene's unit: arrivals,
     /// closest_approaches, widths, periods (of pulses); h_plus, h_cross or strain for both (at the samples of the scene)
     #[arg(long, value_name = "NAME:SIGMA,NAME:SIGMA")]
     pub(crate) observe: String,
-    /// What is not known: eps, spin, c, s_scale, s_axial, s_asymmetry, s_trace, s_xy, s_xz, s_yz, alpha, beta, gamma, alpha_rate,
-    /// beta_rate, chi, delta, rho, theta_o, phi_o, strain_scale; or all. If not given, what such data can determine
+    /// Unknown parameters: eps, spin, c, s_scale, s_axial, s_asymmetry, s_trace, s_xy, s_xz, s_yz, alpha, beta, gamma, alpha_rate,
+    /// beta_rate, chi, delta, rho, theta_o, phi_o, strain_scale; or all. If not given, those that such data can determine
     #[arg(long, value_name = "NAME,NAME")]
     pub(crate) parameters: Option<String>,
 }
 
 #[derive(Args)]
 pub(crate) struct TableArgs {
-    /// Write the table, with every digit and all correlations, to this file as CSV too
+    /// Also write the table, with every digit and all correlations, to this file as CSV
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
     /// Replace the file if it exists
@@ -43,8 +43,8 @@ pub(crate) struct FitArgs {
     /// Tables of `twofold pulses` or of `twofold run --columns h`, with the same unit and zero of time as the scene
     #[arg(value_name = "DATA")]
     pub(crate) data: Vec<String>,
-    /// Add random errors of the sizes in --observe to the data; without DATA to those of the scene itself, and begin the fit
-    /// beside it
+    /// Add random errors of the sizes in --observe to the data; without DATA, simulate the data from the scene, and start the fit
+    /// three standard deviations away from it
     #[arg(long, value_name = "SEED")]
     pub(crate) simulate: Option<u64>,
     #[command(flatten)]
@@ -55,10 +55,10 @@ pub(crate) struct FitArgs {
 pub(crate) struct ForecastArgs {
     #[command(flatten)]
     pub(crate) fisher: FisherArgs,
-    /// The parameter
+    /// The parameter whose uncertainty is forecast
     #[arg(long, value_name = "NAME", default_value = "s_axial")]
     pub(crate) of: String,
-    /// Spans in the scene's unit of time; if not given, that of the scene and twice, four and eight times as much
+    /// Spans in the scene's unit of time; if not given, 1, 2, 4 and 8 times that of the scene
     #[arg(long, value_name = "TIME,TIME", value_delimiter = ',', allow_hyphen_values = true)]
     pub(crate) spans: Option<Vec<f64>>,
     /// Numbers of epochs, equally spaced over the span, with one pulse and one sample of the strain each

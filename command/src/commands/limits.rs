@@ -24,22 +24,22 @@ use super::{Failure, TableArgs, note, print};
 
 #[derive(Args)]
 pub(crate) struct LimitsArgs {
-    /// A built-in pulsar (see `twofold scenes`) or the path of a scene file (TOML), with `time.epoch`, [observer] and [pulsar]: the start of the fit, and what is held fixed
+    /// A built-in pulsar (see `twofold scenes`) or the path of a scene file (TOML), with `time.epoch`, [observer] and [pulsar]: the starting values of the fit, and the values held fixed
     pub(crate) scene: String,
     /// Barycentred arrival times (.tim, FORMAT 1), or tables as `twofold timing` writes them
     #[arg(value_name = "DATA", required = true)]
     pub(crate) data: Vec<String>,
-    /// What tables have, with the standard deviation of each in seconds: arrivals, widths. A .tim has its own
+    /// The observables of tables, each with its standard deviation in seconds: arrivals, widths. A .tim states its own errors
     #[arg(long, value_name = "NAME:SIGMA,NAME:SIGMA")]
     pub(crate) observe: Option<String>,
-    /// What is not known: phase, f0, f1, f2, wobble, chi, precession_phase, precession_rate, torque_share, inclination,
-    /// inclination_rate, rho. If not given: phase, f0 and f1 of arrivals, inclination_rate and rho of widths
+    /// Parameters to fit: phase, f0, f1, f2, wobble, damping, chi, precession_phase, precession_rate, torque_share, inclination,
+    /// inclination_rate, rho; or all. If not given: phase, f0 and f1 of arrivals, inclination_rate and rho of widths
     #[arg(long, value_name = "NAME,NAME")]
     pub(crate) parameters: Option<String>,
-    /// What is known of a parameter beforehand, its mean and standard deviation, as chi:1.2:0.05; may be given more than once
+    /// Normal prior of a parameter: its mean and standard deviation, as chi:1.2:0.05; may be given more than once
     #[arg(long, value_name = "NAME:MEAN:SIGMA", value_parser = prior)]
     pub(crate) prior: Vec<Prior>,
-    /// Periods of the free precession in days at which the wobble is limited, from the first to the last in equal ratios; --out then writes these limits
+    /// Periods of free precession (days) at which to limit the wobble, spaced logarithmically from the first to the last; --out then writes these limits
     #[arg(long, value_name = "FIRST:LAST:NUMBER", value_parser = periods)]
     pub(crate) periods: Option<Periods>,
     #[command(flatten)]
@@ -100,9 +100,7 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
     };
     if let Some(prior) = data.priors.iter().find(|prior| !unknowns.contains(&prior.parameter)) {
         let key = prior.parameter.key();
-        return Err(refuse(format!(
-            "--prior {key}: allowed is a parameter that is not known; --parameters has no {key}"
-        )));
+        return Err(refuse(format!("--prior {key}: allowed is a parameter that is fitted; --parameters has no {key}")));
     }
     let refused = |error: InferenceError| match error {
         InferenceError::Model(error) => super::run::failed(error),
@@ -137,10 +135,7 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
             rows.push(either(&|value| significant(value, 4), "none"));
             plain.push(either(&|value| format!("{value:?}"), ""));
         }
-        page += &format!(
-            "\nLimits on the wobble at {} %, for the chi and the share of the torque that are held fixed\n",
-            100.0 * CONFIDENCE
-        );
+        page += &format!("\nLimits on the wobble at {} %, with chi and torque_share held fixed\n", 100.0 * CONFIDENCE);
         page += &readable(&rows);
         tables = plain;
     }
@@ -160,7 +155,7 @@ fn check_periods(periods: Periods, model: &TimingModel, data: &TimingData) -> Re
     let apart = days_apart(data.arrivals.iter().map(|arrival| arrival.time[0]));
     if shortest < 2.0 * apart {
         note(&format!(
-            "data are {apart:.3e} d apart, more than half of the shortest period: its wobble may look like one of another period"
+            "data are {apart:.3e} d apart, more than half of the shortest period: a wobble of that period is aliased"
         ));
     }
     Ok(())
@@ -206,7 +201,7 @@ fn tell_fit(found: &Fit<TimingModel>, data: &TimingData, pulsar: &PulsarScene) {
     match found.judged() {
         Residuals::AsStated => {}
         Residuals::Larger => note(&format!(
-            "the residuals are {size} times the errors stated (root mean square): the model lacks something, or the errors are larger. No limit is printed: it would be for the errors stated"
+            "the residuals are {size} times the errors stated (root mean square): the model is incomplete, or the errors are larger than stated. No limit is printed, since it would hold only for the errors stated"
         )),
         Residuals::Smaller => note(&format!("the residuals are {size} times the errors stated (root mean square)")),
     }
@@ -225,8 +220,8 @@ fn limit_on_s(found: &Fit<TimingModel>) -> Result<String, Failure> {
     let w = Vector3::new(0.0, 0.0, SPEED * KILOMETRE);
     let alpha_2 = preferred_frame_bound(limit, &w)?;
     Ok(format!(
-        "\n|2 s^ZZ - s^XX - s^YY| is at most {limit:.3e} at {} %: by the rate of the inclination, Eq. (41), with I^zz/C = 4/Omega^2 of a fluid star and all directions of the axes of s as likely \
-         as each other\n|alpha_2| is then at most {alpha_2:.3e}, for a star that moves at {SPEED} km/s against the preferred frame, as the Sun does against the cosmic background\n",
+        "\n|2 s^ZZ - s^XX - s^YY| is at most {limit:.3e} at {} %: from the rate of the inclination by Eq. (41), with I^zz/C = 4/Omega^2 of a fluid star and an isotropic prior \
+         on the directions of the axes of s\n|alpha_2| is then at most {alpha_2:.3e}, for a star that moves at {SPEED} km/s relative to the preferred frame, as the Sun does relative to the cosmic microwave background\n",
         100.0 * CONFIDENCE
     ))
 }
@@ -241,7 +236,7 @@ fn assumptions(model: &TimingModel, unknowns: &[TimingParameter], data: &TimingD
     let fixed: Vec<_> = fixed.map(|parameter| stated(*parameter, significant(model.value(*parameter), 8))).collect();
     let mut text = format!("\nHeld fixed: {}\n", fixed.join(", "));
     for Prior { parameter, mean, sigma } in &data.priors {
-        text += &format!("Known beforehand: {}\n", stated(*parameter, format!("{mean:?} +- {sigma:?}")));
+        text += &format!("Prior: {}\n", stated(*parameter, format!("{mean:?} +- {sigma:?}")));
     }
     text + "The model: free precession of a biaxial star, a braking torque along L, independent normal errors\n"
 }

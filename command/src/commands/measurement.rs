@@ -42,7 +42,7 @@ impl Measurement {
         self.check_samples(&signal).map_err(|why| Failure::BadInput(format!("{}: {why}", self.name)))?;
         if signal.is_long() && self.sees_pulses() {
             note(
-                "a span of more than 1e5 rad of rotation: the pulses nearest to the samples of the scene, by the averaged motion",
+                "the span is more than 1e5 rad of rotation: the data are the pulses nearest to the samples of the scene",
             );
         }
         Ok(signal)
@@ -68,9 +68,9 @@ fn roughness(nonlinearity: Result<f64, InferenceError>) -> Option<String> {
     match nonlinearity {
         Ok(nonlinearity) if nonlinearity < 0.3 => None,
         Ok(nonlinearity) => Some(format!(
-            "chi^2 is off its parabola by {nonlinearity:.1} at one standard deviation: the error bars are rough"
+            "chi^2 deviates from its parabola by {nonlinearity:.1} at one standard deviation: the error bars are rough"
         )),
-        Err(why) => Some(format!("the error bars are rough: a standard deviation away, {why}")),
+        Err(why) => Some(format!("the error bars are rough: one standard deviation away, {why}")),
     }
 }
 
@@ -198,9 +198,9 @@ mod tests {
     #[test]
     fn error_bars_are_called_rough_from_a_third_on() {
         assert_eq!(roughness(Ok(0.29)), None);
-        let text = "chi^2 is off its parabola by 0.3 at one standard deviation: the error bars are rough";
+        let text = "chi^2 deviates from its parabola by 0.3 at one standard deviation: the error bars are rough";
         assert_eq!(roughness(Ok(0.3)), Some(text.into()));
         let text = roughness(Err(InferenceError::TooFew { data: 1, least: 2 })).expect("a note");
-        assert!(text.starts_with("the error bars are rough: a standard deviation away, "), "{text}");
+        assert!(text.starts_with("the error bars are rough: one standard deviation away, "), "{text}");
     }
 }

@@ -47,89 +47,90 @@ pub(crate) struct Cli {
 
 #[derive(Subcommand)]
 pub(crate) enum Command {
-    /// Run the checks of the paper's equations and print what each measured, its bound and the verdict
+    /// Run the checks of the paper's equations and print the measured value, the bound and the verdict of each
     ///
     /// A check compares an equation of the paper with something independent of it: exact arithmetic, automatic
-    /// derivatives, another method, an invariant. It measures one figure, which must meet one bound.
+    /// derivatives, another method, an invariant. It measures one number, which must meet one bound.
     Verify(verify::VerifyArgs),
     /// Compute the motion of a star, or what an observer sees of it, and write it as CSV
     ///
     /// The header of the table names the columns and their units. A scene in the paper's units has times in
-    /// t_c = sqrt(I^xx / C), a scene of a physical star in seconds. Angles are in rad and continuous: they count their
-    /// turns. Where the symmetry axis is exactly on a pole they do not exist, and their fields are empty.
+    /// t_c = sqrt(I^xx / C), a scene of a physical star in seconds. Angles are in rad and continuous (unwrapped). Where
+    /// the symmetry axis is exactly on a pole they are undefined, and their fields are empty.
     Run(run::RunArgs),
-    /// Print the bounds on Lorentz violation from the pulse widths of pulsars, and one recommended limit with its confidence
+    /// Print the bounds on Lorentz violation from pulsar pulse widths, and one recommended limit with its confidence
     ///
-    /// Without a file: the two pulsars of the paper's table, beside its numbers. Published limits stand below. The format of a
-    /// table and the method are described in docs/bounds.md.
+    /// Without a file, the two pulsars of the paper's table are used and compared with its numbers. Published limits follow. The
+    /// format of a table and the method are described in docs/bounds.md.
     Bounds(bounds::BoundsArgs),
     /// Find every pulse of a star's radio beam in the span of a scene and write them as CSV
     ///
-    /// A pulse is a stretch of time in which the line of sight is inside the beam, m.n > cos(rho). The scene must have the
-    /// sections [observer] and [pulsar]; the samples of its [time] do not matter, its span does. None is missed and none invented, but
-    /// where an extremum of m.n is within 1e-13 of cos(rho): rounding decides there, and a note says when.
+    /// A pulse is an interval of time in which the line of sight is inside the beam, m.n > cos(rho). The scene must have the
+    /// sections [observer] and [pulsar]; only the span of its [time] matters, not the samples. No pulse is missed and none is spurious,
+    /// except where an extremum of m.n is within 1e-13 of cos(rho): rounding decides there, and a note gives the first such time.
     Pulses(pulses::PulsesArgs),
-    /// Compute arrival times of a pulsar over decades, and what they are late by against a constant frequency
+    /// Simulate the arrival times of a pulsar over decades, and their timing residuals
     ///
-    /// Writes SCENE.csv, SCENE.par and SCENE.tim (FORMAT 1, barycentre), and the strain at the beginning as SCENE.h_plus.txt and
-    /// SCENE.h_cross.txt. Pulses are those nearest to the epochs asked for; without options, to the times of the scene. The motion is
-    /// the averaged one where that is as exact, else that on its torus; docs/pulsars.md describes the files.
+    /// Writes SCENE.csv, SCENE.par and SCENE.tim (FORMAT 1, barycentre), a plot of the residuals as SCENE.svg and SCENE.png and, if the
+    /// scene has `observer.distance`, the strain from the first epoch on as SCENE.h_plus.txt and SCENE.h_cross.txt. The pulses are those
+    /// nearest to the requested epochs or, without options, to the times of the scene. The averaged motion is used where it is as
+    /// accurate as the motion on the torus, and that one elsewhere; docs/pulsars.md describes the files.
     Timing(timing::TimingArgs),
-    /// Find the spectral lines of what a scene gives, name them by the fundamental frequencies of the motion, write them as CSV
+    /// Find the spectral lines of a column of a scene, identify them by the fundamental frequencies of the motion, write them as CSV
     ///
-    /// All of them, from the exact motion: the scene's [time] does not matter. Notes on standard error tell the fundamental frequencies, the
-    /// constant term and what the lines leave out.
+    /// All lines are found, from the exact motion: the scene's [time] does not matter. Notes on standard error give the fundamental
+    /// frequencies, the constant term and the largest residual of the lines.
     Spectrum(spectrum::SpectrumArgs),
-    /// Compute many scenes, grids, lists or random draws of the parameters of one, and write a table with a row for each
+    /// Compute many scenes (grids, lists or random draws of the parameters of one), and write a table with one row for each
     ///
-    /// The table grows in FILE.partial and gets its name when it is complete. Whatever ends the command before, the same command
-    /// goes on where it was, and the table is the same to the byte as without the interruption. A scene that fails is a row
-    /// that says so, and a line in FILE.errors.csv. The format of a sweep file is described in docs/sweep.md.
+    /// The table grows in TABLE.partial and is renamed to TABLE when it is complete. If the command is interrupted, the same command
+    /// continues where it stopped, and the table is the same to the byte as without the interruption. A scene that fails has a row
+    /// that says so, and a line in TABLE.errors.csv. The format of a sweep file is described in docs/sweep.md.
     Sweep(sweep::SweepArgs),
     /// Compare the data that the paper's authors published with the same numbers computed here
     ///
-    /// The files are those of the folder `data3` of github.com/ryxxastroat/lorentz_precession. Each known one in the folder is
-    /// read and computed anew; the largest difference of each column is printed beside what the file is known to be off by.
+    /// The files are those of the folder `data3` of github.com/ryxxastroat/lorentz_precession. Each known file in the folder is
+    /// read and recomputed; the largest difference of each column is printed next to the known error of the file.
     Compare(compare::CompareArgs),
     /// Draw the paper's figures and ours, each as SVG and PNG, with its caption and its data
     ///
     /// Writes NAME.svg, NAME.png, NAME.md and NAME.csv (or NAME.TABLE.csv) of each figure; the files appear when all are
     /// complete. With --scene the figures of a motion are drawn for a scene in place of the paper's examples.
     Figures(figures::FiguresArgs),
-    /// Tell what arrival times and pulse widths limit: the wobble of a pulsar against its period, the motion of its spin axis, and with it the size of s
+    /// Limits from arrival times and pulse widths: on the wobble against the precession period, on the drift of the spin axis, and from it on the size of s
     ///
-    /// Fits the timing model of docs/timing-model.md to barycentred data from a scene, over any number of turns. Prints values with standard deviations, limits at 95 %, and what was held
-    /// fixed.
+    /// Fits the timing model of docs/timing-model.md to barycentred data, starting from a scene, over any number of turns. Prints values with standard deviations, limits at 95 %, and the
+    /// parameters that were held fixed.
     Limits(limits::LimitsArgs),
-    /// Tell how well measurements of a scene would determine its parameters, and what they cannot determine at all
+    /// Compute the Fisher matrix: how well measurements of a scene would determine its parameters, and which they cannot determine
     ///
-    /// The Fisher matrix of pulse times, widths or strains with independent errors, by exact derivatives. Prints the standard
-    /// deviation of each parameter with all others unknown; notes on standard error name every combination of parameters that
-    /// the data leave open, with the reason where it is a symmetry. docs/inference.md describes parameters and method.
+    /// The data are pulse times, widths or strains with independent errors; the derivatives are exact. Prints the marginalised
+    /// standard deviation of each parameter; notes on standard error name every combination of parameters that the data do not
+    /// determine, with the reason if it is a symmetry. docs/inference.md describes parameters and method.
     Fisher(FisherArgs),
     /// Fit the parameters of a scene to measured series, by least squares, with error bars
     ///
-    /// Data are tables of `twofold pulses` or of `twofold run --columns h`. The fit begins at the scene, which must be near enough
+    /// Data are tables of `twofold pulses` or of `twofold run --columns h`. The fit starts from the scene, which must be close enough
     /// that its pulses are those of the data. Parameters that the data do not determine are refused, with the reason.
     Fit(FitArgs),
-    /// Tell how the uncertainty of one parameter goes with the span, the number and the errors of measurements
+    /// Forecast the uncertainty of one parameter against the span, the number and the errors of the measurements
     Forecast(ForecastArgs),
-    /// Time every method against its true error, and what comes on top of a motion
+    /// Measure the time and the true error of every method, and the cost of what is computed on top of a motion
     ///
-    /// Seven scenes of 1,000 t_c with references of 30 digits; methods are run in turn, and the least time of each counts. Then
-    /// the growth of errors over long motions, what events, samples, gradients and wider numbers cost, and how the time goes
-    /// with the number of outputs, scenes and cores.
+    /// Seven scenes of 1,000 t_c have references of 30 digits; the methods are run in turn, and the shortest time of each counts.
+    /// Measured next are the growth of errors over long motions, the cost of events, samples, gradients and wider numbers, and how
+    /// the time scales with the number of outputs, scenes and cores.
     Bench(bench::BenchArgs),
     /// List the built-in scenes and sweeps, or print the file of one
     Scenes(scenes::ScenesArgs),
     /// Run every check and write everything as one HTML page: claims, equations, checks, golden tables, figures
     ///
-    /// The page is DIR/index.html. It needs no network, no script and no other file. It is written, and says so at its
-    /// top, also where checks fail; the status is then 1.
+    /// The page is DIR/index.html. It needs no network, no script and no other file. If checks fail, the page is still
+    /// written and says so at its top; the status is then 1.
     Report(report::ReportArgs),
-    /// Print the table of equations: what implements each, which checks and golden numbers are about it (Markdown)
+    /// Print the table of equations: the code that implements each, and the checks and golden numbers about it (Markdown)
     Equations,
-    /// Print the paper's statements, each with a verdict and what the checks behind it measured (Markdown)
+    /// Print the paper's statements, each with a verdict and the measurements of the checks behind it (Markdown)
     Claims,
     /// Print the tables of digits lost by every kernel, as Markdown
     #[command(hide = true)]

@@ -12,7 +12,7 @@ use super::interrupt::unfinished;
 pub(super) fn free_name(path: &Path, replace: bool) -> Result<PathBuf, Failure> {
     let refuse = |why: &str| Err(Failure::BadInput(format!("--out {}: {why}", path.display())));
     if path == Path::new("-") {
-        return refuse("is not standard output here: leave --out away, or write ./- for a file");
+        return refuse("is not standard output here: omit --out, or write ./- for a file");
     }
     match fs::metadata(path) {
         Ok(found) if !found.is_file() => return refuse("exists and is not a regular file"),

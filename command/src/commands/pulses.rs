@@ -14,7 +14,7 @@ use twofold_scene::trajectory::write_pulses;
 pub(crate) struct PulsesArgs {
     /// A built-in scene (see `twofold scenes`) or the path of a scene file (TOML)
     pub(crate) scene: String,
-    /// The opposite beam too, whatever the scene says
+    /// Include the opposite beam too, regardless of the scene
     #[arg(long)]
     pub(crate) second_beam: bool,
     #[command(flatten)]
@@ -39,8 +39,8 @@ pub(super) fn pulses(args: &PulsesArgs) -> Result<(), Failure> {
     let rotation = scene.rotation();
     if rotation > LARGEST_ROTATION {
         return Err(Failure::BadInput(format!(
-            "{}: [time] holds a rotation by {rotation:.1e} rad: allowed for a list of every pulse is at most {LARGEST_ROTATION:.0e} rad; \
-             shorten the span, or choose a window of it by --from and --to, or `twofold timing` computes the pulses near given epochs",
+            "{}: [time] covers {rotation:.1e} rad of rotation: allowed for a list of every pulse is at most {LARGEST_ROTATION:.0e} rad; \
+             shorten the span or select a window of it with --from and --to; `twofold timing` computes the pulses near given epochs",
             args.scene
         )));
     }
@@ -59,8 +59,8 @@ pub(super) fn pulses(args: &PulsesArgs) -> Result<(), Failure> {
     }
     if let Some(time) = summary.first_grazing {
         note(&format!(
-            "the line of sight grazes the edge of a beam {} times, first at t = {time:?} {}: a pulse there, or a gap between \
-             two, is one by rounding",
+            "the line of sight grazes the edge of a beam {} times, first at t = {time:?} {}: rounding decides whether there is a pulse \
+             there, or a gap between two",
             summary.grazings, scene.units.time_name
         ));
     }

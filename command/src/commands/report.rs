@@ -13,7 +13,7 @@ use twofold_verify::{checks, report};
 
 #[derive(Args)]
 pub(crate) struct ReportArgs {
-    /// Write the page into this folder, which is made if need be
+    /// Write the page into this folder, which is created if necessary
     #[arg(long, value_name = "DIR", default_value = "report")]
     pub(crate) out: PathBuf,
     /// Replace the page if it exists

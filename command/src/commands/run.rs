@@ -16,7 +16,7 @@ use twofold_scene::trajectory::{self, ErrorAtEnd, Summary, TrajectoryError};
 pub(crate) struct RunArgs {
     /// A built-in scene (see `twofold scenes`) or the path of a scene file (TOML)
     pub(crate) scene: String,
-    /// Only these groups of columns, whatever the scene says: angles, rates, e_x, e_z, L, integrals, perturbation, lambda,
+    /// Write only these groups of columns, regardless of the scene: angles, rates, e_x, e_z, L, integrals, perturbation, lambda,
     /// m.n, magnetic_axis, position_angle, h
     #[arg(long, value_name = "GROUP,GROUP", value_delimiter = ',')]
     pub(crate) columns: Option<Vec<String>>,
@@ -31,7 +31,7 @@ pub(crate) struct RunArgs {
 /// A part of the motion.
 #[derive(Args)]
 pub(crate) struct WindowArgs {
-    /// Begin at this time (in the unit of the scene) with the state that the motion has there, however late: turns are counted from there on; if not given, the start
+    /// Begin at this time (in the unit of the scene), however late, with the state of the motion there; turns are counted from there on. If not given, the start
     /// of the scene
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub(crate) from: Option<f64>,
@@ -61,7 +61,7 @@ impl WindowArgs {
 
 #[derive(Args)]
 pub(crate) struct PlanArgs {
-    /// Compute nothing: print the plan, what it skips and why, and what it is expected to cost
+    /// Compute nothing; print the plan, what it skips and why, and its expected cost
     #[arg(long)]
     pub(crate) explain: bool,
     /// The method, instead of the cheapest that meets the tolerance: free, steady, symmetric, averaged, torus, splitting, taylor
@@ -71,7 +71,7 @@ pub(crate) struct PlanArgs {
 
 #[derive(Args)]
 pub(crate) struct OutputArgs {
-    /// Write the table to this file instead of standard output; appears only when it is complete
+    /// Write the table to this file instead of standard output; the file appears only when it is complete
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
     /// Replace the file if it exists
@@ -101,7 +101,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     let (word, error) = match summary.error {
         None => return Ok(()),
         Some(ErrorAtEnd::Estimated(error)) => ("estimated error", error),
-        Some(ErrorAtEnd::Foreseen(error)) => ("error that the plan foresaw", error),
+        Some(ErrorAtEnd::Foreseen(error)) => ("predicted error", error),
     };
     note(&format!("{word} of n, e_x and L / |L| at the end of the span: {error:.1e}"));
     Ok(())
@@ -120,7 +120,9 @@ pub(super) fn failed(error: twofold::Error) -> Failure {
 pub(super) fn read_scene(name: &str, columns: Columns<'_>) -> Result<Scene, Failure> {
     let scene = read_with_spin_down(name, columns)?;
     if scene.spin_down.is_some() {
-        note(&format!("{name}: [spin_down] is for `twofold timing`; here the rotation stays as it is at the epoch"));
+        note(&format!(
+            "{name}: [spin_down] is for `twofold timing`; here the star keeps the rotation rate that it has at the epoch"
+        ));
     }
     Ok(scene)
 }
@@ -180,9 +182,9 @@ fn note_units(scene: &Scene) {
 fn note_poles(scene: &Scene, summary: &Summary) {
     if let Some(time) = summary.first_on_pole {
         note(&format!(
-            "an axis is on a pole in {} of {} rows, first at t = {time:?} {}: alpha, gamma and the rates do not exist where the \
-             symmetry axis is, Theta and Phi where the magnetic axis is, psi where that is along the line of sight; they are \
-             left empty",
+            "an axis is on a pole in {} of {} rows, first at t = {time:?} {}: alpha, gamma and the rates are undefined where the \
+             symmetry axis is, Theta and Phi where the magnetic axis is, psi where that is along the line of sight; these fields \
+             are left empty",
             summary.rows_on_pole, summary.rows, scene.units.time_name
         ));
     }

@@ -12,16 +12,16 @@ use twofold_scene::trajectory::{LinesSummary, LinesWanted, write_lines};
 pub(crate) struct SpectrumArgs {
     /// A built-in scene (see `twofold scenes`) or the path of a scene file (TOML)
     pub(crate) scene: String,
-    /// The column, by its name in the header of `twofold run`, without the unit: m.n, h_plus, cos_lambda, beta, ...
+    /// The column to analyse, by its name in the header of `twofold run`, without the unit: m.n, h_plus, cos_lambda, beta, ...
     #[arg(long, value_name = "COLUMN")]
     pub(crate) of: String,
-    /// Least amplitude of a line, as a part of the largest one
+    /// Least amplitude of a line, as a fraction of the largest one
     #[arg(long, value_name = "RATIO", default_value = "1e-6")]
     pub(crate) least: f64,
-    /// Most lines that are written, the strongest first
+    /// Largest number of lines that are written, the strongest first
     #[arg(long, value_name = "NUMBER", default_value = "50", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) most: u32,
-    /// Frequencies in turns per unit of time (Hz where that is the second), not in rad
+    /// Write frequencies in turns per unit of time (Hz if that is the second), not in rad
     #[arg(long)]
     pub(crate) hertz: bool,
     #[command(flatten)]
@@ -50,11 +50,13 @@ fn note_lines(column: &Column, summary: &LinesSummary) {
     }
     let [x, y, z] = summary.pole;
     if z < 1.0 {
-        note(&format!("these are of angles about the axis ({x:.6}, {y:.6}, {z:.6}), which L goes round, not about Z"));
+        note(&format!(
+            "these are rates of angles about the axis ({x:.6}, {y:.6}, {z:.6}), about which L precesses, not about Z"
+        ));
     }
     note(&format!("{name} has the constant term {:?}{unit}", summary.constant));
     if let Some(rounding) = summary.rounding {
-        note(&format!("lines below {rounding:.1e}{unit} are not listed: rounding makes as much of a constant"));
+        note(&format!("lines below {rounding:.1e}{unit} are not listed: a constant has as much by rounding"));
     }
     note(&format!("{name} differs from its constant and all lines found by up to {:.1e}{unit}", summary.left));
     if summary.written == 0 {

@@ -18,23 +18,24 @@ use twofold_scene::sweep::{
 #[derive(Args)]
 pub(crate) struct SweepArgs {
     /// The sweep (TOML)
+    #[arg(value_name = "SWEEP")]
     pub(crate) file: String,
     /// The table: CSV, or Parquet if the name ends in .parquet
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "TABLE")]
     pub(crate) out: PathBuf,
     /// Replace the table if it exists
     #[arg(long)]
     pub(crate) force: bool,
-    /// Begin anew, whatever part of the table is there
+    /// Start over and discard any partial table
     #[arg(long)]
     pub(crate) restart: bool,
-    /// Compute only part i of n: consecutive scenes, so that the parts' tables one after the other are the whole
+    /// Compute only part i of n; parts are consecutive scenes, so that their tables in order make up the whole
     #[arg(long, value_name = "I/N", conflicts_with = "merge")]
     pub(crate) shard: Option<Shard>,
     /// Number of threads; all cores if not given
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(1..=4096))]
     pub(crate) threads: Option<u16>,
-    /// Compute nothing: write the CSV tables of all shards, in their order, as one table
+    /// Compute nothing; merge the CSV tables of all shards, given in order, into one table
     #[arg(long, value_name = "PART", num_args = 1..)]
     pub(crate) merge: Vec<PathBuf>,
 }
@@ -67,7 +68,7 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
 
     let headers = [csv_line(&sweep.header()), csv_line(&sweep.errors_header())];
     let refuse = |error: SpoolError| {
-        let advice = if matches!(error, SpoolError::Different(_)) { "; --restart begins anew" } else { "" };
+        let advice = if matches!(error, SpoolError::Different(_)) { "; --restart starts over" } else { "" };
         let why = format!("{}: {error}{advice}", files.rows.display());
         // A disk that is full is no fault of the input.
         match &error {
@@ -80,7 +81,7 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
         Spool::open(files.clone(), &identity, [&headers[0], &headers[1]], scenes.clone()).map_err(refuse)?;
     let (first, count) = (spool.next(), scenes.end - scenes.start);
     if first > scenes.start {
-        note(&format!("{} of {count} scenes are there already", first - scenes.start));
+        note(&format!("{} of {count} scenes are already computed", first - scenes.start));
     }
     let threads = rayon::ThreadPoolBuilder::new().num_threads(args.threads.unwrap_or(0).into()).build();
     let threads = threads.map_err(|error| Failure::Failed(format!("no threads can be started: {error}")))?;
@@ -92,7 +93,7 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     note_rate(spool.next() - first, spool.next() - scenes.start, start.elapsed(), spool.failed());
     if done.map_err(failed)? == Done::Stopped {
         return Err(Failure::Interrupted(format!(
-            "{} of {count} scenes are in {}; the same command goes on from there",
+            "{} of {count} scenes are in {}; the same command continues from there",
             spool.next() - scenes.start,
             files.rows.display()
         )));
@@ -123,7 +124,7 @@ impl Format {
             (true, true) => Ok(Self::Parquet),
             (true, false) => Err(Failure::BadInput(format!(
                 "--out {}: this program was built without Parquet; `cargo build --release --features parquet` \
-                 builds it with, and CSV needs nothing",
+                 includes it, and CSV needs no feature",
                 path.display()
             ))),
         }
@@ -138,7 +139,7 @@ fn failed(error: SpoolError) -> Failure {
 fn give_names(spool: &mut Spool, out: &Path, (replace, format): (bool, Format)) -> Result<(), Failure> {
     let cannot = |error: SpoolError| match error {
         SpoolError::File(path, error) if error.kind() == io::ErrorKind::AlreadyExists => {
-            Failure::Failed(format!("{} exists by now; --force replaces it", path.display()))
+            Failure::Failed(format!("{} has appeared meanwhile; --force replaces it", path.display()))
         }
         SpoolError::File(path, error) => Failure::Failed(format!("{} cannot be written: {error}", path.display())),
         error => failed(error),

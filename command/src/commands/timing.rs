@@ -29,25 +29,25 @@ pub(crate) struct TimingArgs {
     /// Number of epochs, both ends included
     #[arg(long, value_name = "NUMBER")]
     pub(crate) epochs: Option<usize>,
-    /// Fit F1 beside F0: what a spin-down absorbs is no signature
+    /// Fit F0 and F1 only, also for a scene with [spin_down]; what F1 absorbs is not a signature of precession
     #[arg(long, conflicts_with = "f2")]
     pub(crate) f1: bool,
-    /// Fit F1 and F2, as is done for a scene with [spin_down] unless --f1 says otherwise
+    /// Fit F0, F1 and F2, the default for a scene with [spin_down]
     #[arg(long)]
     pub(crate) f2: bool,
-    /// Add to the table what the residuals are made of: geometry, torque, what Lorentz violation does to the direction of the beam, and the rate of the frequency
+    /// Add the causes of the residuals to the table: geometry, torque and the direct effect of Lorentz violation; also the rate of change of the frequency
     #[arg(long)]
     pub(crate) causes: bool,
-    /// Uncertainty of the arrival times that the .tim states, in microseconds
+    /// Uncertainty of the arrival times as written to the .tim, in microseconds
     #[arg(long, value_name = "US", default_value = "1", allow_hyphen_values = true)]
     pub(crate) uncertainty: f64,
     /// Length of the strain series in seconds, from the first epoch on; 64 turns if not given
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     pub(crate) strain_span: Option<f64>,
-    /// Samples of strain in a second; a power of two if not given
+    /// Samples of strain per second; a power of two if not given
     #[arg(long, value_name = "HZ", allow_hyphen_values = true)]
     pub(crate) strain_rate: Option<f64>,
-    /// Folder for the files, made if it is not there
+    /// Folder for the files, created if it does not exist
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
     /// Replace files that exist
@@ -115,8 +115,8 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
         pulsar.residual_error(farthest)
     ));
     note(&format!(
-        "estimated error of the arrival times themselves: {:.1e} s at the farthest epoch; what it has beyond that of the residuals is the \
-         rounding of the initial angular momentum, linear in time and taken up by F0",
+        "estimated error of the arrival times themselves: {:.1e} s at the farthest epoch; its excess over that of the residuals comes from \
+         the rounding of the initial angular momentum, is linear in time and is absorbed by F0",
         pulsar.arrival_error(farthest)
     ));
     note_periods(&pulsar, &epochs);
@@ -145,14 +145,14 @@ fn note_periods(pulsar: &PulsarScene, epochs: &[Epoch]) {
     let [of_body, of_momentum] = rates.map(|rate| TAU / rate.abs() / DAY);
     let days = |period: f64| if period.is_finite() { format!("{period:.6e} d") } else { "none".to_owned() };
     note(&format!(
-        "precession of the body about its axis: {}; of its angular momentum: {}",
+        "precession period of the body about its axis: {}; of its angular momentum: {}",
         days(of_body),
         days(of_momentum)
     ));
     let apart = days_apart(epochs.iter().map(|at| at.seconds_since(&pulsar.epoch)[0]));
     if apart > 0.5 * of_body {
         note(&format!(
-            "epochs are {apart:.3e} d apart, more than half the precession of the body: what goes with that shows as another period or as scatter"
+            "epochs are {apart:.3e} d apart, more than half of the precession period of the body: signals at that period are aliased"
         ));
     }
 }
@@ -167,8 +167,8 @@ pub(super) fn days_apart(times: impl ExactSizeIterator<Item = f64>) -> f64 {
 fn note_dark(timing: &Timing, asked: usize) {
     if timing.dark > 0 {
         note(&format!(
-            "{} of {asked} epochs have no pulse: in that turn the line of sight stays outside the beam, or inside it for longer than is \
-             searched, one and a half turns either way",
+            "{} of {asked} epochs have no pulse: in that turn the line of sight stays outside the beam, or inside it for longer than the \
+             search covers, one and a half turns either way",
             timing.dark
         ));
     }
@@ -201,7 +201,7 @@ fn epochs(args: &TimingArgs, scene: &Scene, epoch: &Epoch) -> Result<Vec<Epoch>,
         }
     };
     if !(2.0..=MOST as f64).contains(&count) {
-        return Err(Failure::BadInput(format!("{count} epochs are asked for: allowed are from 2 to {MOST}")));
+        return Err(Failure::BadInput(format!("{count} epochs are requested: allowed are from 2 to {MOST}")));
     }
     let epochs = (0..count as usize).map(|k| from.after([k as f64 * step * DAY, 0.0]));
     Ok(epochs.collect::<Result<_, _>>()?)
@@ -216,7 +216,7 @@ fn series(args: &TimingArgs, epochs: &[Epoch], period: f64) -> Result<Series, Fa
     let samples = (rate * span).ceil();
     if !(2.0..=MOST as f64).contains(&samples) {
         return Err(Failure::BadInput(format!(
-            "{samples} samples of strain are asked for: allowed are from 2 to {MOST}"
+            "{samples} samples of strain are requested: allowed are from 2 to {MOST}"
         )));
     }
     Ok(Series { start: epochs[0], rate, samples: samples as usize })

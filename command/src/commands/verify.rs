@@ -13,7 +13,7 @@ use twofold_verify::{checks, report};
 
 #[derive(Args, Default)]
 pub(crate) struct VerifyArgs {
-    /// Only checks whose id contains this text, and what each of their figures is
+    /// Run only checks whose id contains this text, and describe the number that each measures
     #[arg(long, value_name = "ID")]
     pub(crate) filter: Option<String>,
     /// Print the results as a JSON array instead of tables

@@ -56,7 +56,7 @@ pub fn text(comparison: &Comparison) -> String {
         let _ = writeln!(text, "not in the folder: {}", comparison.absent.join(", "));
     }
     if !comparison.not_read.is_empty() {
-        let _ = writeln!(text, "not read, no name of a file that is known: {}", comparison.not_read.join(", "));
+        let _ = writeln!(text, "not read, since their names are not known: {}", comparison.not_read.join(", "));
     }
     let all = comparison.files.iter().flat_map(|file| &file.columns);
     let count = |verdict| all.clone().filter(|column| column.verdict == verdict).count();

@@ -11,7 +11,7 @@ use twofold_verify::report::{self, KINDS};
 pub(super) fn section(content: &Content, index: &Index) -> Markup {
     html! {
         p {
-            "A check compares an equation with something independent of it. It measures one figure, which must meet one bound. "
+            "A check compares an equation with something independent of it. It measures one number, which must meet one bound. "
             "Times are seconds on one core while others ran beside it."
         }
         @for (kind, about) in KINDS {

@@ -66,7 +66,7 @@ fn eta_follows_from_what_is_known() {
 #[test]
 fn limits_of_others_are_listed() {
     let page = String::from_utf8(ends(twofold(&["bounds"]), 0).stdout).expect("text");
-    let after = page.split("Published by others").nth(1).expect("a table");
+    let after = page.split("published by others").nth(1).expect("a table");
     let lines: Vec<_> = after.lines().skip(1).collect();
     assert_eq!(lines[0].split_whitespace().collect::<Vec<_>>(), ["limit", "source", "seen"]);
     assert!(lines[1].chars().all(|c| c == '─') && !lines[1].is_empty(), "{}", lines[1]);

@@ -89,7 +89,7 @@ fn sound_files_agree_and_the_rest_is_told() {
         &[
             "16 columns agree, none differs, 4 not judged",
             "not in the folder: tp1.dat, tp2.dat, sp2.dat, mntp1.dat, mntp2.dat, mntp2_pset.dat, mntp2_widset.dat, gwtp2.dat",
-            "not read, no name of a file that is known: LICENSE, cross1.dat",
+            "not read, since their names are not known: LICENSE, cross1.dat",
         ],
     );
     let json: serde_json::Value = serde_json::from_slice(&compare(&folder, &["--json"]).stdout).expect("JSON");

@@ -140,7 +140,7 @@ fn what_the_data_do_not_determine_is_refused_with_the_reason() {
     for (unknowns, noise, reasons) in [
         (&[Gamma, Delta, Spin][..], &TIMES_AND_WIDTHS[..], &["only gamma + delta", "d(gamma) : d(delta) = "][..]),
         (&[ConstantC, SScale], &TIMES_AND_WIDTHS, &["only C s^IJ / I^xx moves the star"]),
-        (&[STrace, Spin], &TIMES_AND_WIDTHS, &["a multiple of the unit tensor turns nothing", "d(tr s) alone"]),
+        (&[STrace, Spin], &TIMES_AND_WIDTHS, &["a multiple of the unit tensor exerts no torque", "d(tr s) alone"]),
         (&[Alpha, PhiO, S(0, 1), Spin], &TIMES_AND_WIDTHS, &["rotation of all (star, s^IJ and observer) about Z"]),
         (&[Oblateness, Spin, Strain], &strain, &["h is in proportion to eps"]),
         (&[Spin, Chi], &strain, &["no pulses are among the data"]),

@@ -87,7 +87,7 @@ fn notes_and_plans_of_a_physical_star_have_its_times_in_seconds() {
     let first = 7.0 + 0.1 / (40.0 * std::f64::consts::PI);
     assert!((number_after(&told, "first at t = ") - first).abs() < 1e-8, "{told}");
     let plan = stdout(&folder.run(&["run", "scene.toml", "--columns", "e_z", "--method", "taylor", "--explain"]));
-    let line = plan.lines().find(|line| line.starts_with("stretch ")).expect("a stretch");
+    let line = plan.lines().find(|line| line.starts_with("span ")).expect("a span");
     let [_, from, "to", to, "s"] = line.split_whitespace().collect::<Vec<_>>()[..] else { panic!("{line}") };
     assert!(
         [(from, 7.0), (to, 7.2)].iter().all(|(text, t)| (text.parse::<f64>().expect("a time") - t).abs() < 1e-12),
@@ -125,7 +125,7 @@ fn the_next_method_is_the_second_cheapest() {
 #[test]
 fn an_error_that_is_foreseen_is_not_called_estimated() {
     let (before, _) = built_in("tp-1").expect("tp-1").toml.split_once("[time]").expect("times");
-    for (span, words) in [(100.0, "note: estimated error"), (45_000.0, "note: error that the plan foresaw")] {
+    for (span, words) in [(100.0, "note: estimated error"), (45_000.0, "note: predicted error")] {
         let times = format!("[time]\nspan = {span}\nsamples = 2\n[output]\ntolerance = 1e-6\nmethod = \"taylor\"\n");
         let folder = Folder::with(&[("scene.toml", &format!("{before}{times}"))]);
         let told = stderr(&folder.run(&["run", "scene.toml", "--columns", "e_z"]));

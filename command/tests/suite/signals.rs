@@ -18,7 +18,7 @@ const COMMANDS: [(&[&str], &str); 5] = [
     (&["figures", "--out", "out"], "error: interrupted: no file was left incomplete\n"),
     (&["report", "--out", "out"], "error: interrupted: no file was left incomplete\n"),
     (&["bench", "--quick", "--out", "out"], "error: interrupted: no file was left incomplete\n"),
-    (&["sweep", "huge.toml", "--out", "out"], "scenes are in out.partial; the same command goes on from there\n"),
+    (&["sweep", "huge.toml", "--out", "out"], "scenes are in out.partial; the same command continues from there\n"),
 ];
 
 /// Signals by name and number.

@@ -159,7 +159,7 @@ fn threads_and_shards_do_not_change_a_byte() {
     for (parts, why) in [
         (&names[1..], "part-1.csv") as (&[&str], &str),
         (&names[..6], "is the last and ends before scene 685: the sweep has 800"),
-        (&[names[0], names[0]], "has scene 0 where scene 114 is to come"),
+        (&[names[0], names[0]], "has scene 0 where scene 114 is expected"),
         (&["sweep.toml"], "does not begin with the header"),
     ] {
         let refused = ends(merge(parts, "refused.csv"), 2);
@@ -167,8 +167,7 @@ fn threads_and_shards_do_not_change_a_byte() {
         assert!(!folder.names().iter().any(|name| name.contains("refused")), "{:?}", folder.names());
     }
     // Errors that cannot be read, here a folder, are not taken for none.
-    let errors = folder.at("part-1.csv.errors.csv");
-    fs::remove_file(&errors).and_then(|()| fs::create_dir(&errors)).expect("a folder");
+    fs::create_dir(folder.at("part-1.csv.errors.csv")).expect("a folder");
     is_refused(&merge(&names, "refused.csv"), &["part-1.csv.errors.csv"]);
 }
 
@@ -235,7 +234,7 @@ fn a_killed_sweep_goes_on_to_the_same_bytes() {
         is_killed = is_killed && (kills % 2 == 0 || comes_to(&mut child, || folder.length(rows) > more));
         child.kill().expect("a signal");
         let output = child.wait_with_output().expect("status");
-        continued += usize::from(stderr(&output).contains("scenes are there already"));
+        continued += usize::from(stderr(&output).contains("scenes are already computed"));
         if !is_killed || output.status.code().is_some() {
             break output;
         }
@@ -270,9 +269,9 @@ fn a_huge_sweep_takes_little_memory_and_can_be_interrupted() {
         assert!(peak < 150_000, "{peak} kB");
         crate::common::send(&child, "TERM");
         let message = stderr(&ends(child.wait_with_output().expect("status"), 130));
-        assert!(message.contains("; the same command goes on from there"), "{message}");
-        assert_eq!(message.contains("scenes are there already"), continued, "{message}");
-        assert!(!continued || message.contains(&format!("note: {there} of 500000000 scenes are there already")));
+        assert!(message.contains("; the same command continues from there"), "{message}");
+        assert_eq!(message.contains("scenes are already computed"), continued, "{message}");
+        assert!(!continued || message.contains(&format!("note: {there} of 500000000 scenes are already computed")));
         assert!(message.contains(" rows of 19 columns, about 180.5 GB") || continued, "{message}");
         // `COMPUTED scenes in SECONDS s, RATE scenes/s; FAILED of ALL failed`, then `ALL of 500000000 scenes are in`.
         let before = there;
@@ -289,7 +288,7 @@ fn a_huge_sweep_takes_little_memory_and_can_be_interrupted() {
     let before = folder.bytes(rows);
     let refused = ends(folder.run(&["sweep", "sweep.toml", "--out", "table.csv", "--shard", "2/2"]), 2);
     let message = stderr(&refused);
-    assert!(message.contains("line 3 was `seed = 3` and is `seed = 4`; --restart begins anew"), "{message}");
+    assert!(message.contains("line 3 was `seed = 3` and is `seed = 4`; --restart starts over"), "{message}");
     assert!(before == folder.bytes(rows));
 }
 

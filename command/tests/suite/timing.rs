@@ -211,9 +211,16 @@ fn the_causes_of_residuals_add_up() {
 fn spin_down_is_for_timing() {
     let folder = Folder::new();
     let notes = stderr(&folder.succeeds(&["run", "b1828-11", "--out", "run.csv"]));
-    has_all(&notes, &["[spin_down] is for `twofold timing`; here the rotation stays as it is at the epoch".to_owned()]);
+    has_all(
+        &notes,
+        &["[spin_down] is for `twofold timing`; here the star keeps the rotation rate that it has at the epoch"
+            .to_owned()],
+    );
     let rare = folder.succeeds(&["timing", "b1828-11", "--every", "300", "--out", "."]);
-    has_all(&stderr(&rare), &["5.000000e2 d", "more than half the precession of the body"].map(str::to_owned));
+    has_all(
+        &stderr(&rare),
+        &["5.000000e2 d", "more than half of the precession period of the body"].map(str::to_owned),
+    );
     assert!(!stderr(&rare).contains("[spin_down]"));
     // A tenth of the rotation, and no more.
     let late = folder.run(&["timing", "b1828-11", "--to", "9000000", "--epochs", "9", "--force", "--out", "."]);

@@ -19,7 +19,7 @@ Version of the package.
 @final
 class Fit:
     """
-    What data tell of unknown parameters: values, standard deviations, correlations. The result of `Scene.fisher` and, with residuals, of fits.
+    Estimates of unknown parameters: values, standard deviations, correlations. The result of `Scene.fisher` and, with residuals, of fits.
     """
     def __getitem__(self, name: str, /) -> tuple[float, float]:
         """
@@ -29,7 +29,7 @@ class Fit:
     @property
     def chi_squared(self, /) -> float | None:
         """
-        The sum of the squares of the residuals in standard deviations. None of a Fisher matrix.
+        The sum of the squares of the residuals in standard deviations. None for a Fisher matrix.
         """
     @property
     def covariance(self, /) -> NDArray[float64]:
@@ -39,7 +39,7 @@ class Fit:
     @property
     def degrees(self, /) -> int | None:
         """
-        Data less unknowns.
+        Degrees of freedom: the number of data less that of unknowns.
         """
     @property
     def judged(self, /) -> str | None:
@@ -49,17 +49,17 @@ class Fit:
     @property
     def model(self, /) -> TimingModel | None:
         """
-        The fitted model: a `TimingModel`. None of a fit of a scene's motion, whose values are all there is.
+        The fitted model: a `TimingModel`. None for a fit of a scene's motion, which has only its values.
         """
     @property
     def nonlinearity(self, /) -> float | None:
         """
-        By how much chi^2 is off its parabola at one standard deviation: error bars are rough from 0.3 on.
+        Deviation of chi^2 from its parabola at one standard deviation: error bars are rough from 0.3 on.
         """
     @property
     def residuals(self, /) -> NDArray[float64] | None:
         """
-        Measured less fitted, in standard deviations.
+        Residuals, measured less fitted, in standard deviations.
         """
     @property
     def sigmas(self, /) -> NDArray[float64]:
@@ -69,7 +69,7 @@ class Fit:
     @property
     def undetermined(self, /) -> list[str]:
         """
-        What the data do not determine, in words.
+        The combinations that the data do not determine, in words.
         """
     @property
     def unknowns(self, /) -> list[str]:
@@ -91,7 +91,7 @@ class Motion:
     def __repr__(self, /) -> str: ...
     def angles(self, /, t: ArrayLike) -> NDArray[float64]:
         """
-        The Euler angles alpha, beta and gamma (rad), which count their turns from the start: an array of shape (..., 3). NaN where the symmetry axis is on a pole.
+        The Euler angles alpha, beta and gamma (rad), continuous (unwrapped) from the start: an array of shape (..., 3). NaN where the symmetry axis is on a pole.
         """
     def axis(self, /, t: ArrayLike) -> NDArray[float64]:
         """
@@ -124,14 +124,14 @@ class Motion:
 @final
 class Pulsar:
     """
-    The pulsar of a scene, by its phases: exact after any number of turns. Times `t` are in seconds since the epoch of the scene (TDB at the barycentre).
+    The pulsar of a scene, computed by its phases, which stay exact after any number of turns. Times `t` are in seconds since the epoch of the scene (TDB at the barycentre).
     """
     def __reduce__(self, /) -> tuple[Any, tuple]: ...
     def __repr__(self, /) -> str: ...
     def arrivals(self, /, epochs: ArrayLike | None = None, *, derivatives: SupportsIndex | None = None, causes: bool = False) -> Timing:
         """
-        The pulses nearest to `epochs` (MJD), or to the times of the scene, and a fit of F0 and so many `derivatives` of it to them. With `causes` the table says what the residuals
-        are made of.
+        The pulses nearest to `epochs` (MJD), or to the times of the scene, and a fit of F0 and the given number of `derivatives` to them. With `causes` the table has the causes of the
+        residuals.
         """
     @property
     def epoch(self, /) -> str:
@@ -188,35 +188,35 @@ class Scene:
     @property
     def about(self, /) -> str:
         """
-        What the scene is, one line.
+        A description of the scene, in one line.
         """
     @property
     def beam(self, /) -> tuple[float, float, float] | None:
         """
-        The beam: the angle `chi` of the magnetic axis to the symmetry axis, its azimuth `delta` and the semi-open angle `rho` (rad); none of a scene without one.
+        The beam: the angle `chi` of the magnetic axis to the symmetry axis, its azimuth `delta` and the semi-open angle `rho` (rad); None for a scene without one.
         """
     @property
     def cautions(self, /) -> list[str]:
         """
-        Sentences about what is allowed but looks like a mistake.
+        Warnings about input that is allowed but looks like a mistake.
         """
     @property
     def epoch(self, /) -> str | None:
         """
-        Modified Julian date (TDB) of the start, as a text; none of a scene without one.
+        Modified Julian date (TDB) of the start, as a text; None for a scene without one.
         """
     def fisher(self, /, observe: dict[str, SupportsFloat | SupportsIndex], parameters: SupportsGetItem[int, str] | None = None) -> Fit:
         """
-        What measurements of the scene would tell of its parameters. `observe` has the standard deviation of each kind of data in the units of the scene, as
+        How well measurements of the scene would determine its parameters. `observe` has the standard deviation of each kind of data in the units of the scene, as
         `{"arrivals": 1e-4, "widths": 1e-4}`; kinds are arrivals, closest_approaches, widths, periods, h_plus, h_cross and strain. `parameters` are names (docs/inference.md); if none are given, those that such data can determine.
         """
     def fit(self, /, data: SupportsGetItem[int, Any], observe: dict[str, SupportsFloat | SupportsIndex], parameters: SupportsGetItem[int, str] | None = None) -> Fit:
         """
-        Fits parameters of the scene to data: tables of `pulses()` and of `table(["h"])`, or paths of such files. `observe` and `parameters` are as of `fisher`; the fit begins at the values of the scene.
+        Fits parameters of the scene to data: tables of `pulses()` and of `table(["h"])`, or paths of such files. `observe` and `parameters` are as for `fisher`; the fit starts from the values of the scene.
         """
     def lines(self, /, column: str, *, least: SupportsFloat | SupportsIndex = 1e-6, most: SupportsIndex = 50) -> Table:
         """
-        The spectral lines of a column (`"m.n"`, `"h_plus"`), strongest first, down to an amplitude of `least` of the largest one. Frequencies are in rad per
+        The spectral lines of a column (`"m.n"`, `"h_plus"`), strongest first, down to the fraction `least` of the largest amplitude. Frequencies are in rad per
         `time_unit`, phases those at the start.
         """
     def motion(self, /, end: SupportsFloat | SupportsIndex | None = None, *, method: str | None = None, tolerance: SupportsFloat | SupportsIndex | None = None) -> Motion:
@@ -235,7 +235,7 @@ class Scene:
         """
     def plan(self, /, columns: SupportsGetItem[int, str] | None = None, *, method: str | None = None, tolerance: SupportsFloat | SupportsIndex | None = None) -> str:
         """
-        What would be computed for groups of columns, or for those of the scene: the method, its cost and error, and what is left out, in words.
+        The plan for groups of columns, or for those of the scene, in words: the method, its cost and error, and what is left out.
         """
     def pulsar(self, /) -> Pulsar:
         """
@@ -270,7 +270,7 @@ class Sweep:
     """
     Many scenes: grids, lists and random draws over the parameters of one (docs/sweep.md). `Sweep("grid.toml")` reads a file, `Sweep(toml=text)` a text.
 
-    A row depends on nothing but its scene: any part can be computed anywhere, in one thread, and the parts together are the table to the byte.
+    A row depends only on its scene: any part can be computed anywhere, in one thread, and the parts together are the table to the byte.
     """
     def __eq__(self, other: object, /) -> bool: ...
     def __len__(self, /) -> int: ...
@@ -284,7 +284,7 @@ class Sweep:
         """
     def rows(self, /, start: SupportsIndex, stop: SupportsIndex) -> tuple[bytes, bytes, int]:
         """
-        The rows of the scenes from `start` to before `stop` as CSV, without the header, those of the table of errors, and how many scenes failed: by one thread.
+        The rows of the scenes from `start` to before `stop` as CSV, without the header, those of the table of errors, and the number of failed scenes; one thread is used.
         """
     def run(self, /, start: SupportsIndex = 0, stop: SupportsIndex | None = None) -> Table:
         """
@@ -299,15 +299,15 @@ class Sweep:
 @final
 class SweepFile:
     """
-    The table of a sweep in a file that grows in order, with a journal beside it: what `twofold sweep` writes, begun and continued by either.
+    The table of a sweep in a file that grows in order, with a journal beside it, as `twofold sweep` writes it; either can continue what the other has begun.
     """
     def __new__(cls, /, sweep: Sweep, out: str | PathLike[str], *, replace: bool = False) -> SweepFile:
         """
-        Begins a table at `out`, or continues what is there of it. A file that exists is refused unless it may be replaced.
+        Begins a table at `out`, or continues an existing part of it. A file that exists is refused unless it may be replaced.
         """
     def append(self, /, stop: SupportsIndex, rows: bytes, errors: bytes, failed: SupportsIndex) -> None:
         """
-        Appends what `Sweep.rows` has of the scenes from `next` to before `stop`, so that it outlives the process.
+        Appends the rows that `Sweep.rows` gives for the scenes from `next` to before `stop`, so that they outlive the process.
         """
     def complete(self, /) -> None:
         """
@@ -363,7 +363,7 @@ class Table:
 @final
 class Timing:
     """
-    Arrival times and what they are late by against a fitted frequency.
+    Arrival times and their residuals from a fitted frequency.
     """
     def __repr__(self, /) -> str: ...
     @property
@@ -421,7 +421,7 @@ class TimingData:
     @staticmethod
     def read(paths: SupportsGetItem[int, str | PathLike[str]], epoch: Any, *, observe: str | None = None) -> TimingData:
         """
-        The data of files: a `.tim` (FORMAT 1, barycentred), or tables as `Pulsar.arrivals` has them, whose standard deviations `observe` gives as `"arrivals:1e-6,widths:1e-5"` (s). Times
+        The data of files: a `.tim` (FORMAT 1, barycentred), or tables as `Pulsar.arrivals` gives them, with the standard deviations in `observe`, as `"arrivals:1e-6,widths:1e-5"` (s). Times
         are counted from the epoch of a model (MJD, TDB).
         """
     @property
@@ -443,8 +443,8 @@ class TimingData:
 @final
 class TimingModel:
     """
-    A pulsar by its timing parameters (docs/timing-model.md). `TimingModel(f0, f1=..., wobble=..., chi=...)`: F0 in Hz, and in SI units and rad what else is not zero; chi and inclination are
-    a right angle if not given. F0 is the sum of two doubles, `f0 + f0_rest`.
+    A pulsar by its timing parameters (docs/timing-model.md). `TimingModel(f0, f1=..., wobble=..., chi=...)`: F0 in Hz, the others in SI units and rad. Those not given are zero, but chi and inclination are
+    a right angle. F0 is the sum of two doubles, `f0 + f0_rest`.
 
     Times are in seconds since the epoch, the sum of two doubles `t + rest`; arrays of any shape are taken.
     """
@@ -466,7 +466,7 @@ class TimingModel:
     def __repr__(self, /) -> str: ...
     def arrival(self, /, number: ArrayLike) -> tuple[Any, Any]:
         """
-        When pulses of given numbers arrive: two arrays whose sum is the time.
+        The arrival times of the pulses with given numbers: two arrays whose sum is the time.
         """
     @property
     def frequency(self, /) -> list[float]:
@@ -475,11 +475,11 @@ class TimingModel:
         """
     def moved(self, /, **changes: "float") -> TimingModel:
         """
-        The model with numbers added to some parameters. F0 keeps 32 digits, so that small changes add up.
+        The model with increments added to some parameters. F0 keeps 32 digits, so that small changes add up.
         """
     def phase(self, /, t: ArrayLike, rest: ArrayLike | None = None) -> tuple[Any, Any]:
         """
-        The phase at times: whole turns and the rest in turns, two arrays. A pulse is where the rest is zero.
+        The phase at times: whole turns and the fraction of a turn, two arrays. A pulse is where the fraction is zero.
         """
     def phase_and_derivatives(self, /, t: ArrayLike, rest: ArrayLike | None = None) -> tuple[Any, Any, Any]:
         """
@@ -492,17 +492,17 @@ class TimingModel:
 
 def fit_timing(model: TimingModel, data: TimingData, unknowns: SupportsGetItem[int, str], *, priors: dict | None = None) -> Fit:
     """
-    Fits a timing model to data. `unknowns` are names as of `TimingModel.names`; `priors` gives a mean and a standard deviation of some, as `{"chi": (1.2, 0.05)}`.
+    Fits a timing model to data. `unknowns` are names from `TimingModel.names`; `priors` gives a mean and a standard deviation of some, as `{"chi": (1.2, 0.05)}`.
     """
 
 def wobble_limits(model: TimingModel, data: TimingData, unknowns: SupportsGetItem[int, str], periods: ArrayLike, *, confidence: SupportsFloat | SupportsIndex = 0.95) -> dict:
     """
-    The wobble that arrival times allow at some periods of precession (s), of a star that was fitted to them without one by the `unknowns`. A dict of arrays: `period` (s), the `best` wobble (rad), the `gain` of chi^2 by it, and the `limit` (rad) that is not exceeded with the probability `confidence`; infinite where the data do not limit it. chi and the share of the torque are those of the model.
+    Upper limits on the wobble at some precession periods (s), for a model that was fitted to the arrival times without a wobble by the `unknowns`. A dict of arrays: `period` (s), the `best` wobble (rad), the `gain` (the decrease of chi^2 by it), and the `limit` (rad) that is not exceeded with the probability `confidence`; infinite where the data do not limit it. chi and the torque share are those of the model.
     """
 
 def wobble_posterior(along: ArrayLike, across: ArrayLike, residuals: ArrayLike, *, confidence: SupportsFloat | SupportsIndex = 0.95) -> dict:
     """
-    What data tell of a small wobble `x = theta (cos psi_0, sin psi_0)` (rad) in which residuals are linear, in standard deviations and without what other unknowns take up: `residuals + along x[0] + across x[1]`. A dict: the `best` x, the `gain` of chi^2 by it, and the `limit` on theta that is not exceeded with the probability `confidence`, with a flat prior for theta and psi_0; infinite above 0.1 rad.
+    The posterior of a small wobble `x = theta (cos psi_0, sin psi_0)` (rad) in which the residuals are linear: `residuals + along x[0] + across x[1]`, in standard deviations and with the other unknowns projected out. A dict: the `best` x, the `gain` (the decrease of chi^2 by it), and the `limit` on theta that is not exceeded with the probability `confidence`, with a flat prior for theta and psi_0; infinite above 0.1 rad.
     """
 
 def __getattr__(name: str) -> Incomplete: ...

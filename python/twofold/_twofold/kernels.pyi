@@ -15,7 +15,7 @@ def anisotropic_potential(s_xx: ArrayLike, s_yy: ArrayLike, s_zz: ArrayLike, alp
 
 def combination_bound(inertia_over_c: ArrayLike, spin: ArrayLike, interval: ArrayLike, cos_lambda_change: ArrayLike, eta: ArrayLike) -> Any:
     """
-    The bound on `|2 s^ZZ - s^XX - s^YY|` by a change of `cos lambda` over an `interval` (s), Eq. (41), for `I^zz / C` (s^2), a spin (rad/s) and a factor `eta`.
+    The bound on `|2 s^ZZ - s^XX - s^YY|` from a change of `cos lambda` over an `interval` (s), Eq. (41), for `I^zz / C` (s^2), a spin (rad/s) and a factor `eta`.
     """
 
 def constant_c(mass: ArrayLike, radius: ArrayLike, oblateness: ArrayLike) -> Any:
@@ -35,7 +35,7 @@ def inertia_over_c(density: ArrayLike, oblateness: ArrayLike) -> Any:
 
 def lambda_change(lambda_: ArrayLike, chi: ArrayLike, width: ArrayLike, width_change: ArrayLike) -> Any:
     """
-    The change of the angle `lambda` (rad) of the spin axis to the line of sight that changes the pulse width by `width_change`, Eq. (42).
+    The change of the angle `lambda` (rad) between the spin axis and the line of sight for a change `width_change` of the pulse width, Eq. (42).
     """
 
 def pulse_width(rho: ArrayLike, theta: ArrayLike, theta_o: ArrayLike) -> Any:

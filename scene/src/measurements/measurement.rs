@@ -159,7 +159,7 @@ impl Measurement {
             let (file, of_pulses) = (&table.name, table.is_of_pulses()?);
             if of_pulses && signal.is_long() {
                 return Err(format!(
-                    "{file}: arrival times of one double each, for a span of more than 1e5 rad of rotation: allowed are --simulate and strains"
+                    "{file}: arrival times in one double each are too coarse for a span of more than 1e5 rad of rotation: allowed are --simulate and strains"
                 ));
             }
             let read = if of_pulses { DataFile::pulses } else { DataFile::strain };
@@ -167,7 +167,7 @@ impl Measurement {
             let first = more.first().copied();
             if let Some(again) = first.filter(|datum| data.iter().any(|other| same(other, datum))) {
                 return Err(format!(
-                    "{file}: {} = {:?} is in a file before it: allowed are data measured once",
+                    "{file}: {} = {:?} is also in an earlier file: allowed are data measured once",
                     again.observable.key(),
                     again.value
                 ));
@@ -218,7 +218,7 @@ pub fn named<U: Unknown>(list: &str, all: &[U]) -> Result<Vec<U>, String> {
         let unknown = all.iter().copied().find(|unknown| unknown.key() == name).ok_or_else(|| {
             let names: Vec<_> = all.iter().map(|unknown| unknown.key()).collect();
             let hint = nearest(name, &names).map_or(String::new(), |near| format!(" (did you mean `{near}`?)"));
-            format!("`{name}` is no parameter{hint}: allowed are {}, or all", names.join(", "))
+            format!("`{name}` is not a parameter{hint}: allowed are {}, or all", names.join(", "))
         })?;
         if found.contains(&unknown) {
             return Err(format!("`{name}` is named twice: allowed is once"));

@@ -24,7 +24,7 @@ use crate::scene_file::Scene;
 pub fn parameters_of(scene: &Scene) -> Result<Parameters<f64>, Error> {
     let angles = scene.initial_angles;
     let sine = angles.beta.sin();
-    Error::ensure(sine > 1e-6, "sin(beta) at the start", sine, "above 1e-6: on a pole angles are no parameters")?;
+    Error::ensure(sine > 1e-6, "sin(beta) at the start", sine, "above 1e-6: on a pole the angles are not parameters")?;
     let rates = scene.problem.initial().rates(scene.problem.spheroid())?;
     let mut parameters =
         Parameters::new(*scene.problem.spheroid(), *scene.problem.coefficients(), angles, rates).holding_spin();
@@ -58,7 +58,7 @@ pub fn parse_noise(text: &str, time_unit: f64) -> Result<Vec<Noise>, String> {
     let mut found: Vec<Noise> = Vec::new();
     for part in text.split(',') {
         let (name, sigma) = part.trim().split_once(':').ok_or_else(|| {
-            format!("`{part}` is no NAME:SIGMA: allowed is a name, a colon and a standard deviation, as arrivals:1e-6")
+            format!("`{part}` is not NAME:SIGMA: allowed is a name, a colon and a standard deviation, as arrivals:1e-6")
         })?;
         let kinds: Vec<Observable> = match name {
             "strain" => vec![Observable::StrainPlus, Observable::StrainCross],
@@ -66,7 +66,7 @@ pub fn parse_noise(text: &str, time_unit: f64) -> Result<Vec<Noise>, String> {
         };
         if kinds.is_empty() {
             let names: Vec<_> = Observable::ALL.iter().map(|kind| kind.key()).collect();
-            return Err(format!("`{name}` is no observable: allowed are {}, strain", names.join(", ")));
+            return Err(format!("`{name}` is not an observable: allowed are {}, strain", names.join(", ")));
         }
         let sigma: f64 = match sigma.parse() {
             Ok(sigma) if SIGMAS.contains(&sigma) => sigma,

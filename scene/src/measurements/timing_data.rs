@@ -37,7 +37,7 @@ pub fn read_timing(
             Some(model) => more = more.numbered(model).map_err(|error| format!("{path}: {error}"))?,
             None if has_numbers(&data) && has_numbers(&more) => {
                 return Err(format!(
-                    "{path}: it numbers its pulses, and so does a file before it, perhaps from another pulse: allowed is a model to count them by, \
+                    "{path}: it numbers its pulses, and so does an earlier file, perhaps from another pulse: allowed is a model to count them by, \
                      or one file with numbers"
                 ));
             }
@@ -46,7 +46,7 @@ pub fn read_timing(
         let again =
             more.arrivals.first().is_some_and(|first| data.arrivals.iter().any(|other| other.time == first.time));
         if again || more.widths.first().is_some_and(|first| data.widths.iter().any(|other| other.time == first.time)) {
-            return Err(format!("{path}: its first datum is in a file before it: allowed are data measured once"));
+            return Err(format!("{path}: its first datum is also in an earlier file: allowed are data measured once"));
         }
         data.arrivals.extend(more.arrivals);
         data.widths.extend(more.widths);
@@ -90,7 +90,7 @@ impl DataFile {
                     }
                     if !frequency.parse::<f64>().is_ok_and(|frequency| frequency == 0.0 || frequency == f64::INFINITY) {
                         return Err(refuse(format!(
-                            "frequency `{}`: allowed is 0, infinite: arrival times whose dispersion is taken away",
+                            "frequency `{}`: allowed is 0, for infinite: arrival times corrected for dispersion",
                             shortened(frequency)
                         )));
                     }
@@ -103,7 +103,7 @@ impl DataFile {
                     })?;
                     if let Some(flag) = flags.iter().find(|flag| CHANGING.contains(flag)) {
                         return Err(refuse(format!(
-                            "`{flag}` changes the time or its phase: allowed are times to which that has been done"
+                            "`{flag}` changes the time or its phase: allowed are times that are already corrected for it"
                         )));
                     }
                     let number = match flags.iter().position(|flag| *flag == "-pn") {

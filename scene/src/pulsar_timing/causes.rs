@@ -42,8 +42,8 @@ impl PulsarScene {
             let without = free.pulse_near(stretched)?.filter(|pulse| pulse.number == number);
             let without = without.ok_or_else(|| {
                 format!(
-                    "--causes: at the time of pulse {number} the star without Lorentz violation is in another turn, or dark: allowed is a \
-                     violation that makes the pulses late by less than a turn"
+                    "--causes: at the time of pulse {number} the star without Lorentz violation is in another turn, or has no pulse: allowed is a \
+                     violation that delays the pulses by less than a turn"
                 )
             })?;
             // Late against even turns, which the fit takes away.

@@ -131,7 +131,8 @@ impl Scene {
         let initial = motion::read_initial(&initial_section, &star, &violation, pulsar.as_ref())?;
         let problem = Problem::new(star.spheroid, violation.tensor, initial.state);
         let problem = problem.and_then(|problem| problem.with_bulge(star.bulge));
-        let problem = problem.map_err(|error| initial_section.fault(format!("no motion starts so: {error}")))?;
+        let problem =
+            problem.map_err(|error| initial_section.fault(format!("no motion has this initial state: {error}")))?;
         let spin_down_section = document.section("spin_down")?;
         let spin_down = spin_down_section.as_ref().map(|section| spin_down::read(section, &star.units)).transpose()?;
         let catalogued = pulsar_section.as_ref().map(observation::read_catalogued).transpose()?.flatten();

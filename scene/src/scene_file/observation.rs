@@ -290,7 +290,7 @@ pub fn like_julian_date(epoch: &Epoch) -> Option<String> {
     let meant = Epoch::new(epoch.day() - 2_400_000, epoch.fraction() - 0.5).ok()?;
     let year = 1858.9 + epoch.day() as f64 / 365.2425;
     Some(format!(
-        "looks like a Julian date; a modified Julian date is asked for, and this one is in the year {year:.0}. If {meant} is meant, \
+        "looks like a Julian date; a modified Julian date is expected, and this one is in the year {year:.0}. If {meant} is meant, \
          write that"
     ))
 }
@@ -434,7 +434,7 @@ impl Scene {
             let known = COLUMN_GROUPS.map(|(name, _)| name);
             let output = column_group(name).ok_or_else(|| unknown(name, "group of columns", &known))?;
             if wanted.contains(&output) {
-                return Err(format!("`{name}` comes twice"));
+                return Err(format!("`{name}` is named twice"));
             }
             self.has_what_is_needed_for(output).map_err(|why| format!("`{name}`: {why}"))?;
             wanted.push(output);
@@ -474,5 +474,5 @@ impl Scene {
 }
 
 fn unknown(name: &str, what: &str, known: &[&str]) -> String {
-    format!("`{name}` is no {what}; allowed are {}.{}", listed(known), did_you_mean(name, known))
+    format!("`{name}` is not a {what}; allowed are {}.{}", listed(known), did_you_mean(name, known))
 }

@@ -41,8 +41,8 @@ impl SpinDown {
         };
         if let (IndexOrSecond::Second(second), false) = (self.index, (-30.0..=30.0).contains(&index)) {
             return Err(format!(
-                "`spin_down.f2` = {second:e}: the braking index F0 F2 / F1^2 is then {index:.4e}, allowed is from -30 to 30. An F2 of timing noise is no \
-                 law of braking: leave it out"
+                "`spin_down.f2` = {second:e}: the braking index F0 F2 / F1^2 is then {index:.4e}, allowed is from -30 to 30. An F2 of timing noise is not \
+                 a braking law: leave it out"
             ));
         }
         Ok(Braking { rate: -self.f1 / frequency, index, torque_share: self.torque_share })

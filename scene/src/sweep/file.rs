@@ -117,7 +117,9 @@ impl<'t> Sweep<'t> {
             ));
         }
         if let Some(entry) = scene.section("star").map_err(in_scene)?.as_ref().and_then(|star| star.optional("bulge")) {
-            return Err(in_scene(entry.refuse_because("a sweep takes rigid stars: allowed is a scene without it")));
+            return Err(in_scene(
+                entry.refuse_because("a sweep is for rigid stars only: allowed is a scene without it"),
+            ));
         }
         // The scene's own times, if it has any, are not used; they are checked all the same.
         let own = scene.has("time").then(|| with(None)).transpose()?;
@@ -221,7 +223,7 @@ fn random_axis(document: &Section<'_>, is_random: bool, found: &mut Parameters) 
     }
     if is_random {
         let draws = document.required("draws", "number of random draws for each point of the grids and lists")?;
-        let seed = document.required("seed", "a whole number that the random draws follow from")?;
+        let seed = document.required("seed", "a whole number, the seed of the random draws")?;
         found.seed = seed.whole_number(0, i64::MAX as usize)? as u64;
         let axis = found.lengths.len();
         found.lengths.push(draws.whole_number(1, MOST_SCENES as usize)? as u64);
@@ -241,7 +243,7 @@ fn parameter_key(entry: &Entry<'_>, known: &[String], taken: &[String]) -> Resul
     }
     let known: Vec<_> = known.iter().map(String::as_str).collect();
     let guess = did_you_mean(key, &known);
-    Err(entry.refuse_because(&format!("allowed is a number that stands in the scene: {}.{guess}", listed(&known))))
+    Err(entry.refuse_because(&format!("allowed is a number of the scene file: {}.{guess}", listed(&known))))
 }
 
 /// Where the numbers come from, and how many there are; none where they are drawn.
@@ -292,13 +294,13 @@ fn law(section: &Section<'_>) -> Result<Law, Fault> {
 fn ends(section: &Section<'_>, by_ratios: bool) -> Result<(f64, f64), Fault> {
     let from_entry = section.required("from", "first end")?;
     let from = if by_ratios {
-        from_entry.number_where("a number except zero: it is divided by ratios", |x| x != 0.0)?
+        from_entry.number_where("a number other than zero: the points are in equal ratios", |x| x != 0.0)?
     } else {
         from_entry.number()?
     };
     let to = section.required("to", "last end")?;
     let to = if by_ratios {
-        to.number_where("a number of the sign of `from`, and another: it is divided by ratios", |x| {
+        to.number_where("a number of the same sign as `from`, but not equal: the points are in equal ratios", |x| {
             x * from.signum() > 0.0 && x != from
         })?
     } else {
@@ -330,7 +332,7 @@ fn outputs(document: &Section<'_>, scene: &mut Scene, times: Times) -> Result<Ou
         }
     }
     if outputs.groups.is_empty() && !outputs.errors && outputs.summaries.is_empty() {
-        return Err(section.fault("[output] asks for nothing: allowed are columns, summaries or both"));
+        return Err(section.fault("[output] requests nothing: allowed are columns, summaries or both"));
     }
     Ok(outputs)
 }

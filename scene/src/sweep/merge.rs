@@ -29,8 +29,8 @@ pub fn merge(
             let number = line.split(|byte| *byte == b',').next().unwrap_or(&[]);
             let number = std::str::from_utf8(number).ok().and_then(|number| number.parse::<u64>().ok());
             if number != Some(next) || !line.ends_with(b"\n") {
-                let found = number.map_or("a line that is no row".to_owned(), |number| format!("scene {number}"));
-                return Err(not_next(format!("has {found} where scene {next} is to come")));
+                let found = number.map_or("a line that is not a row".to_owned(), |number| format!("scene {number}"));
+                return Err(not_next(format!("has {found} where scene {next} is expected")));
             }
             write(&line)?;
             next += 1;

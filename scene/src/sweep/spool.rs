@@ -120,7 +120,7 @@ impl Spool {
         }
         if let Some((mark, _)) = journal.marks.iter().find(|(mark, _)| !mark.is_of(&scenes)) {
             let (next, failed) = (mark.next, mark.failed);
-            return Err(SpoolError::Different(format!("its journal speaks of scene {next} and {failed} that failed")));
+            return Err(SpoolError::Different(format!("its journal is up to scene {next}, with {failed} that failed")));
         }
         let (rows, errors) = (open(&files.rows)?, open(&files.errors)?);
         let intact = [(&rows, &files.rows), (&errors, &files.errors)].map(|(file, path)| (file, refused(path)));
@@ -291,7 +291,7 @@ fn refused(path: &Path) -> impl FnOnce(io::Error) -> SpoolError + use<> {
 impl fmt::Display for SpoolError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            SpoolError::Different(why) => write!(f, "the part that is there cannot be continued: {why}"),
+            SpoolError::Different(why) => write!(f, "the existing part cannot be continued: {why}"),
             SpoolError::InUse => write!(f, "another process is writing it (its journal is locked)"),
             SpoolError::File(path, error) => write!(f, "{} cannot be written: {error}", path.display()),
         }

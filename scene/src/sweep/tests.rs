@@ -107,7 +107,7 @@ fn scenes_are_counted_up_to_the_doubles() {
 fn what_goes_through_every_turn_has_a_longest_span() {
     let far = |output: &str| refusal(&format!("{VARIED}[time]\nend = 1e12\n[output]\n{output}\n"));
     for output in ["summaries = ['lambda']", "summaries = ['pulses']"] {
-        assert!(far(output).is_some_and(|why| why.contains("asks for a rotation by")), "{output}");
+        assert!(far(output).is_some_and(|why| why.contains("[time] covers")), "{output}");
     }
     assert_eq!(far("columns = ['e_z']"), None);
 }

@@ -76,7 +76,12 @@ impl TurnCount {
                 let off = winding - count.windings[along] as f64;
                 let allowed =
                     "zero: the line of sight is along L at some phases, and turns about L change their number there";
-                Error::ensure(off.abs() < 0.5, "turns that differ between ways round the torus", off.round(), allowed)?;
+                Error::ensure(
+                    off.abs() < 0.5,
+                    "turns that differ between paths round the torus",
+                    off.round(),
+                    allowed,
+                )?;
             }
         }
         Ok(count)

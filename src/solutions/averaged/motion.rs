@@ -62,7 +62,7 @@ fn require_round<S: Real>(top: &Top<S>) -> Result<(), Error> {
         complement > 0.0,
         "distance k' of L from rest and from the separatrix",
         complement,
-        "above zero, if derivatives are wanted",
+        "above zero, for derivatives",
     )
 }
 
@@ -247,7 +247,7 @@ impl<S: Real> AveragedSolution<S> {
             spread > 0.0,
             "largest difference of two eigenvalues of s^IJ",
             spread,
-            "above zero, if derivatives are wanted",
+            "above zero: derivatives of the averaged motion need an anisotropic s^IJ",
         )?;
         require_round(&self.top)
     }

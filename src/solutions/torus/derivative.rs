@@ -71,7 +71,7 @@ impl<'a> TorusDerivative<'a> {
             let mut end = found.integrals.moved(*period, &start);
             let open = change - joined(&end, size, derivative);
             if !open.norm().is_finite() {
-                return refused("closed ways of the tori beside that of the motion", f64::NAN);
+                return refused("periods of the tori beside that of the motion", f64::NAN);
             }
             let rates = found.integrals.both_rates(&end);
             let tangents = tangents(&rates, size);

@@ -66,7 +66,7 @@ impl Torus {
             lattice(&integrals, unit, &start).ok_or(lost("symmetric states of the torus, as near the separatrix"))?;
         let (turn, integrals, initial) = if found.about_x { in_frame(z) } else { (turn, integrals, start) };
         let ways = ClosedWays::near(&integrals, unit, &initial, [found.to_plane, found.fast, found.slow]);
-        let ways = ways.ok_or(lost("closed ways of the torus, as near the separatrix"))?;
+        let ways = ways.ok_or(lost("periods of the torus, as near the separatrix"))?;
         Ok(Self { spheroid, spread, unit, initial, ways, integrals, from_given: turn * frame })
     }
 

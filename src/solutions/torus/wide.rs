@@ -44,7 +44,7 @@ impl WideTorus {
         // n is a unit vector, whatever rounding has made of its length.
         initial[0] /= length(&initial[0]);
         let ways = ClosedWays::near(&integrals, torus.unit, &initial, torus.ways.times().map(|times| times.map(wide)));
-        let what = "closed ways of the torus in 32 digits";
+        let what = "periods of the torus in 32 digits";
         let ways = ways.ok_or(Error::NotConverged { what, iterations: 1, residual: f64::NAN })?;
         let phases = phases(&spheroid, &initial, &ways);
         // The torque of what is left beside the diagonal, which is not zero where two eigenvalues are nearly equal.

@@ -11,8 +11,7 @@ checks! {
     /// the estimated error of a motion is rarely more than a hundred times its true error
     Oracle "error-estimate-not-far-above" [25]: far_above;
     AtMost(0.03) "share of estimates above 100 times the true error, the same scenes";
-    because "an error A sin(phi) is below A / 100 at (2 / pi) asin(1 / 100) = 0.64 % of random phases phi, 1.3 of 200 scenes. That more than six of \
-     200 are has the probability 4e-4 (Poisson)";
+    because "an error A sin(phi) is below A / 100 at (2 / pi) asin(1 / 100) = 0.64 % of random phases phi, 1.3 of 200 scenes. The probability of more than six in 200 is 4e-4 (Poisson)";
 }
 
 /// Seed of the scenes.

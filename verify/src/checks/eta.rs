@@ -90,7 +90,7 @@ checks! {
     Regime "eta-near-right-angle" [41]: near_right_angle;
     Within(5.0, 20.0) "largest eta for beta_0 = 1.1 to pi/2, root mean square over directions, azimuths and time";
     because "'10' read as within a factor of two";
-    /// 10 is no upper limit of eta: at beta_0 = pi/2 it grows without limit as the tensor becomes symmetric, as that of alpha_2 is
+    /// 10 is not an upper limit of eta: at beta_0 = pi/2 it grows without limit as the tensor becomes symmetric, as that of alpha_2 is
     Regime "eta-ten-is-no-maximum" [5, 41]:
         || order_of_error(&[1e-2, 1e-3, 1e-4], |ratio| Ok(root_mean_square_along_motion(-ratio, FRAC_PI_2)));
     Within(-0.51, -0.49) "slope of log eta(pi/2) against log |r|, r = 1e-2 to 1e-4";

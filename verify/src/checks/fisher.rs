@@ -21,8 +21,8 @@ checks! {
     AtMost(1e-10) "relative deviation of d(2 s^ZZ - s^XX - s^YY) : d eps of the direction found from that one, tp-I; infinite if it is not the only \
      one or moves anything else";
     because "rounding of the Jacobian, 1e-15 times some 20, over its second smallest singular value, 3e-3";
-    /// arrival times and widths of the pulses of the numerical motion determine all: eps and C s / I^xx too, beside eleven more unknowns. The
-    /// defect is of the perturbation formulas
+    /// arrival times and widths of the pulses of the numerical motion determine all parameters: eps and C s / I^xx too, beside eleven more unknowns. The defect
+    /// is one of the perturbation formulas
     Autodiff "fisher-rank-of-exact-signal" [25, 44, 57]: rank_of_signal;
     AtLeast(3.0) "decimal logarithm of the smallest singular value of the scaled Jacobian by 13 unknowns / what rounding can make of zero, tp-I, 200 \
      t_c";

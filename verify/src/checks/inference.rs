@@ -15,7 +15,7 @@ checks! {
     Oracle "data-derivatives" [25, 44, 71]: derivatives;
     AtMost(2e-8) "largest difference from differences of fourth order / largest derivative by the same unknown of the same kind of data";
     because "rounding of edges, 1e-13 and some times that for pulses that are slow at their edges, over the step of 2e-5; the truncation, which \
-     falls with the fourth power of the step, was 1.3e-5 at a step ten times as long, for a pulse about to go under, and is 1e-9";
+     falls with the fourth power of the step, was 1.3e-5 at a step ten times as long, for a pulse about to vanish, and is 1e-9";
     /// derivatives of arrival times, widths and strains after 1e9 turns, of stars with s = 1e-9, one with three eigenvalues in any frame and one
     /// with the tensor of alpha_2, are those of the pulses that PulsarClock finds for moved stars: by all unknowns that do not change the initial
     /// state; by all, after 1e6 turns with s = 1e-6, and after 1e5
@@ -28,12 +28,12 @@ checks! {
     /// after 1e9 turns the symmetries are found and named as over short spans, of a star with the tensor of alpha_2 and one with three eigenvalues
     Oracle "degenerate-directions-named-decades" [5, 23, 44, 71]: directions_of_decades;
     AtMost(0.0) "directions that are missing, without a name, or too many, of all 21 unknowns by arrivals and widths";
-    because "a name is given or it is not";
+    because "exact: each symmetry is named or not";
     /// of all 21 unknowns every symmetry is found and named and nothing else is degenerate: the trace of s, C against s, gamma against delta,
     /// rotations of all, the strain scale; sets without them have full rank
     Oracle "degenerate-directions-named" [23, 44, 71]: directions;
     AtMost(0.0) "directions that are missing, without a name, or too many, in 11 sets of data and unknowns";
-    because "a name is given or it is not";
+    because "exact: each symmetry is named or not";
     /// fits recover what was put in, and their error bars hold: 90 simulated measurements of random stars by pulses, by strain and by both, 10 to
     /// 13 unknowns, started three standard deviations off
     Oracle "fit-coverage" [25, 44, 71]: coverage;
@@ -51,12 +51,13 @@ checks! {
     Within(-1.1, -0.9) "power of the span, tp-2 with s over 4000 and phi_o = 1, 500 to 8000 t_c, 100 epochs, 7 unknowns";
     because "s t is 2e-3 to 0.03 rad of slow precession and the next order that much of it; equally spaced epochs beat with the turns of the star, \
      some 5 %";
-    /// there, with nothing known of the frame of s, the uncertainty of s goes as the inverse third power of the span: five unknowns (two of s, two
+    /// where the slow precession is far from a turn and nothing is known of the frame of s, the uncertainty of s goes as the inverse third power of
+    /// the span: five unknowns (two of s, two
     /// of its frame, one of the observer) need the drift of the spin axis to third order in s t
     Regime "forecast-unknown-frame" [44]: unknown_frame;
     Within(-3.1, -2.8) "power of the span, sp-1 with s over 4000 and phi_o = 1, 1000 to 16000 t_c, 100 epochs, 13 unknowns";
     because "as for the known frame; the last span is a third of a radian of slow precession";
-    /// there the uncertainty goes as the inverse square of s, so that the relative one goes as (s t)^-3
+    /// in the same case the uncertainty scales as the inverse square of s, so that the relative one scales as (s t)^-3
     Regime "forecast-unknown-frame-size" [44]: size_scaling;
     Within(3.6, 4.4) "uncertainty with s over 8000 / uncertainty with s over 4000, sp-1, phi_o = 1, 8000 t_c";
     because "four in the limit; the next order is s t = 0.15 rad of slow precession, and epochs beat with the turns";

@@ -9,11 +9,12 @@ use crate::prelude::*;
 use twofold_scene::pulsar_table::{self, published::published};
 
 checks! {
-    /// three more solitary pulsars, five for five coefficients, measured as well as the two known ones and in random directions, would make today's limit on each spatial coefficient
-    /// 3 to 5 orders of magnitude stronger; published is the expectation of three to four by more of them (arXiv:2311.11038)
+    /// three more solitary pulsars, five for five coefficients, measured as well as the two known ones and in random directions, would make today's
+    /// limit on each spatial coefficient
+    /// 3 to 5 orders of magnitude stronger; the published expectation is three to four from more of them (arXiv:2311.11038)
     Oracle "bounds-five-solitary-pulsars" [41, 42]: five;
     Within(3.0, 5.0) "median of 200 draws of the least log10(published limit / forecast one) of five coefficients, seed 61; infinite if that of the largest is above 5";
-    because "rates of spin axes tell a combination of s to some 4e-16, today's limits are some 1e-11: 4.4 orders, less what directions nearly alike take away";
+    because "rates of spin axes determine a combination of s to some 4e-16, today's limits are some 1e-11: 4.4 orders, less what directions nearly alike take away";
     /// two more, four for five coefficients, leave some coefficient nearly as it is known today
     Oracle "bounds-four-solitary-pulsars" [41, 42]: four;
     AtMost(0.35) "median of 200 draws of the least log10(published limit / forecast one) of five coefficients, seed 61";

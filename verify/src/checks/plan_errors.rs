@@ -6,26 +6,26 @@ use super::plans::Components;
 use crate::prelude::*;
 
 checks! {
-    /// a bound or an estimate that a plan foresees, with its rounding, is not below the true error: free, steady, symmetric and averaged motion,
+    /// a bound or an estimate that a plan predicts, with its rounding, is not below the true error: free, steady, symmetric and averaged motion,
     /// 100 random scenes each up to 60 rad
     Oracle "plan-error-bounds" [25]: bounds;
-    AtMost(1.0) "largest true error / (foreseen of the method + of rounding)";
+    AtMost(1.0) "largest true error / (predicted error of the method + of rounding)";
     because "a bound or an estimate below the true error is wrong";
     /// of random motions no more than the share that a plan states miss its goal: splitting, splitting with derivatives and Taylor series, 300
     /// scenes of every kind each up to 60 rad, four in ten of them beside the middle axis
     Oracle "plan-error-goals" [25]: goals;
-    AtMost(1.0) "largest share of true errors above (foreseen of the method + of rounding) / the share allowed";
+    AtMost(1.0) "largest share of true errors above (predicted error of the method + of rounding) / the share allowed";
     because "the shares, 1, 5 and 1 %, are those of 3,000 such scenes to 2,000 t_c and of 10,000 with strong torques (0.6, 3.5 and 0.3 % at most), \
      rounded up";
-    /// the goal of splitting is foreseen from its steps, not the tolerance in other words: it is not far above the true error either, the same
+    /// the goal of splitting is predicted from its steps and does not just repeat the tolerance: it is not far above the true error either, the same
     /// scenes
     Oracle "plan-error-goals-not-idle" [25]: not_idle;
-    AtMost(100.0) "median of (foreseen of the method + of rounding) / true error";
+    AtMost(100.0) "median of (predicted error of the method + of rounding) / true error";
     because "ten times the model of the error, which for half of the motions is less than ten times the true one";
-    /// the rounding that a plan foresees for a numerical motion is what the motion's error estimate counts: tolerance 1e-16, off the middle axis,
+    /// the rounding that a plan predicts for a numerical motion is what the motion's error estimate counts: tolerance 1e-16, off the middle axis,
     /// 200 random scenes by Taylor series and by splitting, from 5 rad to 2000 t_c
     Property "plan-rounding" [25]: rounding;
-    AtMost(0.05) "share of estimates more than ten times above or below what was foreseen";
+    AtMost(0.05) "share of estimates more than ten times above or below the prediction";
     because "the forecast takes equal steps, the largest torque and constants rounded by half a unit in the last place; over a radian or less the \
      estimate of splitting is far above the forecast and above the true error";
 }

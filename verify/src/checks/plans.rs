@@ -8,15 +8,15 @@ use crate::prelude::*;
 use crate::reference::reference_gradients;
 
 checks! {
-    /// right-hand sides that a plan foresees are those of the motion, at random over tolerances, spans and states carried
+    /// the numbers of right-hand sides that a plan predicts are those of the motion, at random over tolerances, spans and states carried
     Property "plan-counts" [25]: counts;
-    AtMost(2.0) "largest ratio of counted to foreseen right-hand sides, or the inverse";
+    AtMost(2.0) "largest ratio of counted to predicted right-hand sides, or the inverse";
     because "the plan knows the first step; later ones are longer or shorter as torque and rotation add up or not";
-    /// at random no method asked for by name is foreseen to meet the tolerance at less cost than the one that a plan takes, with derivatives or
+    /// at random no method requested by name is predicted to meet the tolerance at less cost than the one that a plan takes, with derivatives or
     /// without; each method is taken at times
     Property "plan-cheapest" [25]: cheapest;
     AtMost(0.0) "methods by name, of six for each of 600 plans, that are admitted and cost less";
-    because "a plan is the cheapest choice; whether what is foreseen comes true is the matter of plan-error-bounds and plan-error-goals";
+    because "a plan is the cheapest choice; whether the predictions are true is tested by plan-error-bounds and plan-error-goals";
     /// free rotation in place of the motion is off by at most its rigorous bound, over 1e-2 to 1e2 t_c
     Property "free-motion-bound" [48]: free_bound;
     AtMost(1.0) "largest difference of n, L and e_x from the numerical motion / (bound + its error estimate)";
@@ -25,11 +25,11 @@ checks! {
     /// eigenvalues differ a little
     Oracle "symmetric-motion" [25]: symmetric_motion;
     AtMost(1.0) "largest difference of n, L and e_x / sum of the two error estimates";
-    because "the same motion, twice computed; the estimate counts rounding by the derivatives of the solution";
+    because "the same motion, computed twice; the estimate counts rounding by the derivatives of the solution";
     /// steady precession about any axis is the numerical motion, and states beside it are refused
     Oracle "steady-motion" [26]: steady_motion;
     AtMost(1.0) "largest difference of n, L and e_x / sum of the two error estimates";
-    because "the same motion, twice computed";
+    because "the same motion, computed twice";
     /// derivatives of n, L and e_x by fifteen parameters by the tangent maps of a splitting scheme are those of duals through Taylor series: 60
     /// random motions in any frame, forwards and backwards
     Oracle "gradient-both-ways" [25]: gradients_both_ways;

@@ -38,11 +38,11 @@ checks! {
     /// the motion in any units is the dimensionless one with time in t_c
     Property "propagation-units" [35]: scaling_in_time_unit;
     AtMost(1.0) "largest difference / sum of the two error estimates";
-    because "the same motion, twice computed";
+    because "the same motion, computed twice";
     /// a motion seen from a rotated inertial frame, the axis permutation (36) included, is the rotated motion
     Property "propagation-frame-covariance" [7, 36]: frame_covariance;
     AtMost(1.0) "largest difference / sum of the two error estimates";
-    because "the same motion, twice computed";
+    because "the same motion, computed twice";
 }
 
 /// Largest difference of two states, of `L` in units of its size where that is above one.

@@ -44,7 +44,7 @@ checks! {
     /// |alpha_2-hat| < 1.6e-9 of the two pulsars (arXiv:1307.2552)
     Oracle "bounds-consistent-with-alpha-2" [5, 41, 43]: alpha_2;
     AtMost(1.0) "largest |log10(bound / 1.6e-9)|";
-    because "an order of magnitude: the published limit knows the direction of w and joins two pulsars; the number is that of its abstract";
+    because "an order of magnitude: the published limit uses the direction of w and combines two pulsars; the number is that of its abstract";
     /// with each star's own deformation the bounds of the table with eta = 10, and the limits at 95 %, are 3 to 5 orders of magnitude below the
     /// published |s^XX + s^YY - 2 s^ZZ| < 1.2e-10 of 13 pulsar systems together (arXiv:1402.6452, another frame)
     Oracle "bounds-beyond-global" [41]: beyond_global;

@@ -9,7 +9,7 @@ checks! {
     /// free rotation, splitting and Taylor series at -t are at t with L reversed, to the last bit
     Property "reversal-same-bits" [25]: reversal;
     AtMost(0.0) "states of random scenes that differ in a bit";
-    because "the equations are reversible, and rounding does not know signs: any difference is a step, a threshold or a branch that does";
+    because "the equations are reversible, and rounding does not depend on signs: any difference comes from a step, a threshold or a branch that does";
     /// every method gives the same states and error estimates again, in the other order and on two threads, to the last bit
     Property "threads-same-bits" [25]: threads;
     AtMost(0.0) "states of random scenes that differ in a bit";

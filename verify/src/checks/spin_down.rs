@@ -11,7 +11,8 @@ use crate::prelude::*;
 use crate::second_integrator::braked_states;
 
 checks! {
-    /// under a torque along L a wobbling star is in stretched time the star that does not slow down, L apart: free, for the shares 0, 1/2 and 1 of the torque that go with the
+    /// under a torque along L a wobbling star is in stretched time the star that does not slow down, L apart: free, for the shares 0, 1/2 and 1 of
+    /// the torque that go with the
     /// magnetic axis
     Oracle "spin-down-free" []: free;
     AtMost(1e-10) "largest difference of n, e_x and L / |L_0| over 3,000 rad, in which 8 % of the rotation is lost";
@@ -26,9 +27,9 @@ checks! {
     because "as without violation, and as much again for the averaged motion: 4 x y of 2.5e-13 and 4 x y^2 for each of 3,000 rad, 1e-10";
     /// for a dipole, n = 3, the closed form of what the varying torque makes a pulsar late is right to a thousandth over 1,000 precessions
     Oracle "spin-down-residual" []: residual;
-    AtMost(1e-3) "largest difference of direction / (lateness x rotation rate), 100 times over 1,000 precession periods, epsilon = 0.05, wobble 0.3 rad, in which 8 % of the rotation is lost";
-    because "exact: what is left is the integrator's 1e-13 for each of 1.3e5 rad, 1e-8 rad, beside a lateness of some 5e-5 rad";
-    /// for another index what the closed form leaves out of the lateness is of third order in the braking rate
+    AtMost(1e-3) "largest difference of direction / (delay x rotation rate), 100 times over 1,000 precession periods, epsilon = 0.05, wobble 0.3 rad, in which 8 % of the rotation is lost";
+    because "exact: what is left is the integrator's 1e-13 for each of 1.3e5 rad, 1e-8 rad, beside a delay of some 5e-5 rad";
+    /// for another index what the closed form leaves out of the delay is of third order in the braking rate
     Regime "spin-down-order" []: order;
     AtMost(0.1) "|measured slope against the braking rate - 3| of what a straight line leaves of the error over six precessions, n = 5, four rates";
     because "the closed form has all terms of first and second order; a straight line, a constant change of the rotation, is the mean of a third";
@@ -37,9 +38,9 @@ checks! {
     AtMost(1.0) "largest difference of direction / (stated error x rotation rate + 1e-9 rad), n = 2, 3 and 5 and both signs of F1; \
      x = 1e-4 and 1e-3 nearly, wobbles of 0.3, 0.03 and 0.005 rad";
     because "an estimate below the true error is wrong; 1e-9 rad is the error of the integration";
-    /// what stretched time states to leave out of the lateness is a bound: of random stars, any index or a damped wobble
+    /// the truncation error of the delay that stretched time states is a bound, for random stars with any index or a damped wobble
     Oracle "spin-down-left-out" []: left_out;
-    AtMost(1.0) "largest true error of the lateness / that stated, 1,000 random stars of each kind, against the law by Gauss' formula";
+    AtMost(1.0) "largest true error of the delay / that stated, 1,000 random stars of each kind, against the law by Gauss' formula";
     because "the bound is derived term by term from the law";
     /// F2 F0 / F1^2 of arrival times is the braking index
     Property "spin-down-index" []: index;
@@ -54,11 +55,11 @@ checks! {
     Oracle "damping-free" []: damped_free;
     AtMost(1e-10) "largest difference of n, e_x and L / |L_0| over 3,000 rad, wobbles of 0.3 and 1.2 rad, gamma t up to 1.5 of an oblate star and -1.5 of a prolate one";
     because "exact: the other method's tolerance 1e-13 per step grows with the phase, to 3,000 times that";
-    /// under the torque of a dipole the lateness of a star with a damped wobble is right to a thousandth
+    /// under the torque of a dipole the delay of a star with a damped wobble is right to a thousandth
     Oracle "damping-residual" []: damped_residual;
-    AtMost(1e-3) "largest difference of direction / (lateness x rotation rate), epsilon = 0.05, wobble 0.3 rad, gamma / w of 1/500, over two damping times, 160 precessions";
-    because "of third order in gamma / w = 0.002, 1e-8 times some 10, and over the time t another w t = 1,000 times that; the integrator's 1e-8 rad beside a lateness of some 1e-4 rad";
-    /// what the lateness of a damped wobble leaves out is of third order in the damping
+    AtMost(1e-3) "largest difference of direction / (delay x rotation rate), epsilon = 0.05, wobble 0.3 rad, gamma / w of 1/500, over two damping times, 160 precessions";
+    because "of third order in gamma / w = 0.002, 1e-8 times some 10, and over the time t another w t = 1,000 times that; the integrator's 1e-8 rad beside a delay of some 1e-4 rad";
+    /// what the delay of a damped wobble leaves out is of third order in the damping
     Regime "damping-order" []: damped_order;
     AtMost(0.1) "|measured slope against gamma - 3| of what a straight line leaves of the error over six precessions, four rates";
     because "partial integration has all terms of first and second order; a straight line, a constant change of the rotation, is the mean of a third";
@@ -183,7 +184,7 @@ fn residual() -> Result<Measured, String> {
     let LongDipole { clock, times, states } = long_dipole()?;
     let late = largest(times.iter().map(|&t| clock.stretched_time().late(t)));
     let off = worst_of(times.iter().zip(states), |(time, state)| difference(clock, **time, state))?;
-    Ok(Measured::new(off.figure / late, format!("lateness up to {late:.1e} rad, differences up to {:.1e}", off.figure)))
+    Ok(Measured::new(off.figure / late, format!("delay up to {late:.1e} rad, differences up to {:.1e}", off.figure)))
 }
 
 fn order() -> Result<Measured, String> {
@@ -276,7 +277,7 @@ fn damped_residual() -> Result<Measured, String> {
     let states = integrated(&problem, (WOBBLE, CHI), time, &times)?;
     let late = largest(times.iter().map(|&t| time.late(t)));
     let off = worst_of(times.iter().zip(&states), |(time, state)| difference(&clock, **time, state))?;
-    Ok(Measured::new(off.figure / late, format!("lateness up to {late:.1e} rad, differences up to {:.1e}", off.figure)))
+    Ok(Measured::new(off.figure / late, format!("delay up to {late:.1e} rad, differences up to {:.1e}", off.figure)))
 }
 
 fn damped_order() -> Result<Measured, String> {

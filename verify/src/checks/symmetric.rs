@@ -15,11 +15,11 @@ checks! {
     /// the exact solution and the numerical motion agree in n and e_x over 50 t_c, at random for s^XX = s^YY
     Oracle "symmetric-propagation" [25]: || worst_over(31, 300, &symmetric_scenes(), compare_with_propagation);
     AtMost(1.0) "largest difference / (error estimate of the numerical motion + 8 roundings of phase, initial angle and initial rate)";
-    because "the same motion, twice computed; eight initial values and parameters are rounded";
+    because "the same motion, computed twice; eight initial values and parameters are rounded";
     /// n and e_x of the exact solution are those of the numerical motion also from starts 1e-9 to 1e-2 rad from a pole
     Oracle "symmetric-poles" [25]: near_the_poles;
     AtMost(1.0) "largest difference / (error estimate of the numerical motion + 8 roundings of phase, initial angle and initial rate)";
-    because "the same motion, twice computed; eight initial values and parameters are rounded";
+    because "the same motion, computed twice; eight initial values and parameters are rounded";
     /// derivatives by s^ZZ and by the initial rates agree with those of the numerical motion, for s = 0 too
     Autodiff "symmetric-derivatives" [25]: derivatives;
     AtMost(64.0) "largest difference min(sin b)^2 / (largest derivative, 1 + phase, 2.2e-16)";

@@ -13,15 +13,16 @@ use crate::prelude::*;
 use crate::timing_simulation::{YEAR, arrivals_of, widths_of};
 
 checks! {
-    /// the phase of the timing model is a whole number, that of the pulse, at the midpoints of the pulses of the clock, which finds the edges of each in the motion
+    /// the phase of the timing model is an integer, the number of the pulse, at the midpoints of the pulses of the clock, which finds the edges of
+    /// each in the motion
     Oracle "timing-model-clock" []: of_clock;
     AtMost(1e-9) "largest difference (turns), 642 Hz, 20 years before and after the epoch, wobbles of 1e-6 to 0.6 rad, periods of 500 and 30 d, with and without torque, n = 3 and 2.5, damped in 200 years and undamped";
     because "between the edges the wobble changes the midpoint by w / (2 pi F0) = 6e-10 of the turn at most; in 8e11 turns 32 digits leave 1e-20 and \
-     the lateness of up to 10 turns 1e-15";
+     the delay of up to 10 turns 1e-15";
     /// the same phase against the integration of the torque: of a star scaled so that 1,000 precessions can be integrated
     Oracle "timing-model-torque" []: of_torque;
-    AtMost(1e-3) "largest difference of phase / lateness (rad), wobble 0.3 rad, epsilon = 0.05, 8 % of the rotation lost";
-    because "as for `spin-down-residual`: the integrator's 1e-8 rad beside a lateness of 5e-5 rad";
+    AtMost(1e-3) "largest difference of phase / delay (rad), wobble 0.3 rad, epsilon = 0.05, 8 % of the rotation lost";
+    because "as for `spin-down-residual`: the integrator's 1e-8 rad beside a delay of 5e-5 rad";
     /// every derivative of phase and width is the slope of the function itself
     Autodiff "timing-model-derivatives" []: slopes;
     AtMost(1e-6) "largest relative difference from central differences of sixth order, every parameter, phase and width, 20 random stars at 5 times, half of them with a damped wobble";
@@ -30,7 +31,7 @@ checks! {
     Oracle "timing-model-widths" []: widths;
     AtMost(1e-8) "largest relative difference from the time between the edges in the motion";
     because "the width is taken at the middle and over the mean rate of turns: right to w / (2 pi F0) = 6e-10, times wobble and slope of the width";
-    /// a fit over 15 years finds F0 to 32 digits: of data without errors the parameters they were made with
+    /// a fit over 15 years finds F0 to 32 digits, and from data without errors the parameters that they were made with
     Property "timing-fit-decades" []: decades;
     AtMost(1e-2) "largest (found - true) / standard deviation, 12 fits of 8 parameters to 300 arrivals to 1e-6 s and widths of stars of 2.4 to 642 Hz, begun three standard deviations off";
     because "a fit ends where what is left of the gradient moves no unknown by more than a hundredth of its error";
@@ -91,7 +92,7 @@ fn of_torque() -> Result<Measured, String> {
         let azimuth = l.dot(&o.cross(&m)).atan2(o.dot(&m));
         Ok(wrapped(TAU * model.phase([**time, 0.0])?.fraction - azimuth).abs())
     })?;
-    Ok(Measured::new(off.figure / late, format!("lateness up to {late:.1e} rad, differences up to {:.1e}", off.figure)))
+    Ok(Measured::new(off.figure / late, format!("delay up to {late:.1e} rad, differences up to {:.1e}", off.figure)))
 }
 
 /// A random star of ten turns in a unit of time, whose parameters are all of a size that differences show.

@@ -38,13 +38,14 @@ checks! {
     Property "torus-refusals" [25]: refusals;
     AtMost(0.01) "share of 1,000 random scenes";
     because "refused are tori as near the separatrix as rounding, which random starts seldom hit";
-    /// derivatives of n, L and e_x by fifteen parameters, by the closed ways of the torus, are those of duals through Taylor series over 200 t_c: the four examples,
+    /// derivatives of n, L and e_x by fifteen parameters, by the period lattice of the torus, are those of duals through Taylor series over 200 t_c:
+    /// the four examples,
     /// s = diag(0.3, 0.1, -0.4), diag(0.02, 0.02, -0.04) and diag(2e-7, 1e-7, -3e-7), and 20 random scenes in any frame
     Oracle "torus-gradient" [25]: gradient_by_series;
     AtMost(1e-11) "largest difference / largest derivative by the same parameter at the same time (at least 1e-3)";
-    because "some 400 steps of the series, each rounded by 1e-16, in a phase of 400 rad: 400 x 400 x 1e-16 = 2e-11 if all add up, 1e-12 as a random walk; the closed ways, \
-     of which there are 70, have a rounding of 1e-15 each";
-    /// after 1e6 t_c the derivatives are differences of the motion with changed parameters: the initial state of tp-2 and s = diag(0.02, 0.01, -0.04), diag(0.3, 0.1, -0.4),
+    because "some 400 steps of the series, each rounded by 1e-16, in a phase of 400 rad: 400 x 400 x 1e-16 = 2e-11 if all add up, 1e-12 as a random walk; the periods of the torus, of which 70 are passed, have a rounding of 1e-15 each";
+    /// after 1e6 t_c the derivatives are differences of the motion with changed parameters: the initial state of tp-2 and s = diag(0.02, 0.01,
+    /// -0.04), diag(0.3, 0.1, -0.4),
     /// diag(0.02, 0.02, -0.04), turned
     Oracle "torus-gradient-long" [25]: gradient_by_differences;
     AtMost(1e-8) "largest difference / largest derivative by the same parameter";
@@ -240,7 +241,8 @@ fn thousand() -> Result<Measured, String> {
 /// Seed of the scenes.
 const SEED: u64 = 64;
 
-/// Seeds and numbers of scenes on which an estimate may fail: `n` on `L` within 1e-8 rad, whose way to the plane has whole turns; nearly equal eigenvalues; coefficients that grow
+/// Seeds and numbers of scenes on which an estimate may fail: `n` on `L` within 1e-8 rad, whose way to the plane has whole turns; nearly equal
+/// eigenvalues; coefficients that grow
 /// again behind small ones.
 const NEAR_AN_EDGE: [(u64, u64); 8] =
     [(21, 8767), (22, 1954), (22, 2905), (22, 7243), (23, 1420), (23, 2443), (23, 4387), (24, 7195)];

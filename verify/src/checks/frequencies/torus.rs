@@ -17,7 +17,7 @@ checks! {
     AtMost(1e-13) "largest difference beyond half a unit of the reference's last digit [1/t_c]";
     because "rounding of a few periods; the references are given to 1e-11 and 1e-10";
     /// with two equal eigenvalues the exact frequencies are those of the exact solution in elliptic functions: slow and about_axis are alpha' and
-    /// gamma' but for whole turns of the nutation, which is about_momentum less the slow one
+    /// gamma' up to whole turns of the nutation, which is about_momentum less the slow one
     Oracle "torus-frequencies-symmetric" [25, 26]: symmetric;
     AtMost(5e-14) "largest difference / rotation rate, 12 random motions of both kinds";
     because "rounding of a period, 1e-15, over the thickness of the torus: the estimated errors of two of these rates add to at most 3.3e-14, and \

@@ -24,7 +24,7 @@ checks! {
     AtMost(0.5) "largest root mean square deviation / that of the series from its mean";
     because "'they fit very well' read as leaving less than half of the modulation; the rate changes during the turn for which a formula at an \
      instant stands: by a tenth of its modulation, whose period is 10 turns";
-    /// so do Eqs. (51), to first order, and (56) with constant beta_0 and the mean rates of the motion
+    /// Eqs. (51), to first order, and (56) with constant beta_0 and the mean rates of the motion follow the series of tp-I too
     Regime "pulse-series-mean-rates-tp-1" [51, 52, 56]: mean_rates_of_tp_1;
     AtMost(0.5) "largest root mean square deviation / that of the series from its mean";
     because "as before; DeltaPhi' / alpha' reaches a third, so the first order has a tenth of P to err by";
@@ -37,7 +37,7 @@ checks! {
     Regime "pulse-series-fail-tp-2" [51, 52, 56]: failure_of_tp_2;
     AtLeast(0.5) "smallest root mean square deviation / that of the series from its mean";
     because "'fail to approximate' read as the opposite of 'fit very well': more than half of the modulation is left";
-    /// but Eq. (51) with constant beta_0 and the mean rates of the motion follows the periods of single turns of tp-II over 400 t_c
+    /// Eq. (51) with constant beta_0 and the mean rates of the motion follows the periods of single turns of tp-II over 400 t_c
     Regime "period-series-mean-rates-tp-2" [51, 52]: periods_of_tp_2;
     AtMost(0.5) "largest root mean square deviation of (51) and of 2 pi / (alpha' + DeltaPhi') / that of the series from its mean";
     because "as for tp-I";

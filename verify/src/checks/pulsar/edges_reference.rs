@@ -19,7 +19,7 @@ checks! {
     };
     AtMost(1e-12) "largest error of an edge [t_c]; infinite for another number of pulses";
     because "the motion's rounding after 1,500 rad, some 1e-14, over the rate of m.n, 0.04 to 0.5 per t_c";
-    /// and so are the times at which m.n is largest in them
+    /// the times at which m.n is largest in these pulses are those along the 34-digit motion
     Oracle "closest-approach-reference" [44, 47]: || {
         worst_pulse(|_, arrival, expected| (arrival.closest_approach - expected.closest_approach).abs())
     };

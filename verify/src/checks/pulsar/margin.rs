@@ -14,7 +14,8 @@ checks! {
         || along_motions(|bounds, _, duals| largest([1, 2, 3].map(|k| duals[k].abs() / bounds[k - 1])));
     AtMost(1.0) "largest derivative / its bound, 40 random motions";
     because "the meaning of a bound";
-    /// so do the fourth and the sixth, by their mean values: the first and third divided differences of the third derivative
+    /// the fourth and the sixth time derivative of m.n stay below their bounds too, by their mean values: the first and third divided differences of
+    /// the third derivative
     Property "beam-margin-high-bounds" [44]: high_rates_within_bounds;
     AtMost(1.0) "largest mean value / its bound, 40 random motions, steps of 0.04 t_c";
     because "a bound of a derivative bounds its mean values; rounding of a third difference is 1e-11";

@@ -8,7 +8,7 @@ checks! {
     /// between them refined, and inside and outside are the same
     Oracle "pulse-train-scan" [44, 47]: against_scan;
     AtMost(0.0) "trains with a wrong number of edges, or inside where the scan is outside, of 20,000 random ones";
-    because "counts; the scan passes over no pair of edges, since it looks at every extremum, and leaves out only what m cannot reach in time";
+    because "a count: the scan misses no pair of edges, since it looks at every extremum and skips only what m cannot reach in time";
 }
 
 fn against_scan() -> Result<Measured, String> {

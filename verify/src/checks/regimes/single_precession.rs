@@ -30,7 +30,7 @@ checks! {
     Within(1.95, 2.05) "slope of log(distance of the axes over one forced period) against log of the ratio, 2.7e-3 to 2.7e-4, s scaled by 1e-8, the \
      one farthest from the integer of beta_0 = 0.3, 0.7, 1.1";
     because "the first omitted terms are squares of the ratio, above 1e-7; terms of the order s are below 1e-9; an integer order measured to 0.05";
-    /// with the s of the examples the correction gains nothing: the error of sp-I stays within a hundredth, that of sp-II above the unit sphere's
+    /// with the s of the examples the correction brings no improvement: the error of sp-I stays within a hundredth, that of sp-II above the unit sphere's
     /// radius
     Regime "single-correction-at-full-s" [33]: correction_at_full_s;
     AtMost(0.01) "|1 - corrected / printed| of the distance of the axes over one forced period, sp-I; infinite if that of sp-II corrected is below 1";

@@ -17,7 +17,7 @@ checks! {
         || least_of(single(&[1.4, 1.5]), |case| case.axis_error_over_forced_period(1000));
     AtLeast(1.0) "smallest distance reached over one forced period, beta_0 = 1.4 and 1.5";
     because "as for the examples: more than the unit sphere's radius";
-    /// the twofold solution, even the corrected one, holds the direction of L fixed: half a turn of its slow precession later L is on the other
+    /// the twofold solution, even the corrected one, keeps the direction of L fixed: half a turn of its slow precession later L is on the other
     /// side of Z, however small s is
     Regime "small-s-twofold" [30, 33]: twofold;
     AtLeast(1.5) "smallest distance of the directions of L (the axis averaged over a fast rotation) over its tilt A / a, half a slow turn later, s \

@@ -10,7 +10,7 @@ use crate::prelude::*;
 const SLOW: std::ops::Range<f64> = 0.01..0.1;
 
 checks! {
-    /// m.n, h_+ and h_x of tp-I and tp-II are sums of lines at whole combinations of alpha', gamma' and the slow frequency: with all lines above 1e-12 of
+    /// m.n, h_+ and h_x of tp-I and tp-II are sums of lines at integer combinations of alpha', gamma' and the slow frequency: with all lines above 1e-12 of
     /// the strongest they are those of the numerical motion
     Oracle "lines-identified" [47, 71]: sums_of_lines;
     AtMost(1e-10) "largest difference from the numerical motion, 300 random times up to 1,000 t_c";
