@@ -22,7 +22,7 @@ swept input) are composites and have 16. Exceptions are marked `*` and explained
 Derivatives marked `n` count against their natural size, the scale of the value over the swept input, as well: they are differences of terms of
 that size, near a pole or in a limit where the function becomes constant.
 
-## What was found, and mended
+## What was found and fixed
 
 Recorded on 2026-11-21 and 22, largest error in ulp of the conditioned scale on the sweeps below before and after.
 
