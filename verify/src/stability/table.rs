@@ -72,8 +72,8 @@ pub fn markdown(rounds: u64) -> String {
 const DENORMAL: &str = "
 ## Denormal inputs
 
-Of the sweeps that reach zero, with the first input at four numbers from 5e-324 to 1.2e-308. There the oracle has no 31 digits; what is compared is the limit
-(constant, a power or a logarithm), told by the oracle at 1e-80, 1e-90 and 1e-100. Errors over the bounds above. Left out is
+These are the sweeps that reach zero, with the first input at four numbers from 5e-324 to 1.2e-308. There the oracle has no 31 digits; what is compared is the limit
+(constant, a power or a logarithm), determined from the oracle at 1e-80, 1e-90 and 1e-100. The table has errors over the bounds above. It leaves out
 `preferred_frame_parameter`: a tensor of rank one, Eq. (5), loses its form where its entries lose their digits.
 
 | family | sweeps | numbers | error / bound |
