@@ -1,4 +1,4 @@
-"""Whatever Python gives: an answer of the right shape, or an exception that is documented. No panic crosses, nothing leaks."""
+"""Any Python input gives an answer of the right shape or a documented exception. No panic reaches Python, and nothing leaks."""
 
 import pathlib
 import pickle

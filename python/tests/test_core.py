@@ -1,4 +1,4 @@
-"""The package's arrays against each other, against formulas in numpy, and at its border."""
+"""The package's arrays against each other, against formulas in numpy, and at its interface to Python."""
 
 import pickle
 import signal

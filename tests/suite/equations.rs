@@ -48,7 +48,7 @@ fn discrepancies_name_existing_checks() {
     let page = fs::read_to_string("docs/discrepancies.md").expect("docs/discrepancies.md is there");
     let known: BTreeSet<_> = twofold_verify::checks::all().iter().map(|check| check.id).collect();
     let mut named = 0;
-    for paragraph in page.split("\n\n").filter(|p| p.starts_with("**Shown by**")) {
+    for paragraph in page.split("\n\n").filter(|p| p.starts_with("**Checks**")) {
         for id in paragraph.split('`').skip(1).step_by(2).filter(|name| name.contains('-')) {
             assert!(known.contains(id), "docs/discrepancies.md names the check {id}, which does not exist");
             named += 1;

@@ -35,7 +35,7 @@ const WEAKEST: f64 = 1e-11;
 /// they are called, their room in the legend, and how many are drawn of an observable at most.
 const KINDS: [(Line, &str, f64, usize); 3] = [
     (solid(BLACK, 1.3), "free precession has it", 130.0, 4),
-    (dashed(BLUE, 1.1), "satellite of such a line or of the constant", 200.0, 3),
+    (dashed(BLUE, 1.1), "sideband of such a line or of the constant", 200.0, 3),
     (dash_dotted(VERMILION, 1.1), "free precession lacks it", 100.0, 3),
 ];
 

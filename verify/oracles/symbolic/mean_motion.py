@@ -1,4 +1,4 @@
-"""The motion averaged over the fast rotation of n about L, to second order in s (docs/mean-motion.md).
+"""The motion averaged over the fast rotation of n about L, to second order in s (docs/averaged-solution.md).
 
 n turns about l = L / G at the rate G / I^xx at constant c = n.l: n = c l + sqrt(1 - c^2) (cos p e_1 + sin p e_2). A function F moves n by
 F_L x n and L by F_L x L + F_n x n, so that a function g changes at the rate -{F, g} with {f, g} = L.(f_L x g_L) + n.(f_L x g_n + f_n x g_L).
