@@ -188,7 +188,8 @@ fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<()
             part => part.map_err(|error| bad(&errors_beside(path), error))?,
         };
         let mut part = BufReader::new(part);
-        part.skip_until(b'\n').and_then(|_| io::copy(&mut part, &mut errors)).map_err(cannot)?;
+        part.skip_until(b'\n').map_err(|error| bad(&errors_beside(path), error))?;
+        io::copy(&mut part, &mut errors).map_err(cannot)?;
         any_failed = true;
     }
     errors.flush().map_err(cannot)?;
