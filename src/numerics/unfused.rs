@@ -5,7 +5,7 @@ use crate::numerics::arithmetic::Componentwise;
 /// Arithmetic component by component.
 pub(crate) type Fused = Componentwise<f64>;
 
-/// Always `Some`, since no special instructions are needed.
+/// Always `None`: there are no such instructions.
 pub(crate) fn detect_fused() -> Option<Fused> {
     None
 }
