@@ -21,15 +21,15 @@ use crate::numerics::scalar::Real;
 
 /// Shape of the spheroid `(x^2 + y^2) / a1^2 + z^2 / a3^2 = 1`, Eq. (10) `[spheroid]`: oblate, spherical or prolate.
 ///
-/// Keeps `q = a3 / a1`, `q^2` and `e^2 = 1 - q^2` together, each to about one ulp of what it was built from. None of them
-/// can stand for the others: `e^2` of 1e-24 is lost in `q`, and `q` of a thin disc is lost in `e^2`. For a prolate spheroid
-/// `e^2` is negative; all functions of the shape are analytic in it.
+/// Stores `q = a3 / a1`, `q^2` and `e^2 = 1 - q^2` together, each to about one ulp of the value it was built from. None of
+/// them can replace the others: `e^2` of 1e-24 is lost in `q`, and `q` of a thin disc is lost in `e^2`. For a prolate
+/// spheroid `e^2` is negative; all functions of the shape are analytic in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpheroidShape<S> {
     pub(crate) axis_ratio: S,
     pub(crate) axis_ratio_squared: S,
     pub(crate) eccentricity_squared: S,
-    /// What the rounding of `q^2` and of `e^2` lost, zero where it is not known.
+    /// Rounding errors of `q^2` and of `e^2`, zero if they are not known.
     pub(crate) lost: (S, S),
 }
 
@@ -112,14 +112,14 @@ impl<S: Real> SpheroidShape<S> {
     pub fn oblateness(&self) -> S {
         let sum = self.axis_ratio_squared + S::one();
         if self.eccentricity_squared.re() < -2.0 {
-            // Towards -1: the quotient has a derivative that is the difference of two terms larger by `q^2`.
+            // Towards -1: the derivative of the quotient is the difference of two terms larger by `q^2`.
             return S::from_f64(2.0) / sum - S::one();
         }
         self.eccentricity_squared / sum
     }
 }
 
-/// `1 - (x + lost)`, and what its rounding lost.
+/// `1 - (x + lost)`, and its rounding error.
 fn one_minus<S: Real>(x: S, lost: S) -> (S, S) {
     let (difference, first) = two_sum(S::one(), -x);
     two_sum(difference, first - lost)
