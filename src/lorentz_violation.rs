@@ -44,7 +44,7 @@ pub struct PrincipalCoefficients<S> {
 }
 
 impl<S: Scalar> PrincipalCoefficients<S> {
-    /// From the array `[s^XX, s^YY, s^ZZ]`.
+    /// Principal values from the array `[s^XX, s^YY, s^ZZ]`.
     pub fn new([xx, yy, zz]: [S; 3]) -> Self {
         Self { xx, yy, zz }
     }

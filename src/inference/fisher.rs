@@ -36,7 +36,7 @@ impl Fisher {
     /// The Fisher matrix for data of a star with its pulses.
     ///
     /// # Errors
-    /// Those of [`jacobian`], and fewer data than unknowns.
+    /// The errors of [`jacobian`], and fewer data than unknowns.
     pub fn of(
         parameters: &Parameters<f64>,
         events: &[Event],

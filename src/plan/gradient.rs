@@ -217,7 +217,7 @@ mod tests {
     use crate::solutions::perturbation::Precession;
     use crate::solutions::steady::steady_precession_rate;
 
-    /// One of the components of `n`.
+    /// The first components of `n`, as many as the number says.
     struct Components(usize);
 
     impl StateFunction for Components {

@@ -16,7 +16,7 @@ pub enum Method {
     Averaged,
     /// Fourier series on the invariant torus of the motion, for any scene off the separatrix.
     Torus,
-    /// A splitting scheme with a step chosen for the tolerance.
+    /// A splitting scheme and a step, both chosen for the tolerance.
     Splitting,
     /// Taylor series with adaptive steps and dense output.
     Taylor,

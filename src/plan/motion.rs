@@ -47,7 +47,7 @@ impl<X: RotationState<f64>> Problem<f64, X> {
     /// The motion from the initial state at `span.0`, by a given method.
     ///
     /// # Errors
-    /// Those of the method.
+    /// The errors of the method.
     pub fn motion_by(&self, method: Method, span: (f64, f64), tolerance: f64) -> Result<PlannedMotion<X>, Error> {
         // Closed forms give either type of state from a problem with e_x.
         let problem = self.with_equatorial_axis();

@@ -624,7 +624,7 @@ mod tests {
         }
     }
 
-    /// `L` goes round Z: `cos i = L.o / |L|` changes at the rate `l' (Z x L).o / |L|`.
+    /// `L` circles Z: `cos i = L.o / |L|` changes at the rate `l' (Z x L).o / |L|`.
     #[test]
     fn the_inclination_of_a_timing_model_changes_as_the_momentum_precesses() {
         let clock = precessing(1e-9);

@@ -14,8 +14,8 @@ use crate::numerics::double_double::DoubleDouble;
 const POINTS: [usize; 2] = [32, 256];
 
 /// With this many points or more, four neighbours whose azimuths wind once enclose the pole of `alpha`, or miss it by at most
-/// `(2 pi / 64)^2 / 8 = 1.2e-3` of the curvature of `n` on the torus. The finest grid only detects poles farther from `n` than half of its step,
-/// `0.5 * 2 pi / 256 = 1.2e-2`, and is then not needed.
+/// `(2 pi / 64)^2 / 8 = 1.2e-3` of the curvature of `n` on the torus. The finest grid only resolves poles farther from `n` than half of its step,
+/// `0.5 * 2 pi / 256 = 1.2e-2`, and need not be computed.
 const FINE: usize = 64;
 
 /// Largest change of an angle between two points of the grid (rad), below a quarter turn.
@@ -50,7 +50,7 @@ pub struct FundamentalFrequency {
 pub struct FundamentalFrequencies {
     /// The axis.
     pub pole: Vector3<f64>,
-    /// All of them.
+    /// All fundamental frequencies.
     pub all: Vec<FundamentalFrequency>,
     /// The basis: every line is an integer combination of these. They are `alpha'`, `gamma'` and `l'`, or `nu'` where `alpha'` is a multiple of
     /// `l'`; without `alpha'` and `gamma'` the others are used, and the angles of the torus themselves where these do not name every line.

@@ -257,7 +257,7 @@ mod tests {
         let turn = ALPHA_RATE * sin;
         let slope = 2.0 * cos * turn * turn + (2.0 * k * cos * sin * sin).abs() + 2.0 * omega * turn * sin;
         let rate = 8.0 * f64::EPSILON * slope / frequency / sin;
-        // So that a product with its square is none with its inverse.
+        // So that a factor of its square differs from a factor of its inverse.
         assert!(frequency < 0.9, "{frequency}");
         for sign in [1.0, -1.0] {
             assert!(matches!(precession(0.0, 0.99 * sign * rate).motion, Motion::Steady(_)));

@@ -47,7 +47,8 @@ pub struct Nome<S> {
 }
 
 impl<S: Real> Nome<S> {
-    /// From the parameter `m` in `[0, 1)` and its complement `m1 = 1 - m > 0`, which the caller knows without cancellation.
+    /// The nome of the parameter `m` in `[0, 1)` and its complement `m1 = 1 - m > 0`, which the caller knows without
+    /// cancellation.
     pub fn new(m: S, m1: S) -> Self {
         if m.re() <= 0.5 {
             let (over_m, series) = epsilon(m, m1);
@@ -98,7 +99,8 @@ pub struct AtPhase<S> {
 }
 
 impl<S: Real> ThetaSeries<S> {
-    /// For the nome `q < 1`, and for `theta_1(z + i eta)` with `r = exp(-2 eta)` between `q` and one, given with `q / r`.
+    /// The series for the nome `q < 1`, and for `theta_1(z + i eta)` with `r = exp(-2 eta)` between `q` and one, given with
+    /// `q / r`.
     pub fn new(q: S, r: S, q_over_r: S) -> Self {
         if q.re() < TRANSFORMED {
             return Self(Kind::Nome(NomeSeries::new(q, r, q_over_r)));
@@ -114,7 +116,7 @@ impl<S: Real> ThetaSeries<S> {
         Self(Kind::Transformed(Transformed::new(decay, turned)))
     }
 
-    /// At the argument whose sine and cosine are given.
+    /// The functions at the argument whose sine and cosine are given.
     pub fn at(&self, sin: S, cos: S) -> AtPhase<S> {
         match &self.0 {
             Kind::Nome(series) => series.at(sin, cos),
