@@ -51,7 +51,7 @@ impl Sample {
     }
 }
 
-/// Which errors of a motion are estimated.
+/// The errors of a motion that are estimated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ErrorEstimates {
     None,

@@ -18,7 +18,7 @@ pub struct TorqueHarmonics<S> {
 }
 
 impl<S: Scalar> TorqueHarmonics<S> {
-    /// From the angles `theta` of the wobble and `chi` of the magnetic axis (rad).
+    /// The harmonics for the angles `theta` of the wobble and `chi` of the magnetic axis (rad).
     ///
     /// ```
     /// use twofold::spin_down::TorqueHarmonics;

@@ -32,7 +32,7 @@ pub struct UniformEllipsoid<S: Real> {
 }
 
 impl<S: Real> UniformEllipsoid<S> {
-    /// From the semi-axes `(a1, a2, a3)`, in any order of size, and the density.
+    /// The ellipsoid from the semi-axes `(a1, a2, a3)`, in any order of size, and the density.
     ///
     /// # Errors
     /// [`Error::Domain`] unless all are positive and finite.

@@ -38,7 +38,7 @@ pub struct MaclaurinSpheroid<S> {
 }
 
 impl<S: Real> MaclaurinSpheroid<S> {
-    /// From an oblate or spherical spheroid.
+    /// The Maclaurin spheroid from an oblate or spherical spheroid.
     ///
     /// # Errors
     /// [`Error::Domain`] for a prolate spheroid: by Eq. (77) it would have `|Omega|^2 < 0`.

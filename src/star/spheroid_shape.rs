@@ -34,7 +34,7 @@ pub struct SpheroidShape<S> {
 }
 
 impl<S: Real> SpheroidShape<S> {
-    /// From the eccentricity `e = sqrt(1 - (a3 / a1)^2)`, Eq. (72) `[ecc]`, of an oblate spheroid.
+    /// The shape from the eccentricity `e = sqrt(1 - (a3 / a1)^2)`, Eq. (72) `[ecc]`, of an oblate spheroid.
     ///
     /// # Errors
     /// [`Error::Domain`] unless `0 <= e < 1`.
@@ -45,7 +45,8 @@ impl<S: Real> SpheroidShape<S> {
         Ok(Self { axis_ratio: q2.sqrt(), axis_ratio_squared: q2, eccentricity_squared: e2, lost: (q2_lost, e2_lost) })
     }
 
-    /// From `e^2 = 1 - (a3 / a1)^2`, Eq. (72) `[ecc]`; negative for a prolate spheroid. Regular at zero for derivatives.
+    /// The shape from `e^2 = 1 - (a3 / a1)^2`, Eq. (72) `[ecc]`; negative for a prolate spheroid. Regular at zero for
+    /// derivatives.
     ///
     /// # Errors
     /// [`Error::Domain`] unless `-1e200 <= e^2 < 1`.
@@ -55,7 +56,7 @@ impl<S: Real> SpheroidShape<S> {
         Ok(Self { axis_ratio: q2.sqrt(), axis_ratio_squared: q2, eccentricity_squared: e2, lost: (lost, S::zero()) })
     }
 
-    /// From the axis ratio `q = a3 / a1`: below one oblate, above one prolate.
+    /// The shape from the axis ratio `q = a3 / a1`: below one oblate, above one prolate.
     ///
     /// # Errors
     /// [`Error::Domain`] unless `1e-100 <= q <= 1e100`.
@@ -67,7 +68,7 @@ impl<S: Real> SpheroidShape<S> {
         Ok(Self { axis_ratio: q, axis_ratio_squared: q2, eccentricity_squared: e2, lost: (q2_lost, e2_lost) })
     }
 
-    /// From the semi-axes `a1` (equatorial) and `a3` (polar).
+    /// The shape from the semi-axes `a1` (equatorial) and `a3` (polar).
     ///
     /// # Errors
     /// [`Error::Domain`] unless both are positive and finite and their ratio is between 1e-100 and 1e100.
@@ -81,7 +82,8 @@ impl<S: Real> SpheroidShape<S> {
         Ok(Self { eccentricity_squared: e2, lost: (S::zero(), S::zero()), ..shape })
     }
 
-    /// From the oblateness `epsilon` of the uniform spheroid, the inverse of Eq. (79): `e^2 = 2 epsilon / (1 + epsilon)`.
+    /// The shape from the oblateness `epsilon` of the uniform spheroid, the inverse of Eq. (79):
+    /// `e^2 = 2 epsilon / (1 + epsilon)`.
     ///
     /// # Errors
     /// [`Error::Domain`] unless `-1 < epsilon < 1`.

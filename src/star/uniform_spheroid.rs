@@ -38,7 +38,7 @@ pub struct UniformSpheroid<S> {
 }
 
 impl<S: Real> UniformSpheroid<S> {
-    /// From the equatorial semi-axis `a1`, the density and the shape.
+    /// The spheroid from the equatorial semi-axis `a1`, the density and the shape.
     ///
     /// # Errors
     /// [`Error::Domain`] unless `a1` and the density are positive and finite.
@@ -48,7 +48,7 @@ impl<S: Real> UniformSpheroid<S> {
         Ok(Self { equatorial_radius, density, shape })
     }
 
-    /// From the semi-axes `a1` (equatorial) and `a3` (polar) of Eq. (10) `[spheroid]` and the density.
+    /// The spheroid from the semi-axes `a1` (equatorial) and `a3` (polar) of Eq. (10) `[spheroid]` and the density.
     ///
     /// # Errors
     /// [`Error::Domain`] unless all three are positive and finite.
@@ -56,7 +56,8 @@ impl<S: Real> UniformSpheroid<S> {
         Self::new(a1, density, SpheroidShape::from_semi_axes(a1, a3)?)
     }
 
-    /// From the mass, the mean radius `R = (a1^2 a3)^(1/3)` and the shape: `rho = 3 M / (4 pi R^3)`, `a1 = R q^(-1/3)`.
+    /// The spheroid from the mass, the mean radius `R = (a1^2 a3)^(1/3)` and the shape: `rho = 3 M / (4 pi R^3)`,
+    /// `a1 = R q^(-1/3)`.
     ///
     /// # Errors
     /// [`Error::Domain`] unless mass and radius are positive and finite.

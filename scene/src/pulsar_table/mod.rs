@@ -99,9 +99,9 @@ pub enum Eta<T> {
 pub struct Pulsar<T = Quantity> {
     /// Its name.
     pub name: String,
-    /// Where its numbers come from.
+    /// Source of its numbers.
     pub source: Option<String>,
-    /// How [`spin`](Self::spin) is given.
+    /// The form in which [`spin`](Self::spin) is given.
     pub spin_form: SpinForm,
     /// Spin period (s) or frequency (Hz).
     pub spin: T,

@@ -32,7 +32,7 @@ pub fn printed_bounds() -> Vec<(Pulsar, PrintedBounds)> {
 /// A published limit, as given in a line of `pulsars/published.tsv`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Published {
-    /// What is limited; components are those of the Sun-centred frame.
+    /// The quantity that is limited; components are those of the Sun-centred frame.
     pub quantity: &'static str,
     /// The limit, or half the width of the interval.
     pub limit: f64,

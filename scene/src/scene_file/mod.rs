@@ -74,7 +74,7 @@ pub struct Scene {
 /// The columns for which a scene is read.
 #[derive(Clone, Copy)]
 pub enum Columns<'a> {
-    /// Those of the file.
+    /// The columns of the file.
     OfTheFile,
     /// The columns of the file; [`Scene::check_rotation`] decides later whether they can be computed.
     OfTheFileLater,

@@ -38,7 +38,7 @@ enum Flattening<'a> {
     Oblateness(f64),
 }
 
-/// From `oblateness` or `precession_period`, and `spin_frequency` or `frequency`.
+/// The rotation from `oblateness` or `precession_period`, and `spin_frequency` or `frequency`.
 ///
 /// With the wobble `theta` and the oblateness `epsilon` the body precesses at the rate `epsilon Omega^z`, its axis circles `L` at
 /// `(1 + epsilon) Omega^z / cos theta`, and pulses arrive at the rate of the magnetic axis about `L`: that of the symmetry axis, minus that of the

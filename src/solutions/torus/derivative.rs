@@ -44,7 +44,7 @@ pub struct TorusDerivative<'a> {
 }
 
 impl<'a> TorusDerivative<'a> {
-    /// For the solution of a problem, and the same problem as a function of one parameter.
+    /// The derivatives for the solution of a problem, given the same problem as a function of one parameter.
     ///
     /// # Errors
     /// [`Error::NotConverged`] for a torus so thin that its two flows are nearly parallel, as in steady motion, whose neighbours have a different

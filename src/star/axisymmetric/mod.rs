@@ -1,4 +1,5 @@
-//! Any axisymmetric density: mass, inertia, tensor of the gravitational energy and C by multipoles. Eqs. (12), (15)-(17).
+//! Arbitrary axisymmetric density: mass, inertia, tensor of the gravitational energy and C from multipoles. Eqs. (12),
+//! (15)-(17).
 //!
 //! The potential is expanded in Legendre polynomials, `Phi = -sum_l phi_l(r) P_l(mu)`, `mu = cos(theta)`. With
 //! `U^xx - U^zz = int rho D Phi d^3x`, `D = (varpi d_varpi) / 2 - z d_z = -P_2 r d_r - (3/2) mu (1 - mu^2) d_mu`, and the
