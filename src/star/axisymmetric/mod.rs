@@ -11,6 +11,7 @@
 //!
 //! the six-dimensional integral of Eq. (12) is a sum over `l` of integrals over `r > s`. Each pair of radii appears once, so
 //! that only the interior potential enters and no large powers cancel,
+//!
 //! ```text
 //! 2 C = 4 pi^2 sum_l int dr r^(1-l) int_0^r ds s^(l+2) { [K_l - (l+1) J_l](r) M_l(s) + M_l(r) [l J_l + K_l](s) },
 //! tr U = 4 pi^2 sum_l int dr r^(1-l) int_0^r ds s^(l+2) M_l(r) M_l(s).
