@@ -48,7 +48,7 @@ pub struct TimingData {
     pub arrivals: Vec<MeasuredArrival>,
     /// Widths.
     pub widths: Vec<MeasuredWidth>,
-    /// Priors. A prior for a parameter that is not an unknown is not allowed.
+    /// Priors, which are meant for unknowns only.
     pub priors: Vec<Prior>,
 }
 

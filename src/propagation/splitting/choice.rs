@@ -104,7 +104,7 @@ pub(crate) enum Goal {
     /// The state.
     State,
     /// The state with its derivatives with respect to parameters. They cost several times as much as the motion, so the steps are chosen for
-    /// the error of the model itself, without the safety factor, which more motions exceed.
+    /// the error of the model itself, which more motions exceed.
     Derivatives,
 }
 
