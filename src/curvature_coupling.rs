@@ -27,7 +27,7 @@ const SIGNS: [f64; 4] = [-1.0, 1.0, 1.0, 1.0];
 /// part without trace of the contraction of the vacuum value `k` of the field in the action (1) `[action]`. Its spatial components are the
 /// `s^IJ` of all other equations.
 ///
-/// In the action `k^{abcd} R_{abcd}` it is what multiplies the Ricci tensor without its trace.
+/// In the action `k^{abcd} R_{abcd}` this is the coefficient of the trace-free Ricci tensor.
 pub fn coefficients_from_vacuum_value<S: Scalar>(k: &CurvatureTensor<S>) -> Matrix4<S> {
     let contracted = Matrix4::from_fn(|a, c| (0..4).fold(S::zero(), |sum, m| sum + k[a][m][c][m] * SIGNS[m]));
     let trace = (0..4).fold(S::zero(), |sum, a| sum + contracted[(a, a)] * SIGNS[a]);

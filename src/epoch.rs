@@ -1,7 +1,8 @@
-//! Epochs as modified Julian dates in two parts, a whole day and a fraction, so that a present date keeps 1e-16 day (10 ps).
+//! Epochs as modified Julian dates in two parts, a whole day and a fraction, so that a present-day date keeps 1e-16 day (10
+//! ps).
 //!
-//! A single double holds MJD 55000 to 7e-12 day, 0.6 microseconds. The time scale is whatever the dates are in; for arrival times at
-//! the barycentre of the solar system it is TDB.
+//! A single double holds MJD 55000 to 7e-12 day, 0.6 microseconds. The time scale is that of the dates supplied; for arrival times
+//! at the solar-system barycentre it is TDB.
 //!
 //! ```
 //! use twofold::epoch::{Epoch, DAY};
@@ -45,13 +46,13 @@ impl Epoch {
     /// [`Error::Domain`] unless the date is from 0 to 1e7.
     pub fn new(day: i64, fraction: f64) -> Result<Self, Error> {
         let date = day as f64 + fraction;
-        // The parts as well: large ones of opposite signs lose the date.
+        // The parts are checked as well: large parts of opposite sign lose the date.
         let near = day.unsigned_abs() <= 2 * LAST_DAY as u64;
         Error::ensure(near && (0.0..=LAST_DAY).contains(&date), "epoch (MJD)", date, ALLOWED)?;
         Ok(Self { day, fraction: 0.0 }.with_days(fraction.into()))
     }
 
-    /// Whole days.
+    /// The whole days.
     pub fn day(&self) -> i64 {
         self.day
     }
@@ -67,7 +68,8 @@ impl Epoch {
         (days + DoubleDouble::sum(self.fraction, -other.fraction) * DAY).into()
     }
 
-    /// The epoch a time later (s, the unevaluated sum of two doubles), rounded to 1e-16 day. It may lie before the date 0.
+    /// The epoch later by a given time (s, the unevaluated sum of two doubles), rounded to 1e-16 day. It may lie before the
+    /// date 0.
     ///
     /// # Errors
     /// [`Error::Domain`] for a time that is not finite or longer than 1e9 days, some three million years.
@@ -83,20 +85,21 @@ impl Epoch {
         let more = fraction.high.floor();
         let fraction = (fraction.high - more) + fraction.low;
         let day = self.day + whole as i64 + more as i64;
-        // A negative remainder below the rounding of one.
+        // A negative remainder smaller than the rounding of one.
         if fraction >= 1.0 { Self { day: day + 1, fraction: 0.0 } } else { Self { day, fraction: fraction.max(0.0) } }
     }
 }
 
 impl fmt::Display for Epoch {
-    /// The shortest decimal number that identifies the epoch. Dates before 0, which come of [`Epoch::after`] alone, are rounded.
+    /// The shortest decimal number that identifies the epoch. Dates before 0, which only [`Epoch::after`] can produce, are
+    /// rounded.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (sign, day, fraction) = match (self.day, self.fraction) {
             (day, 0.0) if day < 0 => ("-", -day, 0.0),
             (day, fraction) if day < 0 => ("-", -day - 1, 1.0 - fraction),
             (day, fraction) => ("", day, fraction),
         };
-        // Without an exponent, as `0.25`.
+        // Written without an exponent, as `0.25`.
         let fraction = format!("{fraction}");
         write!(f, "{sign}{day}.{}", fraction.split_once('.').map_or("0", |(_, digits)| digits))
     }
@@ -138,7 +141,7 @@ mod tests {
         assert_eq!(epoch("55321").to_string(), "55321.0");
         let read = epoch("55321.1234567890123456");
         assert!((read.fraction() - 0.123_456_789_012_345_6).abs() < 1e-17 && read.day() == 55321);
-        // The last digits of a day round to the next one.
+        // The last digits of a day round up to the next day.
         assert_eq!(epoch("59999.99999999999999999").to_string(), "60000.0");
     }
 
@@ -161,7 +164,8 @@ mod tests {
         assert!(high == 1e12 && low.abs() < 1e-11, "{high} {low:e}");
     }
 
-    /// Days go up and down over a midnight, and what is below the rounding of a fraction stays on its side or is none.
+    /// Day numbers change correctly across midnight, and a change below the rounding of the fraction stays on its side or
+    /// has no effect.
     #[test]
     fn a_fraction_is_below_one() {
         for (start, days, expected) in [
@@ -222,7 +226,7 @@ mod tests {
     #[test]
     fn what_is_beyond_a_whole_day_is_kept() {
         let almost = Epoch { day: 7, fraction: 1.0 - f64::EPSILON / 2.0 };
-        // 2^-60 day more than up to midnight.
+        // 2^-60 day more than the time up to midnight.
         let beyond = 0.5_f64.powi(60);
         let later = almost.with_days(DoubleDouble::from(f64::EPSILON / 2.0 + beyond));
         assert_eq!(later, Epoch { day: 8, fraction: beyond });

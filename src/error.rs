@@ -1,4 +1,4 @@
-//! Errors: a value out of its domain, something that is not supported, or an iteration that did not converge.
+//! Errors: a value out of its domain, an unsupported request, or an iteration that did not converge.
 
 use core::fmt;
 
@@ -11,28 +11,28 @@ pub enum Error {
         quantity: &'static str,
         /// The offending value.
         value: f64,
-        /// What is allowed, in words.
+        /// The allowed values, in words.
         allowed: &'static str,
     },
-    /// Something that cannot be had where it is asked for, whatever the numbers are.
+    /// A request that cannot be met, whatever the numbers are.
     Unsupported {
-        /// What was asked for.
+        /// The request.
         what: &'static str,
-        /// Why it is not there.
+        /// The reason why it is not supported.
         why: &'static str,
     },
-    /// An iteration that did not reach its goal.
+    /// An iteration that did not converge.
     NotConverged {
-        /// What was being solved.
+        /// The equation or quantity being solved for.
         what: &'static str,
         /// Iterations spent.
         iterations: usize,
-        /// Remaining residual; not a number where nothing was found.
+        /// Remaining residual; NaN if no solution was found.
         residual: f64,
     },
 }
 
-/// The error in words, so that `?` serves functions whose errors are texts.
+/// The error as text, so that `?` works in functions whose errors are strings.
 impl From<Error> for String {
     fn from(error: Error) -> Self {
         error.to_string()
@@ -50,7 +50,7 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Error::Domain { quantity, value, allowed } => {
-                // Decimals as long as they are short.
+                // Decimal notation as long as it is short.
                 if *value == 0.0 || (1e-5..1e16).contains(&value.abs()) || !value.is_finite() {
                     write!(f, "{quantity} = {value}: allowed is {allowed}")
                 } else {

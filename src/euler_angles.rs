@@ -77,7 +77,7 @@ pub fn symmetry_axis<S: Scalar>(alpha: S, beta: S) -> Vector3<S> {
     Vector3::new(sa * sb, -(ca * sb), cb)
 }
 
-/// Components in the body frame `s^{ij} = R^{iI} R^{jJ} s^{IJ}` of a tensor given in the inertial frame, Eq. (7).
+/// Body-frame components `s^{ij} = R^{iI} R^{jJ} s^{IJ}` of a tensor given in the inertial frame, Eq. (7).
 pub fn tensor_in_body_frame<S: Scalar>(rotation: &Matrix3<S>, inertial: &Matrix3<S>) -> Matrix3<S> {
     rotation * inertial * rotation.transpose()
 }
@@ -100,8 +100,8 @@ pub fn body_rates<S: Scalar>(angles: &EulerAngles<S>, rates: &EulerRates<S>) -> 
 /// Euler rates from the angular velocity in the body frame: the inverse of Eq. (22) `[angvel1]`.
 ///
 /// # Errors
-/// [`Error::Domain`] where `|sin beta|` is not above the rounding of one, 2.2e-16: on the pole the rates of `alpha` and
-/// `gamma` have no separate meaning. Near it the relative error grows as `1 / |sin beta|`; use the regular state there.
+/// [`Error::Domain`] where `|sin beta|` is not above the rounding of one, 2.2e-16: at the pole the rates of `alpha` and
+/// `gamma` are not separately defined. Near it the relative error grows as `1 / |sin beta|`; use the regular state there.
 pub fn euler_rates<S: Real>(angles: &EulerAngles<S>, omega_body: &Vector3<S>) -> Result<EulerRates<S>, Error> {
     let (sb, cb) = angles.beta.sin_cos();
     let (sg, cg) = angles.gamma.sin_cos();
@@ -113,10 +113,10 @@ pub fn euler_rates<S: Real>(angles: &EulerAngles<S>, omega_body: &Vector3<S>) ->
 /// Euler angles of a rotation matrix (rows: body axes), the inverse of Eq. (9) `[trans]`, with `beta` in [0, pi] and
 /// `alpha`, `gamma` in (-pi, pi].
 ///
-/// `beta` is taken by the two-argument arc tangent, so it keeps full precision near the poles.
+/// `beta` is computed with the two-argument arctangent, so it keeps full precision near the poles.
 ///
 /// # Errors
-/// [`Error::Domain`] where the symmetry axis is on the pole (`sin beta` not above 2.2e-16).
+/// [`Error::Domain`] where the symmetry axis is at a pole (`sin beta` not above 2.2e-16).
 pub fn angles_from_rotation<S: Real>(rotation: &Matrix3<S>) -> Result<EulerAngles<S>, Error> {
     let (x, y, z) = (rotation[(2, 0)], rotation[(2, 1)], rotation[(2, 2)]);
     let sin_beta_squared = x * x + y * y;
@@ -128,7 +128,7 @@ pub fn angles_from_rotation<S: Real>(rotation: &Matrix3<S>) -> Result<EulerAngle
     })
 }
 
-/// The matrix that takes components in X-Y-Z to components in the permuted frame Y-Z-X, whose third axis is X: the
+/// The matrix that converts components in X-Y-Z to components in the permuted frame Y-Z-X, whose third axis is X: the
 /// geometry behind Eq. (36).
 ///
 /// Euler angles of the body in the permuted frame are those of `R P^T`, with `R` from [`body_from_inertial`].

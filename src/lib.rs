@@ -1,8 +1,8 @@
-//! The rotation of spheroidal neutron stars under Lorentz violation: motions, what an observer sees of them, gradients of both, and fits.
+//! The rotation of spheroidal neutron stars under Lorentz violation: motions, observables, gradients of both, and fits.
 //!
 //! The model is that of Xu, Gao and Shao, *Precession of spheroids under Lorentz violation and observational consequences for neutron
-//! stars* ([arXiv:2012.01320](https://arxiv.org/abs/2012.01320)). Every numbered equation but the action is a function, generic over the scalar type, with its number and LaTeX label. Nothing
-//! here reads a file, prints or starts a thread.
+//! stars* ([arXiv:2012.01320](https://arxiv.org/abs/2012.01320)). Every numbered equation except the action is a function, generic over the scalar type,
+//! with its number and LaTeX label. Nothing here reads a file, prints or starts a thread.
 //!
 //! ```
 //! use twofold::{Beam, EulerAngles, EulerRates, Observer, PrincipalCoefficients, Problem, RigidSpheroid, pulse_train};

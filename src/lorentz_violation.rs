@@ -44,7 +44,7 @@ pub struct PrincipalCoefficients<S> {
 }
 
 impl<S: Scalar> PrincipalCoefficients<S> {
-    /// From the array `[s^XX, s^YY, s^ZZ]`.
+    /// Principal values from the array `[s^XX, s^YY, s^ZZ]`.
     pub fn new([xx, yy, zz]: [S; 3]) -> Self {
         Self { xx, yy, zz }
     }
@@ -64,7 +64,7 @@ impl<S: Scalar> PrincipalCoefficients<S> {
         self.xx - self.yy
     }
 
-    /// The same tensor in the frame Y-Z-X, Eq. (36): `Z -> X, X -> Y, Y -> Z`. Three times is the identity.
+    /// The same tensor in the frame Y-Z-X, Eq. (36): `Z -> X, X -> Y, Y -> Z`. Applied three times it is the identity.
     pub fn permuted(&self) -> Self {
         Self { xx: self.yy, yy: self.zz, zz: self.xx }
     }
@@ -75,7 +75,7 @@ impl<S: Scalar> PrincipalCoefficients<S> {
     }
 }
 
-/// A symmetric tensor brought to its principal axes, with the rotation kept.
+/// A symmetric tensor diagonalised to its principal axes, with the rotation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PrincipalFrame {
     /// Eigenvalues in descending order, `s^XX >= s^YY >= s^ZZ` (the order of the paper's examples).
@@ -88,7 +88,7 @@ pub struct PrincipalFrame {
 /// Principal axes of a symmetric tensor `s^IJ` given in any inertial frame.
 ///
 /// The eigenvalues are accurate to a few ulp of the largest one. The axes of two eigenvalues `s1`, `s2` are determined to
-/// about `2e-16 |s| / |s1 - s2|`; for equal ones any pair of axes in their plane is as good, and one is returned.
+/// about `2e-16 |s| / |s1 - s2|`; for equal ones any pair of axes in their plane is valid, and one is returned.
 ///
 /// # Errors
 /// [`Error::Domain`] for an entry that is not finite or above 1e300 in size, and for an asymmetry above `1e-12` of the largest entry.
@@ -107,7 +107,7 @@ pub fn principal_frame(tensor: &Matrix3<f64>) -> Result<PrincipalFrame, Error> {
     let mut order = [0, 1, 2];
     order.sort_by(|&i, &j| eigen.eigenvalues[j].total_cmp(&eigen.eigenvalues[i]));
     let axes = order.map(|i| eigen.eigenvectors.column(i).into_owned());
-    // A sign per axis is free: the larger component positive for X and Y, Z to make the frame right-handed.
+    // The sign of each axis is free: the larger component is positive for X and Y, and Z makes the frame right-handed.
     let x = positive_along_largest(axes[0]);
     let y = positive_along_largest(axes[1]);
     let z = x.cross(&y);
@@ -118,7 +118,7 @@ pub fn principal_frame(tensor: &Matrix3<f64>) -> Result<PrincipalFrame, Error> {
 }
 
 /// Eigenvalues in descending order and the proper rotation to the principal frame, with their derivatives: the real parts are those of
-/// [`principal_frame`], and small rotations take away what derivatives leave beside the diagonal.
+/// [`principal_frame`], and infinitesimal rotations remove the off-diagonal derivatives.
 ///
 /// # Errors
 /// As for [`principal_frame`], and with derivatives [`Error::Domain`] where two eigenvalues are equal (to 1e-12 of the largest): their axes
@@ -134,7 +134,7 @@ pub fn principal_frame_with_derivatives<S: Real>(
     }
     let PrincipalCoefficients { xx, yy, zz } = frame.coefficients;
     let size = xx.max(-zz);
-    // Each pass doubles the order of the derivatives that are right.
+    // Each pass doubles the order to which the derivatives are correct.
     for _ in 0..3 {
         let turned = rotation * tensor * rotation.transpose();
         let mut turn = Vector3::zeros();
@@ -161,16 +161,17 @@ pub fn principal_frame_with_derivatives<S: Real>(
     Ok((PrincipalCoefficients { xx: values.x, yy: values.y, zz: values.z }, rotation))
 }
 
-/// Difference of two eigenvalues over the spread of all, up to which derivatives take them for equal. That changes the tensor by this
-/// much; axes of distinct ones turn at a rate that rounding, over their difference, is part of. Both errors are 1e-8 here.
+/// Difference of two eigenvalues, relative to the spread of all, below which derivatives treat them as equal. Treating them so
+/// changes the tensor by this much; the axes of distinct ones turn at a rate with a relative error of rounding over their difference.
+/// Both errors are 1e-8 here.
 const TAKEN_FOR_EQUAL: f64 = 1e-8;
 
-/// Eigenvalues in descending order and the proper rotation to the principal frame, with their derivatives by one parameter, also where
-/// two eigenvalues are equal: perturbation theory with a degenerate pair.
+/// Eigenvalues in descending order and the proper rotation to the principal frame, with their derivatives with respect to one
+/// parameter, also where two eigenvalues are equal: perturbation theory with a degenerate pair.
 ///
-/// Axes of distinct eigenvalues turn at the rate `s'_ij / (s_i - s_j)`. In the plane of two equal ones (to 1e-8 of the spread; both become their mean)
-/// any axes are principal ones, and those are chosen between which the derivative `s'` is diagonal: they stay principal ones as the
-/// eigenvalues part, and need not turn to first order. So the choice depends on the parameter, and there is none for two at once.
+/// Axes of distinct eigenvalues turn at the rate `s'_ij / (s_i - s_j)`. In the plane of two equal ones (to 1e-8 of the spread; both become their
+/// mean) any axes are principal. Those in which the derivative `s'` is diagonal are chosen: they remain principal as the eigenvalues separate, and do
+/// not turn to first order. The choice therefore depends on the parameter, and there is none for two parameters at once.
 ///
 /// # Errors
 /// As for [`principal_frame`], and [`Error::Domain`] where all three eigenvalues are equal (to 1e-12 of the largest).
@@ -206,26 +207,27 @@ pub fn principal_frame_along(
     Ok((PrincipalCoefficients::new([0, 1, 2].map(value)), frame.zip_map(&rates, Dual64::new)))
 }
 
-/// Relative error of derivatives by what [`principal_frame_along`] makes of the eigenvalues: see there.
+/// Relative error of derivatives because of the way [`principal_frame_along`] treats the eigenvalues: see there.
 pub(crate) fn error_of_principal_frame_along(PrincipalCoefficients { xx, yy, zz }: PrincipalCoefficients<f64>) -> f64 {
     let (gap, spread) = ((xx - yy).min(yy - zz), xx - zz);
     if gap <= TAKEN_FOR_EQUAL * spread { gap / spread } else { f64::EPSILON * xx.max(-zz) / gap }
 }
 
-/// How near a symmetric tensor `s^IJ` is to one with two equal eigenvalues.
+/// How close a symmetric tensor `s^IJ` is to one with two equal eigenvalues.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SymmetryOfTensor {
-    /// Proper rotation to a principal frame whose third axis is that of the eigenvalue that differs from the two nearest.
+    /// Proper rotation to a principal frame whose third axis belongs to the eigenvalue that differs from the two closest
+    /// ones.
     pub principal_from_given: Matrix3<f64>,
-    /// Third eigenvalue minus the mean of the two nearest.
+    /// Third eigenvalue minus the mean of the two closest ones.
     pub difference: f64,
-    /// The tensor minus its symmetric part: `s^IJ - mean (1 - z z) - s_z z z`, in the given frame.
+    /// The tensor minus its axisymmetric part: `s^IJ - mean (1 - z z) - s_z z z`, in the given frame.
     pub asymmetry: Matrix3<f64>,
     size: f64,
 }
 
 impl SymmetryOfTensor {
-    /// The symmetric tensor nearest to `tensor`, with the mean of the two nearest eigenvalues.
+    /// The axisymmetric tensor closest to `tensor`, with the mean of the two closest eigenvalues.
     ///
     /// # Errors
     /// As for [`principal_frame`].
@@ -247,15 +249,15 @@ impl SymmetryOfTensor {
         })
     }
 
-    /// Whether what is not symmetric is below eight roundings of the tensor, to which its entries are known.
+    /// Whether the part that is not axisymmetric is below eight roundings of the tensor, the precision of its entries.
     pub(crate) fn is_symmetric_within_rounding(&self) -> bool {
         self.asymmetry.norm() <= 8.0 * f64::EPSILON * self.size
     }
 
-    /// Refuses a tensor that is not symmetric within rounding.
+    /// Refuses a tensor that is not axisymmetric within rounding.
     ///
     /// # Errors
-    /// [`Error::Domain`] with the part that is not symmetric.
+    /// [`Error::Domain`] with the part that is not axisymmetric.
     pub(crate) fn refuse_asymmetry(&self) -> Result<(), Error> {
         Error::ensure(
             self.is_symmetric_within_rounding(),
@@ -302,7 +304,7 @@ mod tests {
 
     use super::*;
 
-    /// Four derivatives by one variable.
+    /// Four derivatives with respect to one variable.
     type Fourth = Dual2<Dual2_64>;
 
     #[test]
@@ -338,7 +340,7 @@ mod tests {
         }
     }
 
-    /// Equal eigenvalues are told by the largest in size, and the difference is told.
+    /// The test for equal eigenvalues is relative to the largest in size, and the error reports the difference.
     #[test]
     fn derivatives_want_eigenvalues_apart() {
         let dual = |values: [f64; 3]| Matrix3::from_diagonal(&Vector3::from(values)).map(Dual64::from_re);
@@ -347,7 +349,7 @@ mod tests {
             let found = principal_frame_with_derivatives(&dual(values));
             assert_eq!(found.is_err(), is_refused, "{values:?}");
         }
-        // No sum of two eigenvalues, nor one of them, counts.
+        // The test does not depend on a sum of two eigenvalues, nor on a single one.
         for values in [[1.0, 0.3, -1.0], [2.0, 1.0, 0.0], [0.0, -1.0, -2.0], [1.0, 0.0, -2.0]] {
             assert!(principal_frame_with_derivatives(&dual(values)).is_ok(), "{values:?}");
         }
@@ -363,7 +365,8 @@ mod tests {
         }
     }
 
-    /// Two eigenvalues are taken for equal by their difference over the spread; their axes keep apart, whichever part of the derivative is not symmetric.
+    /// Two eigenvalues are treated as equal according to their difference over the spread; their axes stay distinct, whichever part of the derivative
+    /// is not symmetric.
     #[test]
     fn equal_eigenvalues_are_those_within_their_share_of_the_spread() {
         let slope = Matrix3::new(0.3, 0.1, 0.2, -1.1, 0.6, 0.4, 1.4, -0.3, -0.2);

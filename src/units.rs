@@ -1,6 +1,6 @@
 //! Physical constants, and the geometrised units of the paper (G = c = 1) with the second as base.
 //!
-//! A unit is a constant: `x * unit` takes `x` of that unit into the base, `x / unit` takes it back.
+//! A unit is a constant: `x * unit` converts `x` from that unit to the base, `x / unit` converts back.
 //!
 //! ```
 //! use twofold::units::geometrised::{GRAM_PER_CUBIC_CENTIMETRE, KILOMETRE, SOLAR_MASS};
@@ -33,7 +33,7 @@ pub mod si {
     pub const SPEED_OF_LIGHT: f64 = 299_792_458.0;
     /// Nominal solar mass parameter G M_sun [m^3 s^-2], IAU 2015 Resolution B3, exact by convention.
     pub const SOLAR_MASS_PARAMETER: f64 = 1.327_124_4e20;
-    /// Solar mass in kg, `G M_sun / G`: no better known than G.
+    /// Solar mass in kg, `G M_sun / G`: its uncertainty is that of G.
     pub const SOLAR_MASS: f64 = SOLAR_MASS_PARAMETER / GRAVITATIONAL_CONSTANT;
     /// Astronomical unit in m, IAU 2012 Resolution B2, exact.
     pub const ASTRONOMICAL_UNIT: f64 = 149_597_870_700.0;
@@ -104,7 +104,7 @@ pub fn time_unit<S: Real>(inertia_over_c: S) -> Result<S, Error> {
 mod tests {
     use super::*;
 
-    /// SI 2019; IAU 2012 B2, 2015 B2 and B3; CODATA 2018 and 2022, which have the same G.
+    /// SI 2019; IAU 2012 B2, 2015 B2 and B3; CODATA 2018 and 2022, which have the same value of G.
     #[test]
     fn constants_are_those_of_their_definitions() {
         assert_eq!(si::SPEED_OF_LIGHT, 299_792_458.0);
@@ -119,8 +119,8 @@ mod tests {
         );
     }
 
-    /// The numbers are the doubles nearest to the definitions in decimal arithmetic of 50 digits. A product of two or three roundings is at most two
-    /// units of the last place off.
+    /// The numbers are the doubles nearest to the definitions in decimal arithmetic of 50 digits. The error of a product of two or three roundings
+    /// is at most two units in the last place.
     #[test]
     fn units_that_follow_are_right_to_the_last_place() {
         for (unit, digits) in [

@@ -12,7 +12,7 @@ use crate::samples::Sample;
 use crate::scene_file::{COLUMN_GROUPS, Scene, Units, did_you_mean, listed};
 use crate::wave::spheroid_wave;
 
-/// Names of the columns of a group with their units. What is no group of columns has none.
+/// Names of the columns of a group with their units; empty for an output that is not a group of columns.
 pub fn header(group: Output, units: &Units) -> Vec<String> {
     let time = units.time_name;
     let with_unit = |names: &[&str], unit: &str| names.iter().map(|name| format!("{name} [{unit}]")).collect();
@@ -40,7 +40,7 @@ pub fn header(group: Output, units: &Units) -> Vec<String> {
     }
 }
 
-/// As many values as the [`header`] has names, in the units of the output; none where they do not exist.
+/// As many values as the [`header`] has names, in the units of the output; `None` if they do not exist.
 pub fn values(group: Output, scene: &Scene, sample: &Sample) -> Option<Vec<f64>> {
     let (body, s, units) = (scene.problem.spheroid(), scene.problem.coefficients(), &scene.units);
     let bulge = scene.problem.bulge();
@@ -61,7 +61,8 @@ pub fn values(group: Output, scene: &Scene, sample: &Sample) -> Option<Vec<f64>>
             let energy = found.energy + bulge_potential(bulge, s, &state.momentum);
             vec![energy * units.energy, found.spin / units.time, found.clebsch * units.momentum * units.momentum]
         }
-        // Eq. (33) as printed: it starts with the motion, which the corrected solution of the same constants does not.
+        // Eq. (33) as printed: it starts at the initial values of the motion, unlike the corrected solution with the same
+        // constants.
         Output::PerturbationAngles => {
             let angles = scene.perturbation.as_ref().ok()?.at(sample.since_start);
             vec![angles.alpha, angles.beta]
@@ -79,7 +80,7 @@ pub fn values(group: Output, scene: &Scene, sample: &Sample) -> Option<Vec<f64>>
             let [_, rate, ..] = beam.margin_rates(body, s, bulge, sample.orientation(), &direction);
             vec![beam.direction(sample.orientation()).dot(&direction), rate / units.time]
         }
-        // Eq. (49), by the components of `m`, which are regular where the Euler angles are not.
+        // Eq. (49), from the components of `m`, which are regular where the Euler angles are not.
         Output::MagneticAxis => {
             let m = scene.pulsar?.beam().direction(sample.orientation());
             let across = m.x.hypot(m.y);
@@ -102,10 +103,11 @@ pub fn values(group: Output, scene: &Scene, sample: &Sample) -> Option<Vec<f64>>
     })
 }
 
-/// Angles that grow without end or jump by a turn: a spectrum would be that of the growth or of the jumps.
+/// Angles that grow without limit or jump by a turn: their spectrum would be that of the growth or of the jumps.
 const TURNING: [&str; 5] = ["alpha", "gamma", "alpha_printed", "Phi", "psi"];
 
-/// The strain that the rotation would have at right angles to the symmetry axis, `eps |L|^2` as `I^xx = 1`, and the torque, `|s|` as `C = 1`: terms of a wave have that
+/// The strain of a rotation perpendicular to the symmetry axis, `eps |L|^2` since `I^xx = 1`, plus the torque, `|s|` since `C = 1`. The terms of a
+/// wave have this size, however small their sum is.
 /// size, whatever is left of their sum.
 fn strain_of_rotation(scene: &Scene) -> f64 {
     let (body, s) = (scene.problem.spheroid(), scene.problem.coefficients());
@@ -115,10 +117,11 @@ fn strain_of_rotation(scene: &Scene) -> f64 {
 /// One column of a table.
 #[derive(Debug)]
 pub struct Column {
-    /// The group that it belongs to, as an output of a plan; its angles need not count turns.
+    /// The group to which it belongs, as an output of a plan; its angles need not include whole turns.
     pub group: Output,
     index: usize,
-    /// The columns of its group with the same unit, itself among them: the components of one quantity, with one rounding.
+    /// The columns of its group with the same unit, including itself: the components of one quantity, with a common
+    /// rounding.
     parts: Vec<usize>,
     /// Name as in the header of the table, without the unit.
     pub name: String,
@@ -127,7 +130,7 @@ pub struct Column {
 }
 
 impl Column {
-    /// The column called `name`, if it oscillates and the scene has what it needs.
+    /// The column called `name`, if it oscillates and the scene has the sections it needs.
     pub fn oscillating(name: &str, scene: &Scene) -> Result<Self, String> {
         if TURNING.contains(&name) {
             return Err(format!(
@@ -180,7 +183,8 @@ impl Column {
         columns.iter().enumerate().map(column).collect()
     }
 
-    /// The value at a sample and the size of what it is a part of, as `|L|` for a component of `L`; none where they do not exist.
+    /// The value at a sample and the size of the quantity that it is a component of, such as `|L|` for a component of `L`; `None`
+    /// if they do not exist.
     pub fn value_and_size(&self, scene: &Scene, sample: &Sample) -> Option<(f64, f64)> {
         let values = values(self.group, scene, sample)?;
         let least = if self.group == Output::GravitationalWave { strain_of_rotation(scene) } else { 0.0 };
@@ -197,7 +201,8 @@ mod tests {
     use super::*;
     use crate::samples::SampledState;
 
-    /// The components of one quantity are its parts; angles that turn are of no size, and integrals of three units are three quantities.
+    /// The components of one quantity are its parts; angles that turn have no size, and integrals with three different units are three
+    /// quantities.
     #[test]
     fn a_value_has_the_size_of_what_it_is_a_part_of() {
         let scene = Scene::named("tp-2").unwrap();
@@ -215,9 +220,9 @@ mod tests {
         assert_eq!((spin, size), (spin, spin.abs()));
     }
 
-    /// A star that spins by 3 about an axis across its own, seen along it, sends a wave of `2 eps 3^2` twice a turn: the moment of inertia is
-    /// `1 + eps n n`, whose second derivative is up to `2 eps 3^2`, and `h` is minus twice that. Half of that is the size of the terms; to it comes a torque, of
-    /// the norm 5, and to the size the other polarization.
+    /// A star that spins by 3 about an axis perpendicular to its symmetry axis, seen along the spin axis, emits a wave of amplitude `2 eps 3^2` at
+    /// twice the rotation rate: the moment of inertia is `1 + eps n n`, whose second derivative is up to `2 eps 3^2`, and `h` is minus twice that.
+    /// Half of that is the size of the terms. A torque of the norm 5 is added to it, and the other polarization is added to the size.
     #[test]
     fn a_wave_has_the_size_of_its_terms_at_least() {
         for (ratio, torque, least) in
@@ -237,7 +242,7 @@ mod tests {
         }
     }
 
-    /// What turns and what the scene has no section for is not offered.
+    /// Columns that turn, and columns for which the scene has no section, are not offered.
     #[test]
     fn columns_are_offered_that_oscillate_and_can_be_computed() {
         let scene = Scene::named("wave-source").unwrap();

@@ -1,9 +1,9 @@
-//! Estimated errors as they are printed.
+//! Estimated errors for printing.
 
-/// Rounding of a component of a direction, or of `L` in units of its size, printed as a double.
+/// Rounding of a component of a direction, or of `L` in units of its size, when printed as a double.
 pub const ROUNDING_OF_COMPONENT: f64 = 0.5 * f64::EPSILON;
 
-/// An estimated error beside numbers rounded by `rounding`: the larger of the two. What is no number stays none.
+/// An estimated error of numbers rounded by `rounding`: the larger of the two. NaN stays NaN.
 pub fn as_printed(error: f64, rounding: f64) -> f64 {
     if error < rounding { rounding } else { error }
 }
@@ -20,7 +20,7 @@ mod tests {
         assert!(as_printed(f64::NAN, 9e-12).is_nan());
     }
 
-    /// One and what is added are rounded to one up to half of the distance to the next double, and to that beyond.
+    /// One plus a small number is rounded to one up to half of the distance to the next double, and to that double beyond.
     #[test]
     fn the_rounding_of_a_component_is_the_most_that_a_sum_beside_one_loses() {
         assert_eq!(1.0 + ROUNDING_OF_COMPONENT, 1.0);

@@ -1,4 +1,4 @@
-//! A plan in words: what will be computed, how, at what cost, and what is left out.
+//! A plan in words: what will be computed, by which method, at what cost, and what is skipped.
 
 use std::fmt::Write;
 
@@ -99,7 +99,7 @@ pub fn explained(scene: &Scene, plan: &Plan) -> String {
     text
 }
 
-/// The predicted error of the method alone.
+/// The predicted error of the method, without rounding.
 fn foreseen(prediction: &Prediction) -> String {
     let word = match prediction.promise {
         Promise::Bound => "at most",
@@ -109,7 +109,7 @@ fn foreseen(prediction: &Prediction) -> String {
     format!("{word} {:.1e}", as_printed(prediction.truncation, ROUNDING_OF_COMPONENT))
 }
 
-/// What its word means.
+/// The meaning of the word for the error.
 fn meaning(promise: Promise) -> String {
     match promise {
         Promise::Bound => ", which is proved".to_owned(),
@@ -118,7 +118,7 @@ fn meaning(promise: Promise) -> String {
     }
 }
 
-/// Why the method was taken, against the next best that meets the tolerance.
+/// The reason for the choice of the method, compared with the next best one that meets the tolerance.
 fn why(plan: &Plan) -> Option<String> {
     let (method, prediction) = (plan.method?, plan.prediction?);
     if plan.forced {
@@ -175,7 +175,7 @@ mod tests {
         cost: 1e3,
     };
 
-    /// Every number of a plan that is made up, in its line.
+    /// Every number of an artificial plan appears in its line.
     #[test]
     fn every_number_of_a_plan_is_in_its_line() {
         let mut scene = Scene::named("isolated-pulsar").unwrap();
@@ -221,7 +221,7 @@ mod tests {
         assert_eq!(explained(&scene, &plan), format!("{start}{method}\n{why}{rest}"));
         plan.forced = true;
         assert_eq!(explained(&scene, &plan), format!("{start}{method}, as asked\n{rest}"));
-        // The error of rounding is at least that of a component; a series has one order at least.
+        // The rounding error is at least that of a component; a series has at least order one.
         plan.prediction = Some(Prediction { rounding: 0.0, order: 1, ..bound });
         let text = explained(&scene, &plan);
         assert!(text.contains("rounding     about 1.1e-16") && text.contains("of order 1:"), "{text}");

@@ -1,4 +1,4 @@
-//! Scene files of the model `twofold` and what is computed from them: tables, sweeps, timing files, measured data.
+//! Scene files of the model `twofold` and the results computed from them: tables, sweeps, timing files, measured data.
 
 pub mod columns;
 pub mod estimated_error;
@@ -20,5 +20,5 @@ mod window;
 /// The compiler of this build.
 pub const COMPILER: &str = env!("TWOFOLD_RUSTC");
 
-/// The machine that this build is for, as a target triple.
+/// The target triple of this build.
 pub const TARGET: &str = env!("TWOFOLD_TARGET");

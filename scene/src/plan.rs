@@ -1,4 +1,4 @@
-//! Times of a scene in `t_c`, its rotation, and the plan by which its motion is computed.
+//! Times of a scene in `t_c`, its rotation, and the plan for computing its motion.
 
 use twofold::Error;
 use twofold::dynamics::equations_of_motion::angular_velocity;
@@ -6,19 +6,19 @@ use twofold::plan::{Output, Plan, Request};
 
 use crate::scene_file::Scene;
 
-/// Largest rotation over the whole span that is computed, in rad; it takes some minutes.
+/// Largest rotation over the whole span that is computed, in rad; this takes some minutes.
 pub const LARGEST_ROTATION: f64 = 1e8;
 
 impl Scene {
-    /// A time of the output as time since the start, in t_c.
+    /// Converts a time of the output to the time since the start, in t_c.
     pub fn since_start(&self, time: f64) -> f64 {
         (time - self.times.start()) / self.units.time
     }
 
-    /// The same as a sum of two doubles: after 1e10 turns the rounding of one is part of a turn.
+    /// The same as a sum of two doubles: after 1e10 turns the rounding of one is a noticeable fraction of a turn.
     pub fn since_start_in_parts(&self, time: f64) -> [f64; 2] {
         let (start, unit) = (self.times.start(), self.units.time);
-        // Knuth's exact difference, then what is left of the quotient.
+        // Knuth's exact difference, followed by the remainder of the quotient.
         let difference = time - start;
         let part = difference - time;
         let lost = (time - (difference - part)) - (start + part);
@@ -27,7 +27,7 @@ impl Scene {
         [quotient, if rest.is_finite() { rest } else { 0.0 }]
     }
 
-    /// A time since the start, in t_c, as a time of the output.
+    /// Converts a time since the start, in t_c, to a time of the output.
     pub fn output_time(&self, since_start: f64) -> f64 {
         self.times.start() + since_start * self.units.time
     }
@@ -37,28 +37,28 @@ impl Scene {
         self.since_start(self.times.last())
     }
 
-    /// The part of the span, from 0 to 1, that lies before a time since the start, in t_c.
+    /// The fraction of the span, from 0 to 1, before a time since the start, in t_c.
     pub(crate) fn part_done(&self, since_start: f64) -> f64 {
         let duration = self.duration();
         if duration == 0.0 { 1.0 } else { since_start / duration }
     }
 
-    /// Upper estimate of the angle through which the body turns over the span, in rad.
+    /// Upper estimate of the rotation angle of the body over the span, in rad.
     pub fn rotation(&self) -> f64 {
         self.duration().abs() * self.turning_rate()
     }
 
-    /// Upper estimate of the rate at which directions turn, per `t_c`.
+    /// Upper estimate of the rotation rate of directions, per `t_c`.
     pub(crate) fn turning_rate(&self) -> f64 {
         let (problem, initial) = (&self.problem, self.problem.initial());
         let omega = angular_velocity(problem.spheroid(), &initial.axis, &initial.momentum).norm();
         omega.max(initial.momentum.norm()) + (2.0 * problem.coefficients().norm()).sqrt()
     }
 
-    /// The plan for some outputs over the span and at the samples of the scene. Times are those since the start, in t_c.
+    /// The plan for given outputs over the span and at the samples of the scene. Times are measured since the start, in t_c.
     ///
     /// # Errors
-    /// A method that the scene does not allow, and a span too long for what goes through every turn.
+    /// A method that the scene does not allow, or a span too long for outputs that follow every turn.
     pub fn plan(&self, outputs: &[Output]) -> Result<Plan, Error> {
         let span = (0.0, self.duration());
         let request =
@@ -74,7 +74,7 @@ impl Scene {
         Ok(plan)
     }
 
-    /// Refuses a span of too many turns for what goes through all of them.
+    /// Refuses a span of too many turns for outputs that follow all of them.
     pub fn check_rotation(&self, outputs: &[Output]) -> Result<(), String> {
         let rotation = self.rotation();
         if rotation <= LARGEST_ROTATION {
@@ -82,7 +82,7 @@ impl Scene {
         }
         match self.plan(outputs) {
             Ok(_) => return Ok(()),
-            // No shorter span has another method.
+            // A shorter span would have no other method.
             Err(error) if self.problem.bulge() != 0.0 => return Err(error.to_string()),
             Err(_) => {}
         }
@@ -109,8 +109,8 @@ mod tests {
         scene
     }
 
-    /// In whole multiples of 2^-70: doubles of these sizes are such, and three times the sum of the parts is the difference but for a rounding of the
-    /// second part, 2^-78, and what is cut.
+    /// Computed in integer multiples of 2^-70: doubles of these sizes are such multiples, and three times the sum of the parts is the difference,
+    /// except for a rounding of the second part, 2^-78, and the truncated digits.
     #[test]
     fn two_parts_are_a_time_to_twice_the_digits() {
         let whole = |x: f64| (x * 2.0_f64.powi(70)) as i128;
@@ -132,8 +132,8 @@ mod tests {
         assert_eq!(scene(10.0, 10.0, 2.0).part_done(0.0), 1.0);
     }
 
-    /// At right angles to the axis a star turns by `|L|`, about it by `|L| / I^zz`, which is the faster of the two if the star is prolate; to that comes
-    /// `sqrt(2 |s|)`. A tensor of the eigenvalues 2, -1 and 2 has the norm 3.
+    /// About an axis perpendicular to its symmetry axis a star rotates at `|L|`, about the symmetry axis at `|L| / I^zz`, which is faster if the star
+    /// is prolate; `sqrt(2 |s|)` is added. A tensor with the eigenvalues 2, -1 and 2 has the norm 3.
     #[test]
     fn a_star_turns_by_no_more_than_its_rates_and_that_of_the_torque() {
         for (ratio, torque, momentum, rate) in [
@@ -146,9 +146,9 @@ mod tests {
             let s = Matrix3::from_diagonal(&Vector3::new(2.0, -1.0, 2.0)) * torque;
             let state = BodyState { axis: Vector3::z(), momentum, equatorial_axis: Vector3::x() };
             scene.problem = Problem::new(RigidSpheroid::in_units_of_tc(ratio), s, state).unwrap();
-            // A rounding or two of each of the terms.
+            // One or two roundings of each of the terms.
             assert!((scene.turning_rate() - rate).abs() < 4.0 * f64::EPSILON * rate, "{}", scene.turning_rate());
-            // Twenty units of the output, ten of t_c, backwards.
+            // Twenty units of the output are ten t_c, backwards.
             assert!((scene.rotation() - 10.0 * rate).abs() < 40.0 * f64::EPSILON * rate, "{}", scene.rotation());
         }
     }

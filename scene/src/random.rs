@@ -1,6 +1,6 @@
 //! A seeded generator of random numbers.
 
-/// The generator SplitMix64 (Steele, Lea and Flood 2014): one word of state, the same numbers on every machine.
+/// The generator SplitMix64 (Steele, Lea and Flood 2014): one word of state, with the same numbers on every machine.
 #[derive(Debug, Clone)]
 pub struct Random(u64);
 
@@ -10,7 +10,7 @@ impl Random {
         Self(seed)
     }
 
-    /// Uniform word.
+    /// A uniformly distributed word.
     pub fn word(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -29,7 +29,7 @@ impl Random {
 mod tests {
     use super::Random;
 
-    /// The first words from two seeds as Java's `SplittableRandom` has them, and published implementations with it.
+    /// The first words for two seeds, as in Java's `SplittableRandom` and in published implementations of it.
     #[test]
     fn words_are_those_of_the_published_generator() {
         for (seed, words) in [
@@ -41,7 +41,7 @@ mod tests {
         }
     }
 
-    /// A word as a part of 2^64, cut to 53 bits: within 2^-53 of the interval below, and a rounding.
+    /// A word as a fraction of 2^64, truncated to 53 bits: at most 2^-53 of the interval below, plus a rounding.
     #[test]
     fn a_number_lies_where_its_word_does_among_all_words() {
         let (mut words, mut numbers) = (Random::with_seed(3), Random::with_seed(3));

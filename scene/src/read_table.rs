@@ -1,6 +1,6 @@
-//! Tables as the command writes them, read into columns.
+//! Tables in the format of the command, read into columns.
 
-/// Columns of words, also where all fields are empty: another column has words only if a field is no number.
+/// Columns that contain words even if all fields are empty; any other column has words only if a field is not a number.
 const WORDS: [&str; 3] = ["cut", "status", "combination"];
 
 /// A column of a table.
@@ -8,9 +8,9 @@ const WORDS: [&str; 3] = ["cut", "status", "combination"];
 pub struct Column {
     /// Its name, without the unit.
     pub name: String,
-    /// Its unit; empty where the table has none.
+    /// Its unit; empty if the table has none.
     pub unit: String,
-    /// What stands in it.
+    /// Its values.
     pub values: Values,
 }
 
@@ -23,10 +23,11 @@ pub enum Values {
     Words(Vec<String>),
 }
 
-/// The columns of a table that is written as CSV, and how many rows it has: a header of names with units in brackets, then numbers, or words where a field is none.
+/// The columns of a CSV table and its number of rows. The table has a header of names with units in brackets, followed by numbers, or by words where
+/// a field is not a number.
 ///
 /// # Errors
-/// Rows of unequal lengths, and bytes that are no text; the line is named.
+/// Rows of unequal lengths, or bytes that are not text; the error names the line.
 pub fn columns_of(csv: &[u8]) -> Result<(Vec<Column>, usize), String> {
     let reader = || csv::Reader::from_reader(csv);
     let header = reader().headers().map_err(|error| error.to_string())?.clone();
@@ -59,7 +60,7 @@ pub fn columns_of(csv: &[u8]) -> Result<(Vec<Column>, usize), String> {
     Ok((columns, rows))
 }
 
-/// The number of a field; an empty one is missing, not a number.
+/// The number in a field; an empty field is a missing value, NaN.
 fn number(field: &str) -> Option<f64> {
     if field.is_empty() { Some(f64::NAN) } else { field.parse().ok().filter(|number: &f64| number.is_finite()) }
 }

@@ -8,7 +8,7 @@ use twofold::propagation::{ContinuousAngles, Motion, TOLERANCE_RANGE};
 
 use crate::scene_file::Scene;
 
-/// Rotation per segment of motion that is kept in memory at a time, in rad.
+/// Rotation per segment of motion that is stored in memory at a time, in rad.
 pub(crate) const ROTATION_PER_SEGMENT: f64 = 5e4;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,13 +16,13 @@ pub struct Sample {
     /// Time since the start, in t_c.
     pub since_start: f64,
     pub state: SampledState,
-    /// The Euler angles with their turns, where the plan counts turns; none where the symmetry axis is on a pole.
+    /// The Euler angles including whole turns, if the plan counts turns; `None` if the symmetry axis is at a pole.
     pub angles: Option<EulerAngles<f64>>,
-    /// Estimated error, see [`Motion::error_estimate`], where it is wanted.
+    /// Estimated error, see [`Motion::error_estimate`], if requested.
     pub error_estimate: Option<f64>,
 }
 
-/// As much of a state as a plan computes.
+/// The part of a state that a plan computes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SampledState {
     Nothing,
@@ -51,7 +51,7 @@ impl Sample {
     }
 }
 
-/// Which errors of a motion are estimated.
+/// The errors of a motion that are estimated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ErrorEstimates {
     None,
@@ -59,7 +59,7 @@ pub(crate) enum ErrorEstimates {
     OfEachSample,
 }
 
-/// The error of a motion at the end of its span, and what the motion took.
+/// The error of a motion at the end of its span, and the work for the motion.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Sampled {
     pub(crate) error: Option<ErrorAtEnd>,
@@ -69,8 +69,8 @@ pub(crate) struct Sampled {
 /// `n` and `L` of a motion at a time.
 pub(crate) type AxisStateAt<'m> = dyn Fn(f64) -> Result<AxisState<f64>, Error> + 'm;
 
-/// Computes the motion of `scene` by `plan`. `take` is given each time of the output with the sample there, `after_segment` the motion of
-/// each segment with its first and last time, after the samples in it.
+/// Computes the motion of `scene` by `plan`. `take` receives each time of the output with the sample there; `after_segment` receives the
+/// motion of each segment with its first and last time, after the samples in it.
 pub(crate) fn for_each_sample<E: From<Error>>(
     scene: &Scene,
     plan: &Plan,
@@ -133,7 +133,7 @@ fn sample_segments<X: SegmentState, E: From<Error>>(
     Ok(sampled)
 }
 
-/// Errors at the ends of the segments before: each grows linearly with the phase that it shifts.
+/// Errors at the ends of the previous segments: each grows linearly with the phase that it shifts.
 #[derive(Default)]
 struct EarlierErrors {
     sum: f64,
@@ -151,7 +151,7 @@ impl EarlierErrors {
     }
 }
 
-/// The Euler angles at a time, where they exist.
+/// The Euler angles at a time, if they exist.
 type Angles<'m> = Box<dyn FnMut(f64) -> Option<EulerAngles<f64>> + 'm>;
 
 /// A state of the segments of a motion: `n` and `L`, or the whole orientation.
@@ -159,7 +159,7 @@ pub(crate) trait SegmentState: RotationState<f64> {
     /// The state of a motion at the time `t[0] + t[1]`.
     fn sampled(motion: &Counted<PlannedMotion<Self>>, t: [f64; 2]) -> Result<SampledState, Error>;
 
-    /// The Euler angles with their turns from the time `from`, where they are `start`; none where they do not exist.
+    /// The Euler angles including whole turns from the time `from`, where they are `start`; `None` if they do not exist.
     fn angles<'m>(
         motion: &'m Counted<PlannedMotion<Self>>,
         from: f64,
@@ -201,7 +201,7 @@ pub(crate) struct Segments<'s, X> {
     count: usize,
     next: usize,
     from: f64,
-    /// The problem from the start of the scene.
+    /// The problem with the initial state of the scene.
     problem: Problem<f64, X>,
     /// State at the start of the next segment.
     state: X,
@@ -209,12 +209,12 @@ pub(crate) struct Segments<'s, X> {
     pub(crate) work: Work,
 }
 
-/// Error of the components of `n`, `e_x` and of `L` in units of its size at the end of a span.
+/// Error at the end of a span, in the components of `n`, `e_x` and of `L` in units of its size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ErrorAtEnd {
-    /// Estimated from the motion, where it is one from the start.
+    /// Estimated from the motion, if it is one motion from the start.
     Estimated(f64),
-    /// What the plan foresaw, where the motion is in segments that are not kept.
+    /// Predicted by the plan, if the motion is in segments that are not stored.
     Foreseen(f64),
 }
 
@@ -227,7 +227,7 @@ pub(crate) struct Segment<X> {
 }
 
 impl<'s, X: SegmentState> Segments<'s, X> {
-    /// The segments of a plan for `scene`, one at least.
+    /// The segments of a plan for `scene`, at least one.
     pub fn new(scene: &'s Scene, plan: &Plan) -> Result<Self, Error> {
         Self::with_rotation(scene, plan, ROTATION_PER_SEGMENT)
     }
@@ -253,7 +253,7 @@ impl<'s, X: SegmentState> Segments<'s, X> {
         self.next += 1;
         let (from, to) = (self.from, self.total * (self.next as f64 / self.count as f64));
         let motion = if self.method.is_closed_form() {
-            // From the start of the scene: nothing adds up from segment to segment.
+            // Starts at the beginning of the scene, so that no error accumulates from segment to segment.
             self.problem.motion_by(self.method, (0.0, self.total), self.scene.tolerance)?
         } else {
             let problem = self.problem.starting_from(self.state)?;
@@ -266,7 +266,7 @@ impl<'s, X: SegmentState> Segments<'s, X> {
         Ok(Some(Segment { motion: Counted::new(motion), from, to, is_last: self.next == self.count }))
     }
 
-    /// Lets the next segment begin earlier, at a time of this one.
+    /// Makes the next segment begin earlier, at a time of this one.
     pub fn resume_at(&mut self, segment: &Segment<X>, time: f64) -> Result<(), Error> {
         self.state = segment.motion.motion.state(time)?;
         self.from = time;
@@ -280,19 +280,20 @@ impl<'s, X: SegmentState> Segments<'s, X> {
         ErrorAtEnd::Foreseen(plan.prediction.map_or(f64::NAN, |prediction| prediction.truncation + prediction.rounding))
     }
 
-    /// The part of the scene's tolerance that a segment may use up, so that the truncation per unit of time is that of one
-    /// motion over the whole span: an error of time `t` grows with the rotation from `t` on.
+    /// The fraction of the scene's tolerance that a segment may use, such that the truncation per unit of time is that of
+    /// one motion over the whole span: an error made at the time `t` grows with the rotation from `t` on.
     fn share_of_tolerance(&self, length: f64) -> f64 {
         let growth = |duration: f64| duration.abs() * (1.0 + self.scene.turning_rate() * duration.abs() / 2.0);
         if self.total == 0.0 {
             return self.scene.tolerance;
         }
-        // Rounding may pass by both ends of what a motion takes.
+        // Rounding may exceed both ends of the range that a motion accepts.
         (self.scene.tolerance * growth(length) / growth(self.total)).clamp(TOLERANCE_RANGE.0, TOLERANCE_RANGE.1)
     }
 }
 
-/// A time of the output as time since the start, in t_c, in two doubles; kept within a segment, whose ends rounding may pass by.
+/// Converts a time of the output to the time since the start, in t_c, in two doubles; restricted to the segment, whose ends it
+/// may exceed by rounding.
 fn since_start_within(scene: &Scene, time: f64, from: f64, to: f64) -> [f64; 2] {
     let parts = scene.since_start_in_parts(time);
     let t = parts[0].clamp(from.min(to), from.max(to));
@@ -303,7 +304,7 @@ fn since_start_within(scene: &Scene, time: f64, from: f64, to: f64) -> [f64; 2] 
 mod tests {
     use super::*;
 
-    /// An error of the time `t` grows to `1 + rate (end - t)` times itself by the end. All of the segments together are to stay below the tolerance.
+    /// An error made at the time `t` grows to `1 + rate (end - t)` times itself by the end. The sum over all segments must stay below the tolerance.
     #[test]
     fn the_errors_of_all_segments_are_within_the_tolerance() {
         let mut scene = Scene::named("tp-2").unwrap();
@@ -323,7 +324,7 @@ mod tests {
         assert!(sum < scene.tolerance, "{sum:e}");
     }
 
-    /// A scene that turns by so many radians, at samples of that rotation.
+    /// A scene that rotates by a given number of radians, with samples at these rotations.
     fn scene(name: &str, method: &str, columns: &[&str], rotations: &[f64]) -> (Scene, Plan) {
         let mut scene = Scene::named(name).unwrap();
         scene.choose_method(method).unwrap();
@@ -334,7 +335,8 @@ mod tests {
         (scene, plan)
     }
 
-    /// A segment begins where and as the one before ends, or where it is resumed; all of them end as one motion does, to some tolerances of it.
+    /// A segment begins where and with the state in which the previous one ends, or where it is resumed; the last one ends like a single
+    /// motion, to some tolerances of it.
     #[test]
     fn segments_follow_one_another_in_either_sense() {
         for sense in [1.0, -1.0] {
@@ -363,8 +365,9 @@ mod tests {
         }
     }
 
-    /// So that memory does not grow with the span, a segment turns by 5e4 rad at most: 5.2e4 rad are two of 2.6e4. An error does not become less with time where one ends, nor
-    /// is that of a closed form, which begins with the scene, more for the segments before. It is asked for at the end alone, or at the samples.
+    /// So that memory does not grow with the span, a segment rotates by at most 5e4 rad: 5.2e4 rad are two of 2.6e4. An error does not decrease with
+    /// time at the end of a segment. The error of a closed form, which begins with the scene, does not grow with the number of earlier segments. The
+    /// error is requested only at the end, or at the samples.
     #[test]
     fn errors_go_on_over_the_ends_of_segments() {
         let rotations = [2.5e4, 2.7e4, 5.2e4];
@@ -400,8 +403,8 @@ mod tests {
         }
     }
 
-    /// Errors of the same size in every unit of time grow to `1 + rate (T - t)` times themselves, to `T + rate T^2 / 2` in all: with `rate T = 2` to `2 T`, and over the
-    /// half of it to `3 T / 4`.
+    /// Errors of the same size in every unit of time grow to `1 + rate (T - t)` times themselves, in total to `T + rate T^2 / 2`: with `rate T = 2`
+    /// this is `2 T`, and over half of the span `3 T / 4`.
     #[test]
     fn half_of_a_span_has_less_than_half_of_the_tolerance() {
         let mut scene = Scene::named("tp-2").unwrap();
@@ -427,7 +430,7 @@ mod tests {
         }
     }
 
-    /// A span of no length has all of the tolerance, that of a segment of no length.
+    /// A span of zero length gives its whole tolerance to a segment of zero length.
     #[test]
     fn a_span_of_no_length_has_all_of_the_tolerance() {
         let (scene, plan) = scene("tp-2", "taylor", &["e_z"], &[0.0]);
@@ -435,13 +438,13 @@ mod tests {
         assert_eq!(segments.share_of_tolerance(0.0), scene.tolerance);
     }
 
-    /// The time of a sample has two parts, and is that of the end where it lies beyond it by rounding.
+    /// The time of a sample has two parts, and is set to the end if it exceeds it by rounding.
     #[test]
     fn samples_are_kept_within_their_segment() {
         let mut scene = Scene::named("tp-2").unwrap();
         scene.times = crate::scene_file::Times::Even { start: 1.0, end: 4.0, samples: 2 };
         let within = |time, from, to| since_start_within(&scene, time, from, to);
-        // 0.3 is not a double: what the difference to 1 has lost is in the second part.
+        // 0.3 is not a double: the rounding error of the difference from 1 is in the second part.
         assert_eq!(within(1.3, 0.0, 3.0), scene.since_start_in_parts(1.3));
         assert_eq!(within(1.3, 3.0, 0.0), scene.since_start_in_parts(1.3));
         assert_eq!(within(4.0, 0.0, 3.0_f64.next_down()), [3.0_f64.next_down(), 0.0]);

@@ -1,14 +1,15 @@
-//! Numbers for reading, with so many significant digits.
+//! Numbers for reading, with a given number of significant digits.
 
 use std::ops::RangeInclusive;
 
-/// `x` with so many significant digits: a decimal if the power of ten of the first is in `decimals`, else mantissa and power.
+/// `x` with a given number of significant digits: as a decimal if the power of ten of the first digit is in `decimals`,
+/// otherwise as mantissa and power.
 pub fn rounded(x: f64, digits: usize, decimals: RangeInclusive<i32>) -> (String, Option<i32>) {
     if x == 0.0 {
         return ("0".to_owned(), None);
     }
     let text = format!("{x:.*e}", digits.max(1) - 1);
-    // Of the rounded number: 9.99 with one digit is 10.
+    // Computed from the rounded number: 9.99 with one digit is 10.
     let Some((mantissa, power)) = text.split_once('e') else { return (text, None) };
     match power.parse() {
         Ok(power) if decimals.contains(&power) => {
@@ -19,7 +20,7 @@ pub fn rounded(x: f64, digits: usize, decimals: RangeInclusive<i32>) -> (String,
     }
 }
 
-/// `x` with `digits` significant digits, as a decimal from 1e-4 to below 1e6 in size and else with an exponent.
+/// `x` with `digits` significant digits, as a decimal from 1e-4 to below 1e6 in size and otherwise with an exponent.
 pub fn significant(x: f64, digits: usize) -> String {
     match rounded(x, digits, -4..=5) {
         (text, None) => text,

@@ -8,7 +8,8 @@ use twofold::observables::gravitational_wave::{Polarizations, strain_unit, wave_
 
 use crate::scene_file::Scene;
 
-/// `h_+` and `h_x` of a star in a state, Eq. (71), multiplied by `unit`, what `h = 1` stands for at the observer.
+/// `h_+` and `h_x` of a star in a state, Eq. (71), multiplied by `unit`, the strain that corresponds to `h = 1` at the
+/// observer.
 pub fn spheroid_wave(
     spheroid: &RigidSpheroid<f64>,
     violation: &Matrix3<f64>,
@@ -21,7 +22,7 @@ pub fn spheroid_wave(
 }
 
 impl Scene {
-    /// The strain that `h = 1` stands for at the distance of the observer; one where none is given.
+    /// The strain that corresponds to `h = 1` at the distance of the observer; one if none is given.
     pub fn strain_unit(&self) -> f64 {
         let distance = self.observer.and_then(|observer| observer.distance);
         distance.map_or(1.0, |distance| strain_unit(self.units.inertia_in_si(), self.units.time, distance))

@@ -1,4 +1,4 @@
-//! A part of a motion, however late.
+//! A part of a motion, at any late time.
 
 use twofold::Error;
 use twofold::plan::Output;
@@ -7,12 +7,12 @@ use crate::samples::{ErrorAtEnd, ErrorEstimates, Sample, for_each_sample};
 use crate::scene_file::{Scene, Times};
 
 impl Scene {
-    /// The scene that starts at the time `from` of the output, with the state that the motion has there, and lasts to the time `to`. Angles count their turns,
-    /// and pulses theirs, from there on. Neither time need be within the span of the scene. With it the estimated error of that state.
+    /// The scene that starts at the time `from` of the output, with the state that the motion has there, and lasts to the time `to`. Turns of angles
+    /// and of pulses are counted from there on. Neither time need be within the span of the scene. Also returns the estimated error of that state.
     ///
     /// # Errors
-    /// Times that are not finite or too near to one another; a start so late that its motion, without a closed form, turns by more than
-    /// [`LARGEST_ROTATION`](crate::plan::LARGEST_ROTATION).
+    /// Times that are not finite or too close to one another; a start so late that its motion, without a closed form, rotates by more
+    /// than [`LARGEST_ROTATION`](crate::plan::LARGEST_ROTATION).
     pub fn window(&self, from: f64, to: f64) -> Result<(Self, f64), String> {
         let start = self.times.start();
         let resolved = 1e-3 * self.units.time / self.turning_rate();
@@ -54,7 +54,7 @@ mod tests {
 
     use super::*;
 
-    /// A window starts with the state of the motion, of which it says the error, before the start too and either way.
+    /// A window starts with the state of the motion and reports its error, also before the start and in either direction.
     #[test]
     fn a_window_starts_where_the_motion_is() {
         let mut scene = Scene::named("tp-2").unwrap();
@@ -73,7 +73,7 @@ mod tests {
         assert_eq!((same.problem.initial(), error), (scene.problem.initial(), 0.0));
     }
 
-    /// Both times differ by a thousandth of a radian of rotation, and doubles do where they are.
+    /// Both times differ by a thousandth of a radian of rotation, which doubles resolve at these times.
     #[test]
     fn a_window_is_longer_than_a_thousandth_of_a_radian() {
         for name in ["tp-2", "millisecond-pulsar"] {

@@ -1,20 +1,21 @@
-//! The centrifugal bulge of a star, beside its rigid deformation.
+//! The centrifugal bulge of a star, in addition to its rigid deformation.
 //!
-//! A star is flattened by its rotation. This bulge lies along the angular momentum wherever the body turns, so that it makes no free precession, but it has its
-//! anisotropic self-energy, with `C_f` proportional to the square of the rotation:
+//! A star is flattened by its rotation. The bulge follows the angular momentum however the body turns, so it causes no free precession, but it has
+//! its own anisotropic self-energy, with `C_f` proportional to the square of the rotation rate:
 //!
 //! ```text
 //! V = C n.(s n) + b L.(s L),    b = C_f / L.L,    s traceless
 //! ```
 //!
-//! For a fluid `C_f` is half of the energy of rotation, `b = 1 / (4 I^xx)`. The bulge turns everything together, the axes of the body and `L`, with the angular velocity
-//! `T = 2 b s L`:
+//! For a fluid `C_f` is half of the rotational energy, `b = 1 / (4 I^xx)`. The bulge rotates everything together, the axes of the body and `L`, with
+//! the angular velocity `T = 2 b s L`:
 //!
 //! ```text
 //! dn/dt = (L / I^xx + T) x n,    dL/dt = -2 C n x (s n) + T x L,    d e_x/dt = (Omega + T) x e_x
 //! ```
 //!
-//! so that it changes neither the angle of `n` to `L` nor `|L|`. An isotropic part of `s` would change the rate of rotation alone, as another moment of inertia does: it is left out.
+//! so it changes neither the angle of `n` to `L` nor `|L|`. An isotropic part of `s` would only change the rate of rotation, as another moment of
+//! inertia does; it is left out.
 //!
 //! ```
 //! use nalgebra::{Matrix3, Vector3};
@@ -42,13 +43,14 @@ pub fn bulge_potential<S: Scalar>(bulge: S, s: &Matrix3<S>, momentum: &Vector3<S
     bulge * momentum.dot(&pulled(s, momentum))
 }
 
-/// `T = 2 b s L` with the traceless part of `s`: the angular velocity with which a bulge turns the axes of the body and `L`.
+/// `T = 2 b s L` with the traceless part of `s`: the angular velocity with which a bulge rotates the axes of the body and
+/// `L`.
 pub fn bulge_turning<S: Scalar>(bulge: S, s: &Matrix3<S>, momentum: &Vector3<S>) -> Vector3<S> {
     pulled(s, momentum) * (bulge * 2.0)
 }
 
-/// `I Omega`, which is `L` without a bulge and `L + I T` with one: in place of `L` it gives the angular velocity and the Euler rates of a star with a bulge by the formulas for a
-/// rigid one ([`angular_velocity`](crate::dynamics::equations_of_motion::angular_velocity)).
+/// `I Omega`, which is `L` without a bulge and `L + I T` with one. Used in place of `L` in the formulas for a rigid star, it gives the angular
+/// velocity and the Euler rates of a star with a bulge ([`angular_velocity`](crate::dynamics::equations_of_motion::angular_velocity)).
 pub fn kinematic_momentum<S: Scalar>(
     spheroid: &RigidSpheroid<S>,
     s: &Matrix3<S>,

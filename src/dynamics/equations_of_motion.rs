@@ -1,8 +1,8 @@
-//! Equations of motion without coordinates: symmetry axis, angular momentum and one equatorial body axis.
+//! Coordinate-free equations of motion: symmetry axis, angular momentum and one equatorial body axis.
 //!
-//! The anisotropic self-energy of a spheroid depends on its orientation only through the symmetry axis `n = e_z`, so that
-//! `(n, L)` move by themselves (the Clebsch system), and `e_x` follows them. Everything is quadratic in the state and
-//! regular on the whole sphere, where Eq. (25) `[eleq]` is singular on the poles.
+//! The anisotropic self-energy of a spheroid depends on its orientation only through the symmetry axis `n = e_z`. Therefore
+//! `(n, L)` form a closed system (the Clebsch system), and `e_x` follows them. Everything is quadratic in the state and
+//! regular on the whole sphere, whereas Eq. (25) `[eleq]` is singular at the poles.
 //!
 //! ```
 //! use nalgebra::Vector3;
@@ -70,7 +70,7 @@ pub fn angular_velocity<S: Scalar>(
     (momentum - axis * ((spheroid.inertia_zz - spheroid.inertia_xx) * spin)) / spheroid.inertia_xx
 }
 
-/// Euler rates from the symmetry axis and the angular momentum alone: the rotation about the axis enters no rate.
+/// Euler rates from the symmetry axis and the angular momentum alone: no rate depends on the rotation about the axis.
 ///
 /// ```text
 /// a' = (n x n')^Z / sin^2 b,   b' = -n'^Z / sin b,   g' = Omega^z - a' cos b
@@ -109,7 +109,8 @@ impl<S: Scalar> BodyState<S> {
         let rotation = body_from_inertial(angles);
         let ((sa, ca), (sb, cb)) = (angles.alpha.sin_cos(), angles.beta.sin_cos());
         let axis = rotation.row(2).transpose();
-        // Along the line of nodes and across it in the equatorial plane: by way of the body frame `gamma` would leave its rounding in `L`.
+        // Along the line of nodes and across it in the equatorial plane. Going through the body frame would leave the rounding of `gamma`
+        // in `L`.
         let nodes = Vector3::new(ca, sa, S::zero());
         let across = Vector3::new(-(cb * sa), cb * ca, sb);
         let transverse = nodes * rates.beta + across * (rates.alpha * sb);
@@ -137,8 +138,8 @@ impl<S: Real> BodyState<S> {
         angles_from_rotation(&self.body_from_inertial())
     }
 
-    /// Euler rates of the state, the inverse of Eq. (22) `[angvel1]`: [`euler_rates_of_axis`]. By way of the angles and the body frame they
-    /// would lose another factor `1 / sin b` near the poles.
+    /// Euler rates of the state, the inverse of Eq. (22) `[angvel1]`, by [`euler_rates_of_axis`]. Computed from the angles and the body
+    /// frame, they would lose another factor `1 / sin b` near the poles.
     ///
     /// # Errors
     /// [`Error::Domain`] on the poles, see [`euler_rates_of_axis`].

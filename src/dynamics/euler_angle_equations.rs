@@ -57,7 +57,7 @@ pub fn euler_angle_residuals<S: Scalar>(
 
 /// Accelerations `(a'', b'')` from Eq. (25) `[eleq]`.
 ///
-/// Divides by `sin b`: on the poles, where `alpha` has no meaning, the result is not finite. The regular equations of
+/// Divides by `sin b`: at the poles, where `alpha` is undefined, the result is not finite. The regular equations of
 /// [`equations_of_motion`](crate::dynamics::equations_of_motion) have no such points; numerical motion uses those.
 pub fn euler_angle_accelerations<S: Scalar>(
     spheroid: &RigidSpheroid<S>,
@@ -69,7 +69,7 @@ pub fn euler_angle_accelerations<S: Scalar>(
     let (sa, ca) = q.alpha.sin_cos();
     let omega = spheroid.free_precession_constant(spin);
     let (_, by_beta) = potential_gradient_in_angles(spheroid.constant_c, s, q.alpha, q.beta);
-    // The force along alpha carries sin^2 b, which cancels exactly against the left side.
+    // The force along alpha contains sin^2 b, which cancels exactly against the left side.
     let by_alpha = spheroid.constant_c * s.asymmetry() * sa * ca * 2.0;
     (
         (omega - cb * q.alpha_rate * 2.0) * q.beta_rate / sb - by_alpha / spheroid.inertia_xx,

@@ -51,7 +51,7 @@ pub struct FirstIntegrals<S> {
     pub energy: S,
     /// Spin component `Omega^z = L.n / I^zz`, Eq. (24) `[firstint]`.
     pub spin: S,
-    /// The third integral, which the paper does not have, with the adjugate `adj(s)`:
+    /// The third integral, which is not in the paper; `adj(s)` is the adjugate:
     ///
     /// ```text
     /// K = L.(s L) - 2 C I^xx n.(adj(s) n)

@@ -40,7 +40,7 @@ impl<S: Scalar> RigidSpheroid<S> {
         Self { inertia_xx: S::one(), inertia_zz: inertia_ratio, constant_c: S::one() }
     }
 
-    /// The same spheroid in another type of numbers.
+    /// The same spheroid in another number type.
     pub fn map<T>(&self, convert: impl Fn(S) -> T) -> RigidSpheroid<T> {
         RigidSpheroid {
             inertia_xx: convert(self.inertia_xx),

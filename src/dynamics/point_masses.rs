@@ -1,7 +1,7 @@
 //! Anisotropic potential energy of two point masses, in the SME and in the PPN formalism. Eqs. (2), (4).
 //!
-//! Geometrised units, `G = c = 1`. A body is made of pairs: half the double sum of Eq. (2) over its mass is the self-energy
-//! [`anisotropic_potential_of_body`](crate::dynamics::potential::anisotropic_potential_of_body), Eq. (6).
+//! Geometrised units, `G = c = 1`. A body consists of pairs of masses: half the double sum of Eq. (2) over its mass is the
+//! self-energy [`anisotropic_potential_of_body`](crate::dynamics::potential::anisotropic_potential_of_body), Eq. (6).
 //!
 //! ```
 //! use nalgebra::{Matrix3, Vector3};

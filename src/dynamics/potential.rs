@@ -35,7 +35,8 @@ pub fn anisotropic_potential_in_angles<S: Scalar>(constant_c: S, s: &PrincipalCo
     constant_c * ((s.xx * sa * sa + s.yy * ca * ca) * sb * sb + s.zz * cb * cb)
 }
 
-/// Derivatives `(d delta U / d alpha, d delta U / d beta)` of Eq. (21) `[anisopot]`. That by `gamma` is zero.
+/// Derivatives `(d delta U / d alpha, d delta U / d beta)` of Eq. (21) `[anisopot]`. The derivative with respect to `gamma`
+/// is zero.
 pub fn potential_gradient_in_angles<S: Scalar>(
     constant_c: S,
     s: &PrincipalCoefficients<S>,
@@ -68,7 +69,7 @@ pub fn anisotropic_potential_of_body<S: Scalar>(s_body: &Matrix3<S>, potential_e
 /// preferred frame in units of c.
 ///
 /// With the replacement (5) `[replace]` it is Eq. (11) `[pecorrect2]` for `C = T_rot / 2` and a star that spins about its
-/// symmetry axis; for a precessing star the two differ, and Eq. (11) holds.
+/// symmetry axis. For a precessing star the two differ, and Eq. (11) is the correct one.
 pub fn nordtvedt_potential<S: Scalar>(
     alpha_2: S,
     rotational_energy: S,

@@ -1,4 +1,4 @@
-//! The problem that every motion solves: a spheroid, perhaps with a centrifugal bulge, the tensor `s^IJ` and the initial state.
+//! The input of every motion: a spheroid, optionally with a centrifugal bulge, the tensor `s^IJ` and the initial state.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::euler_angles::{EulerAngles, EulerRates};
 use crate::numerics::scalar::{Real, Scalar, real_part};
 
-/// A spheroid, the tensor `s^IJ` and the initial state, in one inertial frame, which may be any.
+/// A spheroid, the tensor `s^IJ` and the initial state, all in one arbitrary inertial frame.
 ///
 /// ```
 /// use twofold::dynamics::{Problem, RigidSpheroid};
@@ -47,7 +47,7 @@ impl<S: Scalar, X: RotationState<S>> Problem<S, X> {
         self.bulge
     }
 
-    /// The state at the start.
+    /// The initial state.
     pub fn initial(&self) -> &X {
         &self.initial
     }
@@ -58,12 +58,12 @@ impl<S: Scalar, X: RotationState<S>> Problem<S, X> {
         core::array::from_fn(|i| vectors[i])
     }
 
-    /// Without the angle about the symmetry axis, which neither follows nor influences `n` and `L` here.
+    /// The reduced problem: the motion of `n` and `L` alone. The rotation about the symmetry axis does not affect them here.
     pub fn reduced(&self) -> Problem<S, AxisState<S>> {
         self.carrying()
     }
 
-    /// With what a state of another type needs of this one.
+    /// The same problem with the state converted to another type.
     pub(crate) fn carrying<Y: RotationState<S>>(&self) -> Problem<S, Y> {
         Problem {
             spheroid: self.spheroid,
@@ -73,7 +73,7 @@ impl<S: Scalar, X: RotationState<S>> Problem<S, X> {
         }
     }
 
-    /// Seen from another inertial frame: vectors multiplied by the rotation `other_from_this`.
+    /// The same problem in another inertial frame: all vectors and `s^IJ` rotated by `other_from_this`.
     pub fn rotated(&self, other_from_this: &Matrix3<S>) -> Self {
         Self {
             coefficients: other_from_this * self.coefficients * other_from_this.transpose(),
@@ -82,7 +82,7 @@ impl<S: Scalar, X: RotationState<S>> Problem<S, X> {
         }
     }
 
-    /// In another type of numbers.
+    /// The same problem in another number type.
     pub fn map<T: Scalar>(&self, convert: impl Fn(S) -> T) -> Problem<T, X::In<T>> {
         Problem {
             spheroid: self.spheroid.map(&convert),
@@ -92,14 +92,14 @@ impl<S: Scalar, X: RotationState<S>> Problem<S, X> {
         }
     }
 
-    /// From parts that have been checked, or are checked by what is made of them.
+    /// From parts that have already been checked, or are checked by what is built from them.
     pub(crate) fn unchecked(spheroid: RigidSpheroid<S>, coefficients: Matrix3<S>, initial: X) -> Self {
         Self { spheroid, coefficients, bulge: S::zero(), initial }
     }
 }
 
 impl<S: Real, X: RotationState<S>> Problem<S, X> {
-    /// The problem of a spheroid with the tensor `s^IJ` that starts with the state `initial`.
+    /// The problem of a spheroid with the tensor `s^IJ` and the initial state `initial`.
     ///
     /// # Errors
     /// [`Error::Domain`] for a state or parameter that is not finite, an axis that is not a unit vector or not normal to `e_x` (to 1e-9),
@@ -109,8 +109,9 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
         Ok(Self::unchecked(spheroid, coefficients, initial))
     }
 
-    /// With a centrifugal bulge of the energy `b L.(s L)` in place of the one that it had; `b` in units of one over a moment of inertia, `1 / (4 I^xx)` for a fluid. Only the averaged motion, and within its
-    /// bound the free one, follow a star with a bulge: the others are refused.
+    /// Sets the centrifugal bulge with the energy `b L.(s L)`, replacing any earlier one; `b` has the unit of one over a moment of inertia and is
+    /// `1 / (4 I^xx)` for a fluid. Only the averaged motion and, within its bound, the free one can follow a star with a bulge; the other methods
+    /// refuse it.
     ///
     /// # Errors
     /// [`Error::Domain`] for a number that is not finite.
@@ -130,7 +131,7 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
         })
     }
 
-    /// The same star from another state.
+    /// The same star with another initial state.
     ///
     /// # Errors
     /// As for [`new`](Self::new).
@@ -138,7 +139,7 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
         Self::new(self.spheroid, self.coefficients, initial)?.with_bulge(self.bulge)
     }
 
-    /// With `e_x`; any one where the state does not have it.
+    /// The problem with `e_x`; an arbitrary `e_x` if the state has none.
     pub(crate) fn with_equatorial_axis(&self) -> Problem<S> {
         let mut problem: Problem<S> = self.carrying();
         if X::VECTORS < 3 {
@@ -151,7 +152,7 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
 }
 
 impl<S: Real> Problem<S> {
-    /// The problem of a star that starts with given Euler angles and rates.
+    /// The problem of a star with given initial Euler angles and rates.
     ///
     /// # Errors
     /// As for [`new`](Self::new).
@@ -165,7 +166,7 @@ impl<S: Real> Problem<S> {
     }
 }
 
-/// Refuses what is not finite, not a frame, or out of range.
+/// Refuses values that are not finite, vectors that do not form a frame, and values out of range.
 fn check<S: Real, X: RotationState<S>>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, state: &X) -> Result<(), Error> {
     for inertia in [spheroid.inertia_xx.re(), spheroid.inertia_zz.re()] {
         Error::ensure(inertia > 0.0 && inertia.is_finite(), "moment of inertia", inertia, "above zero and finite")?;

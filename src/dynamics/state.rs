@@ -7,8 +7,8 @@ use nalgebra::{Matrix3, Vector3};
 use crate::dynamics::BodyState;
 use crate::numerics::scalar::Scalar;
 
-/// State of the reduced motion of a spheroid in inertial components: what its potential energy, its spin axis and its
-/// gravitational wave depend on. The rotation about the symmetry axis is left out.
+/// State of the reduced motion of a spheroid in inertial components. Its potential energy, spin axis and gravitational wave
+/// depend only on this; the rotation about the symmetry axis is left out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisState<S> {
     /// Symmetry axis `n = e_z`, a unit vector.
@@ -26,19 +26,19 @@ impl<S: Scalar> From<&BodyState<S>> for AxisState<S> {
 /// A state of rotation: [`AxisState`] or [`BodyState`]. The type of the state of a [`Problem`](super::Problem) decides whether its
 /// motions follow the angle about the symmetry axis.
 pub trait RotationState<S: Scalar>: Copy + Debug + PartialEq + 'static {
-    /// How many vectors it has: two, or three.
+    /// Number of vectors: two or three.
     const VECTORS: usize;
 
-    /// The same state in another type of numbers.
+    /// The same state in another number type.
     type In<T: Scalar>: RotationState<T>;
 
-    /// `n`, `L` and `e_x`, which is zero where the state does not have it.
+    /// `n`, `L` and `e_x`; the last is zero if the state does not have it.
     fn vectors(&self) -> [Vector3<S>; 3];
 
-    /// From `n`, `L` and `e_x`, which is ignored where the state does not have it.
+    /// From `n`, `L` and `e_x`; the last is ignored if the state does not have it.
     fn from_vectors(vectors: [Vector3<S>; 3]) -> Self;
 
-    /// The same motion seen from another inertial frame: every vector multiplied by the rotation `other_from_this`.
+    /// The same state in another inertial frame: every vector multiplied by the rotation `other_from_this`.
     #[inline]
     fn rotated(&self, other_from_this: &Matrix3<S>) -> Self {
         Self::from_vectors(self.vectors().map(|vector| other_from_this * vector))

@@ -21,7 +21,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::euler_angles::EulerAngles;
 use crate::numerics::scalar::Scalar;
 
-/// Body-frame torque from the derivatives of any potential by the Euler angles, Eq. (66):
+/// Body-frame torque from the derivatives of any potential with respect to the Euler angles, Eq. (66):
 ///
 /// ```text
 /// Gamma^x = -(sin g / sin b) U_a - cos g U_b + cot b sin g U_g
@@ -29,8 +29,8 @@ use crate::numerics::scalar::Scalar;
 /// Gamma^z = -U_g
 /// ```
 ///
-/// `gradient` is `(U_a, U_b, U_g)`, the derivatives by `alpha`, `beta`, `gamma`. Divides by `sin b`: not finite on the
-/// poles, and near them the relative error grows as `1 / |sin b|`; [`torque_on_body`] is regular.
+/// `gradient` is `(U_a, U_b, U_g)`, the derivatives with respect to `alpha`, `beta`, `gamma`. Divides by `sin b`: not finite
+/// at the poles, and near them the relative error grows as `1 / |sin b|`; [`torque_on_body`] is regular.
 pub fn torque_from_gradient<S: Scalar>(angles: &EulerAngles<S>, gradient: &Vector3<S>) -> Vector3<S> {
     let (sb, cb) = angles.beta.sin_cos();
     let (sg, cg) = angles.gamma.sin_cos();
@@ -38,8 +38,9 @@ pub fn torque_from_gradient<S: Scalar>(angles: &EulerAngles<S>, gradient: &Vecto
     Vector3::new(across * sg - gradient.y * cg, across * cg + gradient.y * sg, -gradient.z)
 }
 
-/// Torque on any body by its anisotropic self-energy `-(1/2) s^ij U^ij`, without coordinates:
-/// `Gamma^i = -epsilon^{ijk} (s U)^{jk}`, all in one frame (body or inertial), three distinct entries of `U^ij` allowed.
+/// Torque on any body from its anisotropic self-energy `-(1/2) s^ij U^ij`, coordinate-free:
+/// `Gamma^i = -epsilon^{ijk} (s U)^{jk}`, with both tensors in one frame (body or inertial). The three eigenvalues of `U^ij`
+/// may differ.
 ///
 /// For a spheroid it is `-2 C n x (s n)`.
 pub fn torque_on_body<S: Scalar>(s: &Matrix3<S>, potential_energy_tensor: &Matrix3<S>) -> Vector3<S> {

@@ -1,7 +1,7 @@
 //! Second time derivative of the moment-of-inertia tensor in the inertial frame, the source of the quadrupole wave.
 //! Eqs. (60)-(65), (67), (68).
 //!
-//! `I^ij` is the moment of inertia, not the mass quadrupole: hence the minus sign of Eq. (59).
+//! `I^ij` is the moment of inertia, not the mass quadrupole; this is the reason for the minus sign of Eq. (59).
 //!
 //! ```
 //! use nalgebra::{Matrix3, Vector3};

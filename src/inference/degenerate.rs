@@ -1,4 +1,4 @@
-//! Directions in the space of unknowns that data do not determine, named.
+//! Named directions in parameter space that the data do not determine.
 
 use std::fmt;
 
@@ -11,12 +11,12 @@ use crate::parameters::Parameter;
 /// A direction along which data do not change.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Direction<U = Parameter> {
-    /// What cannot be told, where it has a name.
+    /// Description of the undetermined quantity, if it has a name.
     pub words: Option<&'static str>,
-    /// How much each unknown changes along it, the largest change one in the unknowns' own ranges.
+    /// Change of each unknown along the direction, scaled so that the largest is one in units of the unknowns' ranges.
     pub change: Vec<(U, f64)>,
-    /// By how many standard deviations of the data they change with it, as a part of what each of these changes would do alone
-    /// (root of the sum of squares).
+    /// Change of the data along this direction (in standard deviations) relative to the root sum of squares of the changes
+    /// that each unknown would cause alone.
     pub ratio: f64,
 }
 
@@ -39,14 +39,14 @@ fn rounded(x: f64) -> String {
     if x.abs() < 1e-3 { format!("{x:.2e}") } else { format!("{x:.4}") }
 }
 
-/// A unit vector this near to the space of null directions is one: a named symmetry is exact, so that only rounding parts it
-/// from the space, by the rounding of the smallest singular values over that of the next.
+/// A unit vector this close to the null space counts as part of it. A named symmetry is exact, so only rounding separates it
+/// from the space: the rounding of the smallest singular values over that of the next.
 const NEAR: f64 = 1e-5;
 
-/// Sine of the least angle between a symmetry and the sums of those before it.
+/// Sine of the smallest angle allowed between a symmetry and the span of those before it.
 const INDEPENDENT: f64 = 1e-4;
 
-/// The directions in the space of some unknowns.
+/// The directions in the space of a set of unknowns.
 pub(super) struct Directions<'a, U> {
     scaled: &'a ScaledJacobian,
     unknowns: &'a [U],
@@ -59,7 +59,7 @@ impl<'a, U: Unknown> Directions<'a, U> {
         Self { scaled, unknowns, ranges: DVector::from_iterator(unknowns.len(), ranges) }
     }
 
-    /// The degenerate directions: one for each symmetry that is among them, and what is left.
+    /// The degenerate directions: one for each symmetry that is among them, and the remaining ones.
     pub(super) fn degenerate(&self, model: &impl Model<Unknown = U>) -> Vec<Direction<U>> {
         let Self { scaled, unknowns, .. } = self;
         let nullity = scaled.nullity();
@@ -77,7 +77,7 @@ impl<'a, U: Unknown> Directions<'a, U> {
             if (&vector - &null * (null.transpose() * &vector)).norm() > NEAR {
                 continue;
             }
-            // Of the part that those before do not have. One that is a sum of them says nothing new.
+            // Only the part not already spanned by the previous ones. A linear combination of them says nothing new.
             let new = &left * (left.transpose() * &vector);
             if left.ncols() > 0 && new.norm() > INDEPENDENT {
                 found.push(self.direction(&vector, Some(symmetry.words)));
@@ -88,8 +88,9 @@ impl<'a, U: Unknown> Directions<'a, U> {
         found
     }
 
-    /// The directions along which the data change by less than a standard deviation over the whole range of the unknowns: eigenvectors of their covariance in units of the ranges, of
-    /// variances above one. That way round the ranges may differ by any factor: what rounding loses is in the small variances.
+    /// The directions along which the data change by less than a standard deviation over the whole range of the unknowns: eigenvectors of the
+    /// covariance, in units of the ranges, with variances above one. With the covariance the ranges may differ by any factor, because rounding
+    /// affects only the small variances.
     pub(super) fn weak(&self) -> Vec<Direction<U>> {
         let Self { scaled: ScaledJacobian { values, vectors, lengths, .. }, ranges, .. } = self;
         let rank = values.len() - self.scaled.nullity();
@@ -106,8 +107,8 @@ impl<'a, U: Unknown> Directions<'a, U> {
             .collect()
     }
 
-    /// A change of unknowns in columns of unit length, normalised; none if it changes something that is not unknown by more than
-    /// [`NEAR`] of the largest change (as components of an `s^IJ` that is hardly there), or nothing.
+    /// A change of unknowns in terms of columns of unit length, normalised; `None` if it changes a known parameter by more than
+    /// [`NEAR`] of the largest change (such as components of an `s^IJ` that is almost zero), or if it changes nothing.
     fn in_scaled(&self, change: &[(U, f64)]) -> Option<DVector<f64>> {
         let size = change.iter().fold(0.0, |most: f64, (_, part)| most.max(part.abs()));
         let mut vector = DVector::zeros(self.unknowns.len());
@@ -122,14 +123,14 @@ impl<'a, U: Unknown> Directions<'a, U> {
         (norm > 0.0).then(|| vector / norm)
     }
 
-    /// The direction of a vector in columns of unit length. Unknowns of which rounding is all that moves are left out.
+    /// The direction of a vector in terms of columns of unit length. Unknowns that only rounding moves are left out.
     fn direction(&self, vector: &DVector<f64>, words: Option<&'static str>) -> Direction<U> {
         let Self { scaled, unknowns, ranges } = self;
         let unit = vector.normalize();
         let least = if words.is_some() { 1e-9 } else { 1e-3 };
         let moved = (0..unknowns.len()).filter(|&j| unit[j].abs() > least);
         let changes: Vec<(usize, f64)> = moved.map(|j| (j, unit[j] / scaled.lengths[j])).collect();
-        // In units of the ranges, the largest one and positive.
+        // In units of the ranges, with the largest change one and positive.
         let in_range = changes.iter().map(|(j, change)| change / ranges[*j]);
         let largest = in_range.max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(1.0);
         Direction {
@@ -140,11 +141,11 @@ impl<'a, U: Unknown> Directions<'a, U> {
     }
 }
 
-/// An orthonormal basis of a space without one of its directions.
+/// An orthonormal basis of a space with one of its directions removed.
 fn without(space: &DMatrix<f64>, direction: &DVector<f64>) -> DMatrix<f64> {
     let unit = direction.normalize();
     let left = space - &unit * (unit.transpose() * space);
-    // The last of its vectors, of the smallest singular value, is the one left out.
+    // The last vector, with the smallest singular value, is the removed one.
     let u = left.svd(true, false).u.expect("asked for");
     u.columns(0, space.ncols() - 1).into_owned()
 }
@@ -155,7 +156,7 @@ mod tests {
     use crate::inference::functions::{A, B, Fraction, Name, Numbers, exact};
     use crate::inference::{Fisher, Symmetry};
 
-    /// What data with this Jacobian by the three numbers tell.
+    /// The Fisher matrix of data with this Jacobian with respect to the three numbers.
     fn told(rows: &[[f64; 3]], model: &Numbers) -> Fisher<Numbers> {
         let matrix = DMatrix::from_fn(rows.len(), 3, |row, column| rows[row][column]);
         Fisher::of_jacobian(&exact(matrix), &[A, B, Fraction], model)
@@ -196,7 +197,7 @@ mod tests {
         }
     }
 
-    /// The data are functions of `a + 2 b` and `f`.
+    /// The data are functions of `a + 2 b` and `f` only.
     #[test]
     fn what_data_do_not_determine_is_found_and_named() {
         let rows = [[1.0, 2.0, 0.0], [3.0, 6.0, 1.0], [0.0, 0.0, 2.0]];
@@ -205,14 +206,14 @@ mod tests {
         assert_eq!((unnamed.len(), unnamed[0].words), (1, None));
         assert_change(&unnamed[0], &against, 1e-12);
         assert!(unnamed[0].ratio < 1e-14, "{unnamed:?}");
-        // A symmetry that the data do not have is not named.
+        // A symmetry that the data do not have is not reported.
         let model = with_symmetries(&[("others", &[(A, 1.0), (B, 0.5)]), ("a against b", &[(A, -4.0), (B, 2.0)])]);
         let named = told(&rows, &model).degenerate;
         assert_eq!((named.len(), named[0].words), (1, Some("a against b")));
         assert_change(&named[0], &against, 1e-12);
     }
 
-    /// A change of what is known spoils a symmetry, but for a hundred-thousandth of it.
+    /// A symmetry may not change known parameters by more than a hundred-thousandth of it.
     #[test]
     fn symmetries_change_unknowns_alone() {
         let rows = DMatrix::from_row_slice(2, 2, &[1.0, 2.0, 3.0, 6.0]);
@@ -221,7 +222,8 @@ mod tests {
             let found = Fisher::of_jacobian(&exact(rows.clone()), &[A, B], &model).degenerate;
             assert_eq!(found.len(), 1);
             assert_eq!(found[0].words.is_some(), is_named, "{part}");
-            // The same change a thousandth as large, and a billion times, with the parts of the unknowns off by a millionth.
+            // The same change a thousandth as large, and a billion times as large with the parts of the unknowns off by a
+            // millionth.
             for (size, off) in [(1e-3, 0.0), (1e9, 1e-6)] {
                 let change = [(A, size), (B, -0.5 * size * (1.0 + off)), (Fraction, part * size)];
                 let found =
@@ -230,15 +232,15 @@ mod tests {
                 assert_eq!(found[0].words.is_some(), is_named, "{part} {size}");
             }
         }
-        // A part of a million-millionth counts where the data depend on it a million million times as much.
+        // A part of a million-millionth counts if the data depend on it a million million times as strongly.
         let rows = DMatrix::from_row_slice(2, 2, &[1.0, 1e12, 3.0, 3e12]);
         let model = with_symmetries(&[("a against b", &[(A, 1.0), (B, -1e-12)])]);
         let found = Fisher::of_jacobian(&exact(rows), &[A, B], &model).degenerate;
         assert_eq!(found.iter().map(|one| one.words).collect::<Vec<_>>(), [Some("a against b")]);
     }
 
-    /// All data are functions of `a + b + f`. Of the two directions the symmetries name one each, also where the second is the first but for a thousandth; what is left
-    /// over is at right angles to those named, to rounding.
+    /// All data are functions of `a + b + f`. Each symmetry names one of the two directions, even if the second equals the first to within a
+    /// thousandth; the remainder is orthogonal to the named ones, to rounding.
     #[test]
     fn every_symmetry_that_says_something_new_is_named() {
         let rows = [[1.0, 1.0, 1.0], [2.0, 2.0, 2.0], [-1.0, -1.0, -1.0]];
@@ -256,7 +258,8 @@ mod tests {
         assert!((a - b).abs() < 1e-14 && (a + b + f).abs() < 1e-14 && (f - 1.0).abs() < 1e-14, "{found:?}");
     }
 
-    /// Also without a direction that is given by a short vector, as what a symmetry has that others have not.
+    /// Also with a direction removed that is given by a short vector, such as the part of a symmetry that others do not
+    /// have.
     #[test]
     fn what_is_left_over_is_exact() {
         let null = DMatrix::from_column_slice(3, 3, &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
@@ -268,7 +271,7 @@ mod tests {
         assert!((left.transpose() * &left - DMatrix::identity(2, 2)).norm() < 1e-14);
     }
 
-    /// Small parts of a symmetry are those of its formula; those of a direction without a name are rounding.
+    /// Small components of a symmetry come from its formula; those of a direction without a name are rounding.
     #[test]
     fn small_parts_of_named_directions_are_kept() {
         let part = 1e-7;
@@ -281,7 +284,7 @@ mod tests {
         assert_change(&found[0], &[(A, 1.0), (B, 1.0)], 1e-12);
     }
 
-    /// With independent data of standard deviations 1/2, 1/10 and 1/30 the range of a number decides whether it is weakly determined.
+    /// For independent data of standard deviations 1/2, 1/10 and 1/30, the range of a number decides whether it is weakly determined.
     #[test]
     fn weak_directions_are_those_of_errors_beyond_the_range() {
         let rows = [[2.0, 0.0, 0.0], [0.0, 10.0, 0.0], [0.0, 0.0, 30.0]];
@@ -290,18 +293,19 @@ mod tests {
         for (ranges, name) in [([0.49, 0.11, 0.034], A), ([0.51, 0.09, 0.034], B), ([0.51, 0.11, 0.033], Fraction)] {
             let found = weak(ranges);
             assert_eq!(found.len(), 1, "{found:?}");
-            // As far as its range goes.
+            // Over its full range.
             assert_change(&found[0], &[(name, ranges[name as usize])], 1e-12);
             assert_eq!(found[0].words, None);
         }
-        // Of two numbers of which the sum alone is well known, the difference is weak, each in its range.
+        // If only the sum of two numbers is well known, the difference is weak, each in its range.
         let rows = [[1e3, 1e3, 0.0], [1e-3, -1e-3, 0.0], [0.0, 0.0, 1.0]];
         let found = told(&rows, &Numbers::new([0.0; 3], [1.0, 1.0, 10.0])).weak;
         assert_eq!(found.len(), 1, "{found:?}");
         assert_change(&found[0], &[(A, 1.0), (B, -1.0)], 1e-6);
-        // 2e-3 of the difference, where either number alone changes the data by 1e3: `sqrt(2)` of that for both.
+        // The difference changes the data by 2e-3, whereas either number alone changes them by 1e3, so both by `sqrt(2)`
+        // times that.
         assert!((found[0].ratio / (2e-6 / 2.0_f64.sqrt()) - 1.0).abs() < 1e-4, "{found:?}");
-        // What no datum depends on is degenerate, not weak.
+        // A number that no datum depends on is degenerate, not weak.
         let found = told(&[[0.0; 3], [0.0; 3], [0.0; 3]], &Numbers::new([0.0; 3], [1.0; 3]));
         assert!(found.weak.is_empty() && found.degenerate.len() == 3);
     }

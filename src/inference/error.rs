@@ -1,23 +1,23 @@
-//! Why data and a model do not go together.
+//! Errors of parameter estimation.
 
 use std::fmt;
 
 use super::Observable;
 use crate::error::Error;
 
-/// Why nothing can be inferred.
+/// Reasons why nothing can be inferred.
 #[derive(Debug, Clone, PartialEq)]
 pub enum InferenceError {
-    /// The data do not determine the unknowns: each direction along which they do not change.
+    /// The data do not determine the unknowns. Lists each direction along which the data do not change.
     Degenerate(Vec<String>),
-    /// Fewer data than the unknowns take.
+    /// There are fewer data than the unknowns require.
     TooFew {
-        /// Data.
+        /// Number of data.
         data: usize,
-        /// How many would do: as many as there are unknowns for a Fisher matrix, one more for a fit.
+        /// Number of data required: the number of unknowns for a Fisher matrix, one more for a fit.
         least: usize,
     },
-    /// A datum of a turn in which the model has no pulse, or two.
+    /// A datum belongs to a turn in which the model has no pulse, or two.
     NoPulse {
         /// The turn.
         turn: i64,
@@ -31,21 +31,21 @@ pub enum InferenceError {
         /// Largest cosine of the angle between the residuals and the derivative by an unknown: zero at a minimum.
         cosine: f64,
     },
-    /// The residuals are rounding, and the errors stated too small for a fit of it.
+    /// The residuals are rounding errors, and the stated errors are too small for a fit to them.
     Rounding {
-        /// The data whose errors are the smallest against it.
+        /// The kind of data whose stated errors are smallest relative to rounding.
         observable: Observable,
-        /// What rounding makes of these, in `t_c` or as strain.
+        /// Rounding error of these data, in `t_c` or as strain.
         rounding: f64,
     },
-    /// The fit ended on a limit of an unknown, where its error bars say nothing.
+    /// The fit ended on a limit of an unknown, where its error bars are meaningless.
     OnLimit {
         /// The unknown.
         unknown: &'static str,
         /// Its limit.
         value: f64,
     },
-    /// A forecast of periods: an epoch of a forecast has one pulse, and a period takes two.
+    /// Periods were requested in a forecast: each epoch of a forecast has one pulse, and a period requires two.
     PeriodsForecast,
     /// The motion cannot be computed.
     Model(Error),

@@ -1,8 +1,8 @@
-//! The Fisher matrix of data with independent errors: uncertainties, correlations, and what is not determined.
+//! The Fisher matrix of data with independent errors: uncertainties, correlations, and undetermined directions.
 //!
-//! The Fisher matrix is `F = J^T J` with the Jacobian `J` of the data, each in units of its standard deviation. It is never formed:
-//! squaring would halve the digits. Everything is taken of the singular values of `J` with columns of unit length, which is within
-//! the square root of the number of unknowns of the best scaling that there is (van der Sluis 1969).
+//! The Fisher matrix is `F = J^T J` with the Jacobian `J` of the data, each in units of its standard deviation. It is never formed,
+//! because squaring would halve the number of digits. All results are computed from the singular values of `J` with columns of unit
+//! length, a scaling that is within the square root of the number of unknowns of the best possible one (van der Sluis 1969).
 
 use nalgebra::{DMatrix, DVector};
 
@@ -12,30 +12,31 @@ use super::{Datum, Direction, Event, InferenceError, Jacobian, Model, jacobian};
 use crate::error::Error;
 use crate::parameters::{Parameter, Parameters};
 
-/// What data of given errors tell of unknowns.
+/// Constraints on unknowns from data with given errors.
 #[derive(Debug, Clone)]
 pub struct Fisher<M: Model = Parameters<f64>> {
-    /// The model at which it is taken.
+    /// The model at which the matrix is evaluated.
     pub parameters: M,
-    /// The numbers of it that are not known.
+    /// The unknown parameters of the model.
     pub unknowns: Vec<M::Unknown>,
     /// Singular values of the Jacobian with columns of unit length, largest first.
     pub singular_values: Vec<f64>,
-    /// What rounding can make of a singular value that is zero.
+    /// Largest value that rounding can give to a singular value that is zero.
     pub rounding: f64,
     /// Directions that the data do not determine at all: singular values below [`rounding`](Self::rounding).
     pub degenerate: Vec<Direction<M::Unknown>>,
-    /// Directions along which the whole range of the unknowns (a radian, the rate of rotation, one) is less than one standard deviation.
+    /// Directions along which the data change by less than one standard deviation over the whole range of the unknowns (a radian, the
+    /// rate of rotation, one).
     pub weak: Vec<Direction<M::Unknown>>,
-    /// Covariance of the unknowns. NaN in the rows and columns of those that a degenerate direction moves.
+    /// Covariance of the unknowns. NaN in the rows and columns of the unknowns that a degenerate direction changes.
     pub covariance: DMatrix<f64>,
 }
 
 impl Fisher {
-    /// For data of a star with its pulses.
+    /// The Fisher matrix for data of a star with its pulses.
     ///
     /// # Errors
-    /// Those of [`jacobian`], and fewer data than unknowns.
+    /// The errors of [`jacobian`], and fewer data than unknowns.
     pub fn of(
         parameters: &Parameters<f64>,
         events: &[Event],
@@ -50,7 +51,7 @@ impl Fisher {
 }
 
 impl<M: Model> Fisher<M> {
-    /// From a Jacobian in units of the standard deviations.
+    /// The Fisher matrix from a Jacobian in units of the standard deviations.
     pub fn of_jacobian(jacobian: &Jacobian, unknowns: &[M::Unknown], parameters: &M) -> Self {
         let scaled = ScaledJacobian::new(jacobian);
         let directions = Directions::new(&scaled, unknowns, parameters);
@@ -65,10 +66,10 @@ impl<M: Model> Fisher<M> {
         }
     }
 
-    /// The same if the data determine all unknowns.
+    /// Returns the Fisher matrix if the data determine all unknowns.
     ///
     /// # Errors
-    /// [`InferenceError::Degenerate`] with the directions that they do not determine.
+    /// [`InferenceError::Degenerate`] with the undetermined directions.
     pub fn determined(self) -> Result<Self, InferenceError> {
         if self.degenerate.is_empty() && self.weak.is_empty() {
             Ok(self)
@@ -83,7 +84,7 @@ impl<M: Model> Fisher<M> {
         self.unknowns.iter().map(|unknown| self.parameters.value(*unknown)).collect()
     }
 
-    /// Standard deviation of an unknown with all others unknown; NaN where it is not determined, none if it is none of the unknowns.
+    /// Marginalised standard deviation of an unknown; NaN if it is undetermined, `None` if the parameter is not one of the unknowns.
     pub fn sigma(&self, unknown: M::Unknown) -> Option<f64> {
         let place = self.unknowns.iter().position(|other| *other == unknown)?;
         Some(self.covariance[(place, place)].sqrt())
@@ -100,7 +101,8 @@ impl<M: Model> Fisher<M> {
         DMatrix::from_fn(sigmas.len(), sigmas.len(), |i, j| self.covariance[(i, j)] / (sigmas[i] * sigmas[j]))
     }
 
-    /// The parameters with the unknowns moved along the principal axes of their correlations, by so many standard deviations each, all times `factor`.
+    /// The parameters with the unknowns displaced along the principal axes of their correlations, by `deviations` standard deviations along each, all
+    /// times `factor`.
     ///
     /// # Errors
     /// [`Error::Domain`] for an unknown that the data do not determine; as for [`Model::moved`].
@@ -157,8 +159,8 @@ mod tests {
         assert!(fisher.determined().is_ok());
     }
 
-    /// So many standard deviations along the principal axes of the correlations add the sum of their squares to `chi^2` of a linear model; the axes are at right angles
-    /// in units of the standard deviations.
+    /// For a linear model, displacements by given numbers of standard deviations along the principal axes of the correlations add the sum of their
+    /// squares to `chi^2`; the axes are orthogonal in units of the standard deviations.
     #[test]
     fn parameters_beside_are_so_many_standard_deviations_away() {
         let fisher = fisher();

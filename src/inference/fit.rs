@@ -7,8 +7,8 @@ use super::signal::turning_rate;
 use super::{Datum, Event, Fisher, InferenceError, Jacobian, Observable, Place, Signal, jacobian};
 use crate::parameters::{Parameter, Parameters};
 
-/// The pulses of a signal that belong to turns of data, each turn with the time near which its pulse was seen. Turns are counted as the data
-/// count them: the pulse nearest to the first of them has its turn.
+/// The pulses of a signal in the turns of the data, where each turn is given with the approximate time of its pulse. Turns are numbered as
+/// in the data: the pulse nearest to the first of them is assigned its turn.
 fn events_as_counted(signal: &Signal, turns: &BTreeMap<i64, f64>) -> Result<Vec<Event>, InferenceError> {
     let Some((&turn, &near)) = turns.iter().min_by(|a, b| a.1.total_cmp(b.1)) else { return Ok(Vec::new()) };
     let mut events = signal.events()?;
@@ -19,7 +19,7 @@ fn events_as_counted(signal: &Signal, turns: &BTreeMap<i64, f64>) -> Result<Vec<
     Ok(events)
 }
 
-/// The data that a star has, less those measured, in standard deviations; and its pulses.
+/// Residuals (data of the star minus measured data, in standard deviations) and the pulses of the star.
 fn compared(parameters: &Parameters<f64>, data: &[Datum], end: f64) -> Result<(Vec<f64>, Vec<Event>), InferenceError> {
     let turn = std::f64::consts::TAU / turning_rate(parameters);
     let signal = Signal::new(parameters, end + 2.0 * turn)?;
@@ -50,7 +50,7 @@ fn compared(parameters: &Parameters<f64>, data: &[Datum], end: f64) -> Result<(V
     Ok((data.iter().map(compare).collect::<Result<_, InferenceError>>()?, events))
 }
 
-/// Data of a star over the time to `end`.
+/// Data of a star from its start to the time `end`.
 struct DataOfStar<'a> {
     data: &'a [Datum],
     end: f64,
@@ -80,29 +80,30 @@ impl Comparison<Parameters<f64>> for DataOfStar<'_> {
     }
 }
 
-/// The fit of `unknowns` to `data` from a start, over the time to `end`.
+/// Fits `unknowns` to `data` from a starting model, over the time to `end`.
 ///
-/// The unknowns move in units of their standard deviations at the start. A trial step to a star without the pulses of the data is
-/// rejected. The minimum is the one that the start leads to: its pulses must be those of the data to less than half a turn at the first
-/// datum, and its phase well known over the whole span.
+/// The unknowns are stepped in units of their standard deviations at the start. A trial step to a star without the pulses of the data
+/// is rejected. The minimum found is the one that the start leads to: the pulses of the start must agree with those of the data to less
+/// than half a turn at the first datum, and its phase must be well known over the whole span.
 ///
 /// # Errors
-/// [`InferenceError::Degenerate`] for data that do not determine the unknowns, at the start or at the minimum; for others see
-/// [`InferenceError`].
+/// [`InferenceError::Degenerate`] for data that do not determine the unknowns, at the start or at the minimum; for the others
+/// see [`InferenceError`].
 pub fn fit(start: &Parameters<f64>, data: &[Datum], unknowns: &[Parameter], end: f64) -> Result<Fit, InferenceError> {
     least_squares(start, &DataOfStar { data, end }, unknowns)
 }
 
-/// How far `chi^2` is from the parabola that error bars stand for: the largest of `|chi^2 - chi^2_min - 1|` one standard deviation
-/// up and down each principal axis of the correlations. Where it is well below one, the error bars hold. It takes two motions for each unknown.
+/// Departure of `chi^2` from the parabola that error bars assume: the largest of `|chi^2 - chi^2_min - 1|` one standard deviation up and down
+/// each principal axis of the correlations. Error bars are reliable where it is well below one. It takes two motions for each unknown.
 ///
 /// # Errors
-/// Parameters there of a star that has no such data.
+/// The displaced parameters belong to a star that has no such data.
 pub fn nonlinearity(fisher: &Fisher, data: &[Datum], end: f64) -> Result<f64, InferenceError> {
     least_squares::nonlinearity(fisher, &DataOfStar { data, end })
 }
 
-/// If every residual is as small as the rounding of the model: the kind of data with the smallest errors against it, and that rounding.
+/// If every residual is as small as the rounding of the model, returns the kind of data with the smallest errors relative to rounding,
+/// and that rounding.
 fn rounding_of_all(fit: &Fit, data: &[Datum], end: f64) -> Result<Option<(Observable, f64)>, InferenceError> {
     let signal = Signal::new(&fit.fisher.parameters, end)?;
     let of_kinds: BTreeMap<Observable, f64> =
@@ -127,7 +128,7 @@ mod tests {
         (Observable::Periods, 4e-6),
     ];
 
-    /// Data without errors of a star to a time: of seven pulses from the second on, and of the strain at two times.
+    /// Data of a star up to a time, without errors: seven pulses, starting with the second, and the strain at two times.
     fn data(star: &Parameters<f64>, end: f64) -> Vec<Datum> {
         let signal = Signal::new(star, end).expect("a motion");
         let noise = [&OF_PULSES[..], &[(Observable::StrainPlus, 1e-3), (Observable::StrainCross, 1e-3)]].concat();
@@ -152,7 +153,7 @@ mod tests {
         }
     }
 
-    /// Of a star that turns a little slower: its data less those, each found by itself.
+    /// The residuals are those of a star that turns a little slower: its data, found separately, minus the measured ones.
     #[test]
     fn residuals_are_the_data_of_the_model_less_those_measured() {
         let star = stars::precessing();
@@ -167,7 +168,8 @@ mod tests {
         }
     }
 
-    /// Pulses are looked for to two turns after the last datum, so that those of a slower star are found: here the last comes 0.8 turns late.
+    /// Pulses are searched for up to two turns after the last datum, so that those of a slower star are found: here the last comes 0.8 turns
+    /// late.
     #[test]
     fn late_pulses_are_found_after_the_last_datum() {
         let star = stars::slow();
@@ -184,7 +186,7 @@ mod tests {
         let late = residuals[1] * 1e-6 / turn;
         assert!((0.6..1.1).contains(&late), "{late} turns");
         assert!(found.iter().any(|event| event.turn == last.turn && event.start > last.end));
-        // One that would come 2.6 turns late is not.
+        // A pulse that would come 2.6 turns late is not found.
         let rate = -star.alpha_rate * 2.6 / (turns + 2.6);
         let slower =
             star.moved(&[Parameter::AlphaRate, Parameter::Spin], &[rate, star.spin() * rate / star.alpha_rate]);
@@ -200,7 +202,7 @@ mod tests {
         data.push(Datum { place: Place::Turn { number: 999, near: 12.5 }, ..data[0] });
         let told = compared(&star, &data, 60.0).expect_err("no such turn");
         assert_eq!(told, InferenceError::NoPulse { turn: 999, near: 12.5 });
-        // A period wants the pulse before too.
+        // A period requires the previous pulse too.
         let first = Signal::new(&star, 60.0).expect("a motion").events().expect("pulses")[0];
         let of_first = Place::Turn { number: first.turn, near: first.midpoint() };
         data[missing] = Datum { observable: Observable::Periods, place: of_first, ..data[0] };
@@ -208,7 +210,8 @@ mod tests {
         assert_eq!(told, InferenceError::NoPulse { turn: first.turn, near: first.midpoint() });
     }
 
-    /// Errors far below what doubles tell: the kind is named that is stated best against its rounding.
+    /// If the errors are far below what doubles can resolve, the error names the kind of data with the smallest stated
+    /// errors relative to rounding.
     #[test]
     fn a_fit_of_rounding_is_refused() {
         let star = stars::precessing();
@@ -232,14 +235,15 @@ mod tests {
                 other => panic!("{other:?}"),
             }
         }
-        // Twenty times as much is no rounding.
+        // Errors twenty times as large are not rounding.
         match of(&[(Observable::Arrivals, 1e-19), (Observable::Widths, 1e-18)], 20.0 * rounding) {
             Ok(found) => assert_eq!(found.judged(), Residuals::Larger),
             Err(error) => assert!(matches!(error, InferenceError::NotConverged { .. }), "{error:?}"),
         }
     }
 
-    /// Over a span too long to be followed pulses are found by their numbers, and their times are sums of two doubles.
+    /// Over a span too long to be followed turn by turn, pulses are found by their numbers, and their times are sums of two
+    /// doubles.
     #[test]
     fn long_spans_have_residuals_in_two_doubles() {
         let star = stars::weak();
@@ -256,7 +260,7 @@ mod tests {
         }
         let (residuals, _) = compared(&star, &data, 3e6).expect("the same star");
         assert!(residuals.iter().all(|residual| residual.abs() < 1e-2), "{residuals:?}");
-        // An observer at another azimuth sees the pulses earlier or later by less than a turn; the residuals tell it although the epochs differ too.
+        // An observer at another azimuth sees the pulses earlier or later by less than a turn; the residuals show it although the epochs differ too.
         let turned = star.moved(&[Parameter::PhiO], &[0.2]);
         let (residuals, found) = compared(&turned, &data, 3e6).expect("pulses of the same numbers");
         for ((residual, event), before) in residuals.iter().zip(&found).zip(&events) {

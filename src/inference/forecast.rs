@@ -1,21 +1,20 @@
-//! How well an unknown will be known: its standard deviation against span, number of data and their errors.
+//! Forecasts: the standard deviation of an unknown as a function of span, number of data and their errors.
 
 use super::{Datum, Fisher, InferenceError, Noise, Observable, Signal, data_of};
 use crate::numerics::straight_line::{Slope, slope};
 use crate::parameters::{Parameter, Parameters};
 
-/// What a campaign of measurements will tell.
+/// The expected result of an observing campaign.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Forecast {
     /// Time from the start to the last datum.
     pub span: f64,
-    /// Epochs, equally spaced: the next pulse of each, and a sample of the strain.
+    /// Number of epochs, equally spaced. Each gives the next pulse and a sample of the strain.
     pub epochs: usize,
-    /// Different pulses that these are, where pulses are observed; otherwise the epochs.
+    /// Number of distinct pulses at these epochs if pulses are observed, otherwise the number of epochs.
     pub data: usize,
-    /// Standard deviation of the target for the errors given, all others unknown as well; NaN where the data do not determine it, and
-    /// where it is none of the unknowns.
-    /// It is proportional to the errors.
+    /// Marginalised standard deviation of the target for the given errors; NaN if the data do not determine it or if it is not one of
+    /// the unknowns. It is proportional to the errors.
     pub sigma: f64,
 }
 
@@ -38,7 +37,7 @@ pub fn forecast(
     for &span in spans {
         let signal = Signal::new(parameters, span)?;
         for &count in epochs {
-            // So that the last pulse ends within the span.
+            // The last pulse must end within the span.
             let last = (span - 2.2 * signal.turn()).max(0.0);
             let times: Vec<f64> = (0..count).map(|k| last * k as f64 / (count - 1).max(1) as f64).collect();
             let has_pulses = noise.iter().any(|(observable, _)| observable.is_of_pulses());
@@ -56,10 +55,10 @@ pub fn forecast(
     Ok(found)
 }
 
-/// Powers of the span and of the number of epochs that the standard deviation goes with, where three or more of each are there.
+/// Exponents of the span and of the number of epochs in the standard deviation, if there are three or more values of each.
 pub fn scaling(forecasts: &[Forecast]) -> [Option<Slope>; 2] {
     let mean_slope = |same: fn(&Forecast) -> u64, x: fn(&Forecast) -> f64| {
-        // Lines with a common slope: each group about its own mean.
+        // Lines with a common slope, each group about its own mean.
         let mut groups: Vec<u64> = forecasts.iter().map(same).collect();
         groups.sort_unstable();
         groups.dedup();
@@ -87,7 +86,7 @@ mod tests {
     use super::*;
     use crate::inference::stars;
 
-    /// Epochs from the start to 2.2 turns before the end, equally spaced; of a span of less all at the start.
+    /// Epochs are equally spaced from the start to 2.2 turns before the end; in a shorter span all are at the start.
     #[test]
     fn epochs_of_a_forecast_end_before_its_span() {
         let star = stars::slow();
@@ -106,11 +105,11 @@ mod tests {
             let Forecast { span: of, epochs: counted, data: different, sigma: told } = found[place];
             assert_eq!((of, counted, different), (span, epochs as usize, epochs as usize));
             let sigma = sigma.expect("one of the unknowns");
-            // At the start alone the strain does not tell the spin from the tilt.
+            // At the start alone the strain does not separate the spin from the tilt.
             let undetermined = last == 0.0 && told.is_nan() && sigma.is_nan();
             assert!(undetermined || (told / sigma - 1.0).abs() < 1e-9, "{told:e} {sigma:e}");
         }
-        // The size of the strain, known by each: at the start alone, and of two epochs at both ends.
+        // The scale of the strain, determined by each: at the start alone, and by two epochs at both ends.
         let of_strain = |epochs: usize| {
             forecast(&star, &noise, &[Parameter::Strain], Parameter::Strain, &spans, &[epochs]).expect("forecasts")
         };
@@ -129,7 +128,8 @@ mod tests {
         }
     }
 
-    /// Few epochs for so many pulses are different ones each; so many that a pulse is the next of several count it once.
+    /// A few epochs for very many pulses each give a different one; if a pulse is the next one of several epochs, it is
+    /// counted once.
     #[test]
     fn a_pulse_is_counted_once() {
         let star = stars::precessing();
@@ -145,7 +145,8 @@ mod tests {
         assert!(of(0).sigma.is_nan(), "fewer data than unknowns");
     }
 
-    /// Two groups of different slopes and lengths, in any order, and a group of one: lines with a common slope are fitted to each about its own mean.
+    /// Two groups of different slopes and lengths, in any order, and a group of one: lines with a common slope are fitted, each group about its own
+    /// mean.
     #[test]
     fn powers_are_common_slopes_of_groups() {
         let of = |epochs: usize, log_span: f64, log_sigma: f64| Forecast {
@@ -154,7 +155,7 @@ mod tests {
             data: epochs,
             sigma: 10_f64.powf(log_sigma),
         };
-        // 25 epochs: slope -1 at 0, 1, 2. 100 epochs: slope -3 at 0, 1, 2, 3, 4. Mixed, with a point of its own and one that is no number.
+        // 25 epochs: slope -1 at 0, 1, 2. 100 epochs: slope -3 at 0, 1, 2, 3, 4. Mixed, with a single point and one that is NaN.
         let mut forecasts: Vec<Forecast> = (0..5).map(|k| of(100, f64::from(k), 7.0 - 3.0 * f64::from(k))).collect();
         for (place, k) in [(0, 0.0), (2, 1.0), (6, 2.0)] {
             forecasts.insert(place, of(25, k, -k));
@@ -163,9 +164,9 @@ mod tests {
         forecasts.push(Forecast { sigma: f64::NAN, ..of(100, 9.0, 0.0) });
         let [by_span, _] = scaling(&forecasts);
         let by_span = by_span.expect("a slope");
-        // Squares of distances from the means, 2 and 10, are the weights.
+        // The weights are the sums of squared distances from the means, 2 and 10.
         assert!((by_span.value - (-2.0 - 30.0) / 12.0).abs() < 1e-12, "{by_span:?}");
-        // What is left: (slope difference)^2 times these weights, over 9 points less 2, over 12.
+        // Remaining variance: (slope difference)^2 times these weights, over 9 points less 2, over 12.
         let left = 2.0 * (5.0_f64 / 3.0).powi(2) + 10.0 * (1.0_f64 / 3.0).powi(2);
         assert!((by_span.error - (left / 7.0 / 12.0).sqrt()).abs() < 1e-12, "{by_span:?}");
         let by_number: Vec<Forecast> = (1..6).map(|k| of(10_usize.pow(k), 2.0, -0.5 * f64::from(k))).collect();

@@ -1,4 +1,5 @@
-//! For tests: a model of three numbers, and data that are any functions of them. What a fit should find is known in closed form.
+//! For tests: a model of three numbers, and data that are arbitrary functions of them. The result that a fit should find is
+//! known in closed form.
 
 use nalgebra::DMatrix;
 
@@ -35,7 +36,7 @@ impl Unknown for Name {
     }
 }
 
-/// The three numbers, with what may be known of them.
+/// The three numbers, with their properties.
 #[derive(Debug, Clone)]
 pub(super) struct Numbers {
     pub(super) values: [f64; 3],
@@ -48,7 +49,7 @@ impl Numbers {
         Self { values, ranges, symmetries: Vec::new() }
     }
 
-    /// Of ranges so large that no direction is weak.
+    /// With ranges so large that no direction is weak.
     pub(super) fn unbounded(values: [f64; 3]) -> Self {
         Self::new(values, [1e100; 3])
     }
@@ -76,12 +77,12 @@ impl Model for Numbers {
     }
 }
 
-/// Data: residuals as functions of the three numbers, none where there are no such data, and for each its derivatives.
+/// Data: residuals as functions of the three numbers, `None` where the model has no such data, and the derivatives of each.
 pub(super) struct Functions {
     pub(super) count: usize,
     pub(super) residuals: fn([f64; 3]) -> Option<Vec<f64>>,
     pub(super) derivatives: fn([f64; 3]) -> Vec<[f64; 3]>,
-    /// Whether all residuals are to be taken for rounding.
+    /// Whether all residuals are to be treated as rounding.
     pub(super) all_rounding: bool,
 }
 
@@ -105,7 +106,7 @@ impl Comparison<Numbers> for Functions {
     }
 }
 
-/// A Jacobian whose numbers are right to some roundings.
+/// A Jacobian whose entries are accurate to a few roundings.
 pub(super) fn exact(matrix: DMatrix<f64>) -> Jacobian {
     Jacobian { magnitudes: matrix.abs(), matrix, relative_error: 1e-15 }
 }

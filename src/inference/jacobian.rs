@@ -1,7 +1,7 @@
-//! The Jacobian of data by unknowns, by exact derivatives.
+//! The Jacobian of data with respect to unknowns, from exact derivatives.
 //!
-//! The states and their derivatives come of one motion ([`plan::gradient`](crate::plan::gradient)). A column by an unknown is a sum of columns by
-//! the numbers of [`Parameters`] that it changes.
+//! The states and their derivatives come from a single motion ([`plan::gradient`](crate::plan::gradient)). The column of an unknown is a sum of
+//! columns of the numbers of [`Parameters`] that it changes.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -18,25 +18,25 @@ use crate::observables::pulsar::event_time::event_time;
 use crate::parameters::{Parameter, Parameters};
 use crate::plan::{Gradient, Method, Output, Request, StateFunction, gradient_in_parts};
 
-/// Derivatives of data by unknowns.
+/// Derivatives of data with respect to unknowns.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Jacobian {
     /// A row for each datum, a column for each unknown.
     pub matrix: DMatrix<f64>,
-    /// The same with the magnitudes of the terms of each sum: rounding is relative to these.
+    /// The same matrix with the magnitudes of the terms of each sum; rounding is relative to these.
     pub magnitudes: DMatrix<f64>,
     /// Relative error of the terms.
     pub relative_error: f64,
 }
 
-/// The factor between the tolerance of derivatives and their error, at most: `gradient-both-ways` finds 8 in 3,000 motions.
+/// Largest ratio between the error of derivatives and their tolerance: `gradient-both-ways` finds 8 in 3,000 motions.
 const SAFETY: f64 = 20.0;
 
-/// The Jacobian of `data` by `unknowns`, at the pulses `events` of a star with these parameters.
+/// The Jacobian of `data` with respect to `unknowns`, at the pulses `events` of a star with these parameters.
 ///
 /// # Errors
-/// [`InferenceError::NoPulse`] for a datum of a turn in which `events` has none; [`InferenceError::Model`] for a motion that cannot
-/// be computed, and for a pulse of which the line of sight only touches the edge.
+/// [`InferenceError::NoPulse`] for a datum of a turn without a pulse in `events`; [`InferenceError::Model`] for a motion that
+/// cannot be computed, and for a pulse where the line of sight only touches the edge of the beam.
 pub fn jacobian(
     parameters: &Parameters<f64>,
     events: &[Event],
@@ -70,7 +70,7 @@ pub fn jacobian(
     }
 }
 
-/// The numbers that unknowns change, those of the motion first, and for each of these (a row) by how much with each unknown (a column).
+/// The numbers that the unknowns change, those of the motion first, and how much each of them (row) changes with each unknown (column).
 fn weights(parameters: &Parameters<f64>, unknowns: &[Parameter]) -> (Vec<Parameter>, DMatrix<f64>) {
     let numbers: Vec<Parameter> = Parameter::OF_MOTION.into_iter().chain(Parameter::OF_SIGHT).collect();
     let seeded: Vec<_> = unknowns.iter().map(|unknown| parameters.seeded(*unknown)).collect();
@@ -93,7 +93,7 @@ impl StateFunction for Vectors {
     }
 }
 
-/// Times in two parts, in some order.
+/// Order of two times, each in two parts.
 fn order(a: &[f64; 2], b: &[f64; 2]) -> Ordering {
     a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
 }
@@ -122,7 +122,8 @@ impl States {
         Ok(Self { times, found, phases_are_kept: plan.method.is_some_and(Method::keeps_phases) })
     }
 
-    /// The state at a time with its derivative by the number of a column: zero for one that the motion does not depend on.
+    /// The state at a time with its derivative with respect to the number of a column; the derivative is zero for a number
+    /// that the motion does not depend on.
     fn at(&self, t: [f64; 2], column: usize) -> BodyState<Dual64> {
         let row = self.times.partition_point(|time| order(time, &t).is_lt());
         let (values, jacobian) = (&self.found.values, &self.found.jacobians[row]);
@@ -138,7 +139,7 @@ fn last(times: &[[f64; 2]]) -> f64 {
     times.iter().fold(0.0, |last, [epoch, t]| last.max(epoch + t))
 }
 
-/// What a datum is a function of.
+/// The part of the signal that a datum depends on.
 enum Term {
     /// One pulse.
     Pulse(Event),
@@ -207,7 +208,7 @@ impl Term {
 }
 
 impl Jacobian {
-    /// With each row divided by the standard deviation of its datum.
+    /// The Jacobian with each row divided by the standard deviation of its datum.
     pub(crate) fn weighted(mut self, data: &[Datum]) -> Self {
         let weights = DVector::from_iterator(data.len(), data.iter().map(|datum| 1.0 / datum.sigma));
         for matrix in [&mut self.matrix, &mut self.magnitudes] {
@@ -227,7 +228,7 @@ mod tests {
         data_of(&signal, &[], times, &[(Observable::StrainPlus, 0.5), (Observable::StrainCross, 0.25)]).expect("data")
     }
 
-    /// Terms of a sum have magnitudes that are no less than the sum: of `s_axial` two of three weights are negative.
+    /// The terms of a sum have magnitudes no smaller than the sum: for `s_axial` two of three weights are negative.
     #[test]
     fn magnitudes_are_those_of_the_terms() {
         let star = stars::precessing();
@@ -236,7 +237,7 @@ mod tests {
         let found = jacobian(&star, &[], &data, &unknowns).expect("derivatives");
         let sums = found.matrix.iter().zip(&found.magnitudes);
         assert!(sums.clone().all(|(sum, magnitude)| sum.abs() <= magnitude * (1.0 + 1e-12)), "{found:?}");
-        // The trace turns nothing: its terms cancel.
+        // The trace does not affect the motion: its terms cancel.
         assert!(found.matrix.column(2).amax() < 1e-12 * found.magnitudes.column(2).amax());
         let weighted = found.clone().weighted(&data);
         for (row, datum) in data.iter().enumerate() {
@@ -247,7 +248,8 @@ mod tests {
         }
     }
 
-    /// Twenty times the tolerance and the rounding of an angle of so many radians; without the latter where phases are kept.
+    /// Twenty times the tolerance plus the rounding of an angle of that many radians; without the latter where phases are
+    /// kept.
     #[test]
     fn derivatives_have_an_error_by_the_rotation() {
         let star = stars::slow();

@@ -1,4 +1,4 @@
-//! Weighted least squares: the unknowns that data are most likely of, by Levenberg and Marquardt's method with exact derivatives.
+//! Weighted least squares with the method of Levenberg and Marquardt and exact derivatives.
 
 use nalgebra::DVector;
 use rmpfit::{MPConfig, MPError, MPFitter, MPPar, MPSide, MPSuccess};
@@ -7,42 +7,42 @@ use super::{Fisher, InferenceError, Jacobian, Model, Unknown};
 use crate::error::Error;
 use crate::parameters::Parameters;
 
-/// What a model is compared with.
+/// The data that a model is compared with.
 pub(super) trait Comparison<M: Model> {
-    /// How many data there are.
+    /// Number of data.
     fn len(&self) -> usize;
 
-    /// The data that a model has, less those measured, in standard deviations.
+    /// Data of the model minus measured data, in standard deviations.
     fn residuals(&self, model: &M) -> Result<Vec<f64>, InferenceError>;
 
-    /// The same with their derivatives.
+    /// The same residuals with their derivatives.
     fn linearised(&self, model: &M, unknowns: &[M::Unknown]) -> Result<(Vec<f64>, Jacobian), InferenceError>;
 
-    /// Why a fit ended off a minimum, or with residuals that are too large, if they are all rounding.
+    /// The reason why a fit ended away from a minimum, or with residuals that are too large, if all residuals are rounding.
     fn rounding(&self, found: &Fit<M>) -> Result<Option<InferenceError>, InferenceError>;
 }
 
-/// What a fit found.
+/// The result of a fit.
 #[derive(Debug, Clone)]
 pub struct Fit<M: Model = Parameters<f64>> {
-    /// The parameters at the minimum, and the uncertainties of those fitted: `(J^T J)^-1` with the exact Jacobian there.
+    /// The parameters at the minimum, and the uncertainties of the fitted ones: `(J^T J)^-1` with the exact Jacobian there.
     pub fisher: Fisher<M>,
     /// `sum (residual / sigma)^2`.
     pub chi_squared: f64,
-    /// Data less unknowns.
+    /// Number of data minus number of unknowns.
     pub degrees: usize,
-    /// Measured less fitted, in standard deviations, in the order of the data.
+    /// Measured minus fitted, in standard deviations, in the order of the data.
     pub residuals: Vec<f64>,
-    /// Steps of the fit.
+    /// Number of iterations of the fit.
     pub iterations: usize,
-    /// Largest cosine of the angle between residuals and the derivative by an unknown: zero at the minimum.
+    /// Largest cosine of the angle between the residuals and the derivative with respect to an unknown: zero at the minimum.
     pub cosine: f64,
 }
 
-/// Whether residuals are such as errors of the sizes stated give.
+/// Whether the residuals agree with the stated errors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Residuals {
-    /// They are.
+    /// They agree.
     AsStated,
     /// They are larger.
     Larger,
@@ -51,13 +51,13 @@ pub enum Residuals {
 }
 
 impl<M: Model> Fit<M> {
-    /// Root mean square of the residuals, in standard deviations, each unknown counted as one datum less.
+    /// Root mean square of the residuals in standard deviations, per degree of freedom.
     pub fn root_mean_square(&self) -> f64 {
         (self.chi_squared / self.degrees as f64).sqrt()
     }
 
-    /// Judges `chi^2` at six standard deviations. `(chi^2 / n)^(1/3)` of `n` degrees of freedom is nearly normal, of mean `1 - 2 / (9 n)` and
-    /// variance `2 / (9 n)` (E. B. Wilson and M. M. Hilferty, Proc. Nat. Acad. Sci. 17, 684 (1931)).
+    /// Judges `chi^2` at six standard deviations. For `n` degrees of freedom `(chi^2 / n)^(1/3)` is nearly normal, with mean `1 - 2 / (9 n)`
+    /// and variance `2 / (9 n)` (E. B. Wilson and M. M. Hilferty, Proc. Nat. Acad. Sci. 17, 684 (1931)).
     pub fn judged(&self) -> Residuals {
         let variance = 2.0 / (9.0 * self.degrees as f64);
         let score = ((self.chi_squared / self.degrees as f64).cbrt() - (1.0 - variance)) / variance.sqrt();
@@ -69,7 +69,7 @@ impl<M: Model> Fit<M> {
     }
 }
 
-/// How far `chi^2` is from the parabola that error bars stand for: the largest of `|chi^2 - chi^2_min - 1|` one standard deviation
+/// Departure of `chi^2` from the parabola that error bars assume: the largest of `|chi^2 - chi^2_min - 1|` one standard deviation
 /// up and down each principal axis of the correlations.
 pub(super) fn nonlinearity<M: Model>(
     fisher: &Fisher<M>,
@@ -92,7 +92,8 @@ fn squares(residuals: &[f64]) -> f64 {
     residuals.iter().map(|residual| residual * residual).sum()
 }
 
-/// The fit from a start. The unknowns move in units of their standard deviations there. A trial step to a model without the data is rejected.
+/// Fits from a starting model. The unknowns are stepped in units of their standard deviations there. A trial step to a model without the data
+/// is rejected.
 pub(super) fn least_squares<M: Model>(
     start: &M,
     comparison: &impl Comparison<M>,
@@ -137,7 +138,7 @@ pub(super) fn least_squares<M: Model>(
             }
         }
     }
-    // What is left of the gradient moves no unknown by more than a hundredth of its error.
+    // The remaining gradient moves no unknown by more than a hundredth of its error.
     let step = &fisher.covariance * &gradient;
     let left = step.iter().zip(fisher.sigmas()).fold(0.0, |most: f64, (step, sigma)| most.max((step / sigma).abs()));
     let is_off = ended.success == MPSuccess::MaxIter || left.is_nan() || left > 1e-2;
@@ -179,7 +180,7 @@ fn bounds<M: Model>(start: &M, unknowns: &[M::Unknown], scales: &[f64]) -> Vec<M
     unknowns.iter().zip(scales).map(bound).collect()
 }
 
-/// The search for the minimum, with numbers that count standard deviations from the start.
+/// The search for the minimum, in numbers that count standard deviations from the start.
 struct Search<'a, M: Model, C> {
     start: &'a M,
     comparison: &'a C,
@@ -197,7 +198,7 @@ impl<M: Model, C: Comparison<M>> Search<'_, M, C> {
 
 impl<M: Model, C: Comparison<M>> MPFitter for Search<'_, M, C> {
     fn eval(&mut self, params: &[f64], deviates: &mut [f64]) -> Result<(), MPError> {
-        /// Residual of data that a trial model lacks: more than any that a start with the data can have.
+        /// Residual of data that a trial model does not have: larger than any at a start that has the data.
         const LACKING: f64 = 1e12;
         match self.model_at(params).and_then(|model| self.comparison.residuals(&model)) {
             Ok(residuals) => deviates.copy_from_slice(&residuals),
@@ -211,7 +212,7 @@ impl<M: Model, C: Comparison<M>> MPFitter for Search<'_, M, C> {
     }
 
     fn config(&self) -> &MPConfig {
-        // Steps below 1e-6 of a standard deviation, and changes of chi^2 by 1e-12 of it, are of no account.
+        // Steps below 1e-6 of a standard deviation, and changes of chi^2 by 1e-12 of it, are negligible.
         static CONFIG: MPConfig = MPConfig { ftol: 1e-12, xtol: 1e-9, gtol: 1e-9, max_iter: 50, ..MPConfig::new() };
         &CONFIG
     }
@@ -277,7 +278,7 @@ mod tests {
         }
     }
 
-    /// Against the sums of the textbook.
+    /// Compared with the textbook sums.
     #[test]
     fn a_straight_line_has_its_closed_form() {
         let found = least_squares(&Numbers::unbounded([30.0, -7.0, 0.0]), &LINE, &[A, B]).expect("a fit");
@@ -302,7 +303,8 @@ mod tests {
         assert_eq!(found.judged(), Residuals::AsStated);
     }
 
-    /// `chi^2` of a normal distribution's six standard deviations, from the incomplete gamma function to 25 digits (mpmath).
+    /// `chi^2` that corresponds to six standard deviations of a normal distribution, from the incomplete gamma function to
+    /// 25 digits (mpmath).
     #[test]
     fn chi_squared_is_judged_at_six_standard_deviations() {
         let fitted = least_squares(&Numbers::unbounded([1.0, 2.0, 0.0]), &LINE, &[A, B]).expect("a fit");
@@ -327,7 +329,8 @@ mod tests {
         assert!(matches!(found, InferenceError::Model(Error::Unsupported { what: "a fit", .. })), "{found:?}");
     }
 
-    /// Data that a fraction beyond either end would fit best: from any start the search ends on that end, whatever the rounding of the steps.
+    /// The data are fitted best by a fraction beyond either end of its interval: from any start the search ends on that end, whatever the
+    /// rounding of the steps.
     #[test]
     fn a_fit_that_ends_on_a_limit_is_refused() {
         let fraction = |target: fn([f64; 3]) -> Option<Vec<f64>>| Functions {
@@ -356,8 +359,8 @@ mod tests {
         assert_eq!(why(outside).0, "the start is outside the limits");
     }
 
-    /// A derivative of the wrong sign leads uphill: the fit stays at its start, where the residuals (3, 4) have with the derivative (1, 0) a cosine of
-    /// 3/5, and the derivative (0, 1) of the other number one of 4/5.
+    /// A derivative of the wrong sign leads uphill, so the fit stays at its start. There the residuals (3, 4) have a cosine of 3/5 with the
+    /// derivative (1, 0), and of 4/5 with the derivative (0, 1) of the other number.
     #[test]
     fn a_fit_that_ends_off_a_minimum_is_refused() {
         let uphill = |derivatives: fn([f64; 3]) -> Vec<[f64; 3]>| Functions {
@@ -375,7 +378,7 @@ mod tests {
         assert!((cosine - 0.8).abs() < 1e-6, "{cosine}");
         let (_, cosine) = why(least_squares(&start, &wrong, &[B, A]));
         assert!((cosine - 0.8).abs() < 1e-6, "{cosine}");
-        // A step left of 0.03 standard deviations is too long, on either side; one of 0.003 is not.
+        // A remaining step of 0.03 standard deviations is too long, in either direction; one of 0.003 is not.
         for (off, refused) in [(0.03, true), (-0.03, true), (0.003, false), (-0.003, false)] {
             let near = Numbers::unbounded([-3.0 + off, 0.0, 0.0]);
             assert_eq!(least_squares(&near, &wrong, &[A]).is_err(), refused, "{off}");
@@ -384,7 +387,7 @@ mod tests {
         assert_eq!(why(least_squares(&start, &undefined, &[A])).0, "a derivative is not finite");
     }
 
-    /// `exp(-a)` has no minimum: every step has length one, for ever.
+    /// `exp(-a)` has no minimum: every step has length one, without end.
     #[test]
     fn too_many_steps_are_told() {
         let endless = Functions {
@@ -396,7 +399,7 @@ mod tests {
         assert_eq!(why(least_squares(&Numbers::unbounded([0.0; 3]), &endless, &[A])).0, "too many steps");
     }
 
-    /// The first step from 5 to the minimum of `ln(a)^2` leads below zero, where there is no logarithm.
+    /// The first step from 5 to the minimum of `ln(a)^2` leads below zero, where the logarithm is undefined.
     #[test]
     fn steps_to_models_without_the_data_are_rejected() {
         let logarithm = Functions {
@@ -409,7 +412,7 @@ mod tests {
         assert!((found.fisher.values()[0] - 1.0).abs() < 1e-6 && (found.chi_squared - 1.0).abs() < 1e-9, "{found:?}");
     }
 
-    /// Residuals that are rounding are told where they are too large or the fit ends off a minimum, and only there.
+    /// Residuals that are rounding are reported if they are too large or if the fit ends away from a minimum, and only then.
     #[test]
     fn rounding_is_told_where_it_matters() {
         let small = Functions { all_rounding: true, ..LINE };
@@ -434,8 +437,8 @@ mod tests {
         assert_eq!(found, InferenceError::PeriodsForecast);
     }
 
-    /// Of `r = (x + curvature x^2 + cubic x^3, constant)` one standard deviation from x = 0 changes `chi^2` by `(1 + curvature + cubic)^2`, or with the other
-    /// sign of the curvature.
+    /// For `r = (x + curvature x^2 + cubic x^3, constant)`, one standard deviation from x = 0 changes `chi^2` by `(1 + curvature + cubic)^2`, or by
+    /// this with the opposite sign of the curvature.
     #[test]
     fn nonlinearity_is_the_largest_difference_from_a_parabola() {
         let of = |residuals: fn([f64; 3]) -> Option<Vec<f64>>, unknowns: &[Name]| {

@@ -1,4 +1,4 @@
-//! Spans of more turns than can be followed one by one: plans that keep phases, and pulses near given epochs.
+//! Long spans, whose turns cannot be followed one by one: plans that keep phases, and pulses near given epochs.
 
 use super::Event;
 use super::signal::turning_rate;
@@ -12,10 +12,10 @@ use crate::solutions::averaged::AveragingOrder;
 /// Rotation (rad) up to which every turn is followed.
 const LARGEST_FOLLOWED: f64 = 1e5;
 
-/// Largest error of directions (rad): derivatives by the averaged motion are then right to about as much.
+/// Largest error of directions (rad); derivatives of the averaged motion are then accurate to about as much.
 const LARGEST_ERROR: f64 = 1e-3;
 
-/// Most corrections of the time at which a turn with a number is looked for.
+/// Maximum number of corrections to the time of a turn with a given number.
 const MOST_CORRECTIONS: usize = 8;
 
 /// Whether a span from the start to `end` is too long to be followed turn by turn.
@@ -23,8 +23,8 @@ pub(super) fn is_long(parameters: &Parameters<f64>, end: f64) -> bool {
     end * turning_rate(parameters) > LARGEST_FOLLOWED
 }
 
-/// The plan for a request from the start on: over a span too long to be followed turn by turn by a method that keeps its phases, the averaged motion if no other one
-/// meets the tolerance.
+/// The plan for a request that begins at the start. Over a span too long to be followed turn by turn it uses a method that keeps phases; this is the
+/// averaged motion if no other one meets the tolerance.
 ///
 /// # Errors
 /// As for [`Problem::plan`](crate::dynamics::Problem::plan), and [`Error::Domain`] for the error of the averaged motion.
@@ -39,7 +39,7 @@ pub(super) fn plan(parameters: &Parameters<f64>, request: Request) -> Result<Pla
     problem.plan(&Request { method: Some(Method::Averaged), ..request })
 }
 
-/// Refuses a span to `end` whose pulses can neither be followed turn by turn nor found by a motion by phases.
+/// Refuses a span to `end` whose pulses can be found neither turn by turn nor from a motion by phases.
 ///
 /// # Errors
 /// [`Error::Domain`] as for [`PhasedMotion::new`], and for an error of directions above 1e-3 rad.
@@ -67,14 +67,14 @@ fn clock(parameters: &Parameters<f64>, end: f64) -> Result<PulsarClock, Error> {
     PulsarClock::on(motion(parameters, end)?, &parameters.beam(), &parameters.observer())
 }
 
-/// A pulse with its times counted from the double nearest to its midpoint. The closest approach is not looked for.
+/// A pulse with its times counted from the double nearest to its midpoint. The closest approach is not computed.
 fn event(pulse: &ClockPulse) -> Event {
     let ([epoch, rest], half) = (pulse.midpoint, pulse.duration / 2.0);
     Event { turn: pulse.number, epoch, start: rest - half, end: rest + half, closest: f64::NAN }
 }
 
-/// The pulse of the turn nearest to each of some times up to `end`, in their order; turns without a pulse have none, a turn is taken once, and no pulse before
-/// the start.
+/// The pulse of the turn nearest to each of the given times up to `end`, in their order. Turns without a pulse give none, each turn is used once, and
+/// pulses before the start are left out.
 ///
 /// # Errors
 /// As for [`check_span`] and [`PulsarClock`].
@@ -92,7 +92,8 @@ pub(super) fn pulses_near(parameters: &Parameters<f64>, end: f64, times: &[f64])
     Ok(found)
 }
 
-/// The pulses of turns with given numbers, each looked for from a time near it in some other model; turns without a pulse are left out.
+/// The pulses of turns with given numbers. Each is searched for from an approximate time, taken from some other model; turns without a
+/// pulse are left out.
 ///
 /// # Errors
 /// As for [`check_span`] and [`PulsarClock`].
@@ -139,7 +140,7 @@ mod tests {
         }
     }
 
-    /// A number is looked for from any time, also some turns away; turns take 4.8 and 0.3 units of time.
+    /// A turn number is found from any starting time, even some turns away; turns take 4.8 and 0.3 units of time.
     #[test]
     fn pulses_are_found_by_their_numbers() {
         let weak = stars::weak();
@@ -180,7 +181,8 @@ mod tests {
         assert_eq!(turns, [first.turn, first.turn + 1]);
     }
 
-    /// A star that spins about the middle axis of `s^IJ`, where its motion has no torus: the averaged motion stands in where the violation is weak, and is refused where it is not.
+    /// A star that spins about the middle axis of `s^IJ`, where its motion has no torus: the averaged motion is used where the violation is weak, and
+    /// refused where it is not.
     #[test]
     fn where_there_is_no_torus_the_averaged_motion_stands_in() {
         let about_the_middle_axis = |s: f64| {
@@ -206,7 +208,7 @@ mod tests {
         }
     }
 
-    /// A pulse that has begun before the start is none.
+    /// A pulse that has begun before the start does not count.
     #[test]
     fn pulses_begin_after_the_start() {
         let (star, end) = (stars::weak(), 2e6);
@@ -214,7 +216,7 @@ mod tests {
         let width = first.end - first.start;
         let clock_rate = std::f64::consts::TAU / clock(&star, end).expect("a clock").period();
         for (middle, is_seen) in [(0.4, false), (0.6, true)] {
-            // The observer is moved so that the pulse comes this part of its width after the start.
+            // The observer is moved so that the pulse comes this fraction of its width after the start.
             let turn = -clock_rate * (first.epoch + first.midpoint() - middle * width);
             let moved = star.moved(&[Parameter::PhiO], &[turn]);
             let found = pulses_near(&moved, end, &[0.0]).expect("pulses");

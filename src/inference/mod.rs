@@ -1,4 +1,5 @@
-//! From data back to the star and to s: what pulse times, widths and strains tell of [`Parameters`](crate::parameters::Parameters).
+//! Parameter estimation: constraints on [`Parameters`](crate::parameters::Parameters), and so on s, from pulse times, widths and
+//! strain.
 //!
 //! ```text
 //! Parameters -> Signal (one motion) -> values of Data, and their Jacobian by exact derivatives
@@ -6,7 +7,7 @@
 //!            -> fit: least squares from a start, covariance by the Jacobian at the minimum
 //! ```
 //!
-//! The formulas, what is promised and the coverage of the error bars are in `docs/inference.md`.
+//! The formulas, the guarantees and the coverage of the error bars are in `docs/inference.md`.
 //!
 //! # Example
 //!

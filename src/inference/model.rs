@@ -1,4 +1,4 @@
-//! What can be fitted: a model with named numbers.
+//! What can be fitted: a model with named parameters.
 
 use core::fmt::Debug;
 
@@ -8,41 +8,41 @@ use crate::error::Error;
 use crate::observables::pulsar::timing_model::{TimingModel, TimingParameter};
 use crate::parameters::{Parameter, Parameters};
 
-/// The name of a number of a [`Model`].
+/// The name of a parameter of a [`Model`].
 pub trait Unknown: Copy + PartialEq + Debug {
-    /// In commands and files.
+    /// Name in commands and files.
     fn key(self) -> &'static str;
 
-    /// In symbols.
+    /// Mathematical symbol.
     fn symbol(self) -> &'static str;
 
-    /// Interval that a fit stays within, where there is one.
+    /// Interval that a fit stays within, if there is one.
     fn limits(self) -> (Option<f64>, Option<f64>);
 }
 
-/// A model with numbers of which some are unknown.
+/// A model with parameters, some of them unknown.
 pub trait Model: Clone {
-    /// What they are called.
+    /// The type of the parameters' names.
     type Unknown: Unknown;
 
-    /// The value of one.
+    /// The value of a parameter.
     fn value(&self, unknown: Self::Unknown) -> f64;
 
-    /// By how much one is more than in another model.
+    /// Value of a parameter minus its value in another model.
     fn difference(&self, other: &Self, unknown: Self::Unknown) -> f64 {
         self.value(unknown) - other.value(unknown)
     }
 
-    /// The model with some of them changed.
+    /// The model with some parameters changed.
     ///
     /// # Errors
-    /// Numbers that no such model has.
+    /// The changed values do not make a valid model.
     fn moved(&self, unknowns: &[Self::Unknown], changes: &[f64]) -> Result<Self, Error>;
 
-    /// How far a value can be from a known one at all: a radian, the rate of rotation, one.
+    /// Largest possible deviation of a value from a known one: a radian, the rate of rotation, one.
     fn range(&self, unknown: Self::Unknown) -> f64;
 
-    /// Changes that nobody can see.
+    /// Changes of the parameters that no data can show.
     fn symmetries(&self) -> Vec<Symmetry<Self::Unknown>>;
 }
 

@@ -1,19 +1,19 @@
-//! What is measured: kinds of data, and single ones.
+//! Kinds of data, and single data.
 
 use super::{Event, Signal};
 use crate::error::Error;
 
-/// A kind of data, each with errors that are independent of one another.
+/// A kind of data. Errors of different data are independent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Observable {
     /// Times of the midpoints of whole pulses.
     Arrivals,
     /// Times at which the magnetic axis is nearest to the line of sight.
     ClosestApproaches,
-    /// Lengths of whole pulses in time.
+    /// Durations of whole pulses.
     Widths,
-    /// Times between the midpoints of pulses of consecutive turns, as measured alone: not differences of arrivals measured, whose
-    /// errors are correlated and which say less than these arrivals do.
+    /// Times between the midpoints of pulses of consecutive turns, each measured independently. They are not differences of
+    /// measured arrival times, whose errors are correlated and which contain less information than the arrival times themselves.
     Periods,
     /// `h_+` at samples.
     StrainPlus,
@@ -22,7 +22,7 @@ pub enum Observable {
 }
 
 impl Observable {
-    /// Every kind.
+    /// All kinds.
     pub const ALL: [Self; 6] =
         [Self::Arrivals, Self::ClosestApproaches, Self::Widths, Self::Periods, Self::StrainPlus, Self::StrainCross];
 
@@ -38,48 +38,48 @@ impl Observable {
         }
     }
 
-    /// Whether it is one of the pulses of a beam, and a time.
+    /// Whether it is a time, taken from the pulses of a beam.
     pub fn is_of_pulses(self) -> bool {
         !matches!(self, Self::StrainPlus | Self::StrainCross)
     }
 }
 
-/// A kind of data with the standard deviation of each: of times in `t_c`, of strains in the unit of the model.
+/// A kind of data with its standard deviation: in `t_c` for times, in the unit of the model for strains.
 pub type Noise = (Observable, f64);
 
-/// Where in a signal a datum is.
+/// Position of a datum in a signal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Place {
-    /// The pulse of a turn, counted from any one, that was seen near a time.
+    /// A turn, counted from an arbitrary origin, with the approximate time of its pulse.
     Turn {
         /// Number of the turn.
         number: i64,
-        /// About when, to the tenth of a turn.
+        /// Approximate time, to a tenth of a turn.
         near: f64,
     },
     /// A time.
     Time(f64),
 }
 
-/// One measured number.
+/// One measured value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Datum {
-    /// Of which kind.
+    /// What is measured.
     pub observable: Observable,
-    /// Where.
+    /// The pulse or time that it belongs to.
     pub place: Place,
     /// Time from which an arrival or a closest approach is counted: see [`Event::epoch`].
     pub epoch: f64,
-    /// What.
+    /// The measured value.
     pub value: f64,
     /// Its standard deviation.
     pub sigma: f64,
 }
 
-/// The data without errors that `noise` asks for: of the pulses `events`, and of the strain at `samples`.
+/// The data without errors for the kinds in `noise`: from the pulses `events`, and from the strain at `samples`.
 ///
 /// # Errors
-/// A motion that cannot be evaluated at a sample; closest approaches and periods of a [long](Signal::is_long) span.
+/// A motion that cannot be evaluated at a sample; closest approaches and periods over a [long](Signal::is_long) span.
 pub fn data_of(signal: &Signal, events: &[Event], samples: &[f64], noise: &[Noise]) -> Result<Vec<Datum>, Error> {
     let mut data = Vec::new();
     let of_every_turn = [Observable::ClosestApproaches, Observable::Periods];

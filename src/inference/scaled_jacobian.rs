@@ -1,4 +1,4 @@
-//! A Jacobian by its singular values.
+//! Singular value decomposition of a Jacobian.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -8,13 +8,13 @@ use super::Jacobian;
 pub(super) struct ScaledJacobian {
     /// Lengths of the columns.
     pub(super) lengths: DVector<f64>,
-    /// Columns of which rounding is all: data do not depend on these unknowns.
+    /// Columns that are rounding only: the data do not depend on these unknowns.
     pub(super) idle: Vec<usize>,
-    /// Singular values, largest first, idle columns left out.
+    /// Singular values, largest first, without idle columns.
     pub(super) values: DVector<f64>,
     /// Right singular vectors as columns, in the order of the values; idle components are zero.
     pub(super) vectors: DMatrix<f64>,
-    /// What rounding can make of a singular value that is zero.
+    /// Largest value that rounding can give to a singular value that is zero.
     pub(super) rounding: f64,
 }
 
@@ -34,25 +34,26 @@ impl ScaledJacobian {
             column /= lengths[j];
         }
         let svd = scaled.svd(false, true);
-        // Thin: as many vectors as columns, since there are at least as many rows.
+        // Thin decomposition: as many vectors as columns, since there are at least as many rows.
         let rows = svd.v_t.expect("asked for");
         let mut vectors = DMatrix::zeros(columns, rows.nrows());
         for (place, &j) in used.iter().enumerate() {
             vectors.row_mut(j).copy_from(&rows.column(place).transpose());
         }
-        // Weyl: no singular value moves by more than the norm of what is added to the matrix.
+        // Weyl: no singular value changes by more than the norm of the perturbation of the matrix.
         let rounding = used.iter().map(|&j| (errors[j] / lengths[j]).powi(2)).sum::<f64>().sqrt();
         Self { lengths, idle, values: svd.singular_values, vectors, rounding }
     }
 
-    /// How many directions are not determined, idle columns left out: the last ones.
+    /// Number of undetermined directions, without idle columns: they are the last ones.
     pub(super) fn nullity(&self) -> usize {
         self.values.iter().filter(|value| **value <= self.rounding).count()
     }
 
-    /// `(J^T J)^-1`, of the unknowns that no degenerate direction moves.
+    /// `(J^T J)^-1` of the unknowns that no degenerate direction changes.
     pub(super) fn covariance(&self) -> DMatrix<f64> {
-        /// A unit vector with a component below this does not move the unknown: an error bar that it leaves is right to as many digits.
+        /// A unit vector with a component below this does not affect the unknown: the resulting error bar is accurate to as many
+        /// digits.
         const MOVED: f64 = 1e-4;
         let rank = self.values.len() - self.nullity();
         let size = self.lengths.len();
@@ -76,7 +77,7 @@ mod tests {
     use super::*;
     use crate::inference::functions::exact;
 
-    /// Numbers that no datum depends on leave nothing to decompose.
+    /// Numbers that no datum depends on leave nothing to be decomposed.
     #[test]
     fn a_jacobian_of_zeros_has_no_singular_values() {
         let zeros = ScaledJacobian::new(&exact(DMatrix::zeros(4, 3)));

@@ -1,4 +1,4 @@
-//! What is seen of a star: its motion, pulses and strain.
+//! The observable signal of a star: its motion, pulses and strain.
 
 use std::collections::BTreeMap;
 
@@ -17,9 +17,10 @@ use crate::propagation::Motion;
 /// A whole pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
-    /// Turn that it belongs to, counted from some one.
+    /// Number of its turn, counted from an arbitrary origin.
     pub turn: i64,
-    /// Time from which the others are counted: zero, but for a pulse of a span so long that one double holds no time well enough.
+    /// Time from which the others are counted: zero, except for a pulse in a span so long that a single double is not precise
+    /// enough for its times.
     pub epoch: f64,
     /// Time at which the line of sight enters the beam.
     pub start: f64,
@@ -30,12 +31,12 @@ pub struct Event {
 }
 
 impl Event {
-    /// The middle between the edges, since the epoch.
+    /// The midpoint between the edges, since the epoch.
     pub fn midpoint(&self) -> f64 {
         self.start + (self.end - self.start) / 2.0
     }
 
-    /// What is observed of it, given the pulse before: none for a period without a pulse in the turn before.
+    /// The observed value of this pulse, given the pulse before; `None` for a period if the previous turn has no pulse.
     pub(crate) fn value(&self, before: Option<&Event>, observable: Observable) -> Option<f64> {
         match observable {
             Observable::Arrivals => Some(self.midpoint()),
@@ -50,7 +51,7 @@ impl Event {
     }
 }
 
-/// The motion of a star over a span that begins at its start, and what is seen of it.
+/// The motion of a star over a span that begins at its start, and its observable signal.
 pub struct Signal {
     /// The star, its beam and its observer.
     pub parameters: Parameters<f64>,
@@ -62,15 +63,15 @@ pub struct Signal {
     line_of_sight: Vector3<f64>,
 }
 
-/// Truncation error of motions and of their derivatives. Enough for times to 1e-12 of a turn.
+/// Truncation error of motions and of their derivatives. It suffices for times accurate to 1e-12 of a turn.
 pub(super) const TOLERANCE: f64 = 1e-13;
 
-/// Rate of a rotation with all of the angular momentum across the symmetry axis, `|L| / I^xx`.
+/// Rotation rate with all of the angular momentum perpendicular to the symmetry axis, `|L| / I^xx`.
 pub(super) fn turning_rate(parameters: &Parameters<f64>) -> f64 {
     parameters.state().momentum.norm() / parameters.spheroid.inertia_xx
 }
 
-/// A polarization of a star in a state with these vectors.
+/// One polarization of the strain for a star in a state with these vectors.
 pub(super) fn strain<S: Scalar>(
     parameters: &Parameters<S>,
     [axis, momentum]: [&Vector3<S>; 2],
@@ -83,7 +84,7 @@ pub(super) fn strain<S: Scalar>(
 }
 
 impl Signal {
-    /// Whether the span is one of more than 1e5 rad of rotation. Its pulses are those near given times.
+    /// Whether the span covers more than 1e5 rad of rotation. The pulses are then those near given times.
     pub fn is_long(&self) -> bool {
         self.is_long
     }
@@ -106,10 +107,10 @@ impl Signal {
         })
     }
 
-    /// Every whole pulse that is the only one of its turn.
+    /// Every whole pulse that is the only one in its turn.
     ///
     /// # Errors
-    /// A beam or line of sight that has no pulses to be counted, and a long span.
+    /// A beam or line of sight whose pulses cannot be counted, and a long span.
     pub fn events(&self) -> Result<Vec<Event>, Error> {
         Error::ensure(!self.is_long, "span for every pulse", self.end, "one of at most 1e5 rad of rotation")?;
         let mut found = self.events_in((0.0, self.end))?;
@@ -119,8 +120,9 @@ impl Signal {
         Ok(found)
     }
 
-    /// The first whole pulse after each of some times, within two turns; `turn` is the place of the time. For spans with more pulses
-    /// than can be looked for. Of a [long](Self::is_long) span the pulse of the turn nearest to each, with the number of the turn.
+    /// For each time, the first whole pulse within the next two turns; `turn` is the index of the time in the list. This is for
+    /// spans with too many pulses to find all of them. For a [long](Self::is_long) span it is the pulse of the turn nearest to each
+    /// time, with the number of the turn.
     ///
     /// # Errors
     /// As for [`events`](Self::events); of a long span those of [`check_span`](super::check_span).
@@ -132,7 +134,7 @@ impl Signal {
         let window = 2.2 * self.turn();
         for (place, &time) in times.iter().enumerate() {
             let Some(&event) = self.events_in((time, (time + window).min(self.end)))?.first() else { continue };
-            // One pulse is one datum, however many epochs it is the next of.
+            // One pulse is one datum, even if it is the next pulse of several epochs.
             let again = |last: &Event| (event.closest - last.closest).abs() < 0.25 * self.turn();
             if !found.last().is_some_and(again) {
                 found.push(Event { turn: place as i64, ..event });
@@ -141,22 +143,22 @@ impl Signal {
         Ok(found)
     }
 
-    /// The pulses of turns with given numbers in a [long](Self::is_long) span, each looked for from a time near it; turns without a pulse are
-    /// left out.
+    /// The pulses of turns with given numbers in a [long](Self::is_long) span, each searched for from an approximate time; turns without a
+    /// pulse are left out.
     ///
     /// # Errors
-    /// A beam or line of sight that has no pulses to be counted, and those of [`check_span`](super::check_span).
+    /// A beam or line of sight whose pulses cannot be counted, and the errors of [`check_span`](super::check_span).
     pub fn events_of_turns(&self, turns: &[(i64, f64)]) -> Result<Vec<Event>, Error> {
         long_span::pulses_numbered(&self.parameters, self.end, turns)
     }
 
-    /// About the time of a turn: that of a rotation at the rate `|L| / I^xx`.
+    /// Approximate duration of a turn: one rotation at the rate `|L| / I^xx`.
     pub fn turn(&self) -> f64 {
         std::f64::consts::TAU / turning_rate(&self.parameters)
     }
 
-    /// The most that rounding and the truncation of the motion make of a datum: ten times the estimated error of directions at the end, as
-    /// a part of a radian of rotation or of the strain.
+    /// Upper limit on the effect of rounding and of the truncation of the motion on a datum: ten times the estimated error of directions
+    /// at the end, as a fraction of a radian of rotation or of the strain.
     pub(super) fn rounding(&self, observable: Observable) -> f64 {
         let directions = 10.0 * self.motion.error_estimate(self.end);
         if observable.is_of_pulses() {
@@ -181,7 +183,7 @@ impl Signal {
             .collect())
     }
 
-    /// A polarization at a time.
+    /// One polarization of the strain at a time.
     ///
     /// # Errors
     /// A time outside the span.
@@ -203,7 +205,7 @@ mod tests {
         let star = stars::slow();
         let heavy =
             Parameters { spheroid: RigidSpheroid { inertia_xx: 2.0, inertia_zz: 2.2, ..star.spheroid }, ..star };
-        // Twice as heavy, the star of the same angular velocity turns as fast.
+        // A star twice as heavy with the same angular velocity turns as fast.
         assert!((turning_rate(&heavy) / turning_rate(&star) - 1.0).abs() < 1e-15);
         assert!((turning_rate(&star) - star.state().momentum.norm()).abs() < 1e-15);
     }
@@ -225,7 +227,7 @@ mod tests {
         assert!(signal.strain(Observable::StrainPlus, 11.0).is_err());
     }
 
-    /// The beam of a star whose symmetry axis goes far from `L` is out of sight for several turns at a time.
+    /// The symmetry axis of this star moves far from `L`, so that its beam is out of sight for several turns at a time.
     fn with_gaps() -> Parameters<f64> {
         Parameters { rho: 0.25, theta_o: 1.3, ..stars::precessing() }
     }
@@ -252,7 +254,7 @@ mod tests {
             let differences = [event.start - wanted.start, event.end - wanted.end, event.closest - wanted.closest];
             assert!(differences.into_iter().all(|difference| difference.abs() < 1e-9), "{event:?} {wanted:?}");
         }
-        // In an order that goes back, a pulse may come again.
+        // If the times are not in ascending order, a pulse may be repeated.
         let again = signal.events_after(&[events[3].start - 0.1, events[0].start - 0.1]).expect("pulses");
         assert_eq!(again.len(), 2);
     }
@@ -264,7 +266,8 @@ mod tests {
         assert!(!Signal::new(&stars::weak(), 100.0).expect("a motion").is_long());
     }
 
-    /// Ten times the estimated error of directions: in radians over the rate of turns, or as a part of the largest strain.
+    /// Ten times the estimated error of directions: in radians over the rotation rate, or as a fraction of the largest
+    /// strain.
     #[test]
     fn rounding_is_a_part_of_a_turn_or_of_the_strain() {
         let star = Parameters { strain_scale: 30.0, ..stars::slow() };
@@ -279,7 +282,8 @@ mod tests {
         assert!((0.95..=1.0 + 1e-12).contains(&(of_strain / largest)), "{of_strain} {largest}");
     }
 
-    /// A prolate star whose beam passes the line of sight twice in some turns: their pulses cannot be told apart by the turn, and are left out.
+    /// A prolate star whose beam passes the line of sight twice in some turns: the turn number does not distinguish these pulses, and they are
+    /// left out.
     #[test]
     fn turns_of_two_pulses_are_left_out() {
         let base = stars::precessing();
@@ -292,7 +296,7 @@ mod tests {
         };
         let signal = Signal::new(&prolate, 40.0).expect("a motion");
         let all = signal.events_in((0.0, 40.0)).expect("pulses");
-        // Turns are five units of time apart, the two pulses of one turn about one.
+        // Turns are five units of time apart, the two pulses of one turn about one unit.
         let alone = |event: &&Event| {
             all.iter().filter(|other| (other.closest - event.closest).abs() < 0.5 * signal.turn()).count() == 1
         };
@@ -311,7 +315,7 @@ mod tests {
         assert!(first(0.6) < 0.2 && first(1.2) < 0.8 && first(1.8) < 1.3);
     }
 
-    /// Where the strain grows all the time its largest value is that at the end; where it falls, that at the start.
+    /// If the strain grows all the time, its largest value is at the end; if it falls, at the start.
     #[test]
     fn the_largest_strain_is_sought_from_the_start_to_the_end() {
         for star in [stars::precessing(), Parameters { phi_o: 1.9, ..stars::precessing() }] {

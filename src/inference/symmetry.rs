@@ -1,4 +1,5 @@
-//! Changes of a star, its beam and its observer that nobody can see, or that two unknowns share: names for degenerate directions.
+//! Changes of a star, its beam and its observer that have no observable effect, or that two unknowns share: names for degenerate
+//! directions.
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
@@ -7,12 +8,12 @@ use crate::dynamics::RotationState;
 use crate::numerics::scalar::Real;
 use crate::parameters::{Parameter, Parameters};
 
-/// A change of the unknowns, the same for all data of some kind, in words.
+/// A change of the unknowns that leaves all data of some kind unchanged, in words.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Symmetry<U> {
-    /// What cannot be told.
+    /// Description of the undetermined quantity.
     pub words: &'static str,
-    /// The change of each unknown, in its unit; those that are not named do not change.
+    /// The change of each unknown, in its unit; unknowns that are not listed do not change.
     pub change: Vec<(U, f64)>,
 }
 
@@ -57,7 +58,7 @@ pub(super) fn symmetries(parameters: &Parameters<f64>) -> Vec<Symmetry<Parameter
     named.into_iter().chain(rotations).map(|(words, change)| Symmetry { words, change }).collect()
 }
 
-/// The change of all unknowns with a rotation of the inertial frame, where no pole is met.
+/// The change of all unknowns under a rotation of the inertial frame, unless a pole is met.
 fn rotation(parameters: &Parameters<f64>, axis: Vector3<f64>) -> Option<Vec<(Parameter, f64)>> {
     let small = Dual64::new(0.0, 1.0);
     let turn = Matrix3::identity() + axis.cross_matrix().map(|value| small * value);

@@ -10,18 +10,19 @@ use crate::observables::pulsar::timing_model::{TimingModel, TimingParameter, che
 /// The arrival of a pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeasuredArrival {
-    /// When (s since the epoch of the model), the unevaluated sum of two doubles.
+    /// Time of arrival (s since the epoch of the model), the unevaluated sum of two doubles.
     pub time: [f64; 2],
     /// Its standard deviation (s).
     pub sigma: f64,
-    /// Number of the pulse, counted from any one, if it is known; else the turn is the one nearest in the model at the start of the fit.
+    /// Number of the pulse, counted from an arbitrary origin, if it is known; otherwise the nearest turn of the model at the start of
+    /// the fit is used.
     pub number: Option<i64>,
 }
 
 /// The width of a pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeasuredWidth {
-    /// When (s since the epoch of the model).
+    /// Time of the pulse (s since the epoch of the model).
     pub time: f64,
     /// Time from edge to edge (s).
     pub duration: f64,
@@ -29,7 +30,7 @@ pub struct MeasuredWidth {
     pub sigma: f64,
 }
 
-/// What is known of a parameter beforehand: a normal distribution.
+/// Prior for a parameter: a normal distribution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prior {
     /// The parameter.
@@ -40,29 +41,29 @@ pub struct Prior {
     pub sigma: f64,
 }
 
-/// Measurements of the pulses of a star, with independent errors, and what is known of it beforehand.
+/// Measurements of the pulses of a star, with independent errors, and priors.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct TimingData {
     /// Arrival times.
     pub arrivals: Vec<MeasuredArrival>,
     /// Widths.
     pub widths: Vec<MeasuredWidth>,
-    /// What is known beforehand. A parameter that is no unknown has none.
+    /// Priors, which are meant for unknowns only.
     pub priors: Vec<Prior>,
 }
 
 /// Relative error of the derivatives of a timing model: some hundred roundings.
 const DERIVATIVES: f64 = 1e-13;
 
-/// Largest derivative and residual in standard deviations: sums of their squares are doubles.
+/// Largest derivative and residual in standard deviations: sums of their squares remain finite doubles.
 const LARGEST: f64 = 1e150;
 
-/// Rounding of the residual of an arrival time (turns): of the geometry, of the lateness and of the fraction of a turn.
+/// Rounding of the residual of an arrival time (turns): of the geometry, of the timing delay and of the fraction of a turn.
 const ROUNDING: f64 = 1e-14;
 
 impl TimingData {
-    /// The data with every pulse numbered as the model counts: the first arrival that has a number belongs to the turn nearest in the model, and one without a
-    /// number to the turn nearest to it.
+    /// The data with every pulse numbered as in the model: the first numbered arrival is assigned to the nearest turn of the model, which fixes the
+    /// offset; an arrival without a number is assigned to the turn nearest to it.
     ///
     /// # Errors
     /// [`Error::Domain`] for numbers above 9e15 in size; as for [`TimingModel::phase`].
@@ -103,7 +104,7 @@ impl Comparison<TimingModel> for TimingData {
         for arrival in &self.arrivals {
             let phase = model.phase(arrival.time)?;
             let turns = (phase.whole - arrival.number.unwrap_or(phase.whole)) as f64 + phase.fraction;
-            // A pulse that is late has gone past its turn.
+            // A pulse that arrives late has passed its turn.
             residuals.push(-turns / frequency / arrival.sigma);
         }
         for width in &self.widths {
@@ -154,8 +155,8 @@ impl Comparison<TimingModel> for TimingData {
     }
 }
 
-/// The fit of a timing model from a start whose pulses are those of the data to less than half a turn at the first datum, and whose phase is well known over the whole span.
-/// F0 moves in 32 digits, so that it is right however many turns there are.
+/// Fits a timing model from a start whose pulses agree with those of the data to less than half a turn at the first datum, and whose phase is well
+/// known over the whole span. F0 is stepped in 32 digits, so that it is accurate for any number of turns.
 ///
 /// # Errors
 /// As for [`fit`](super::fit).
@@ -188,7 +189,7 @@ pub fn fit_timing(
     least_squares(start, &data.numbered(start)?, unknowns)
 }
 
-/// What timing data tell of unknowns, at a model: uncertainties and correlations.
+/// Constraints of timing data on unknowns, at a model: uncertainties and correlations.
 ///
 /// # Errors
 /// As for [`Fisher::of`].
@@ -204,10 +205,10 @@ pub fn timing_fisher(
     Ok(Fisher::of_jacobian(&data.numbered(model)?.linearised(model, unknowns)?.1, unknowns, model))
 }
 
-/// How far `chi^2` of a fit is from the parabola that its error bars stand for, as [`nonlinearity`](super::nonlinearity) says it.
+/// Departure of `chi^2` of a fit from the parabola that its error bars assume, as in [`nonlinearity`](super::nonlinearity).
 ///
 /// # Errors
-/// A model a standard deviation away that cannot be.
+/// The model a standard deviation away is not valid.
 pub fn timing_nonlinearity(fisher: &Fisher<TimingModel>, data: &TimingData) -> Result<f64, InferenceError> {
     least_squares::nonlinearity(fisher, &data.numbered(&fisher.parameters)?)
 }
@@ -218,7 +219,7 @@ mod tests {
     use crate::inference::{Model, Residuals};
     use TimingParameter::*;
 
-    /// A pulsar that wobbles, of which pulses have widths.
+    /// A wobbling pulsar whose pulses have widths.
     fn star() -> TimingModel {
         let rate = core::f64::consts::TAU / 4e7;
         let star = [
@@ -233,7 +234,7 @@ mod tests {
         TimingModel::new([10.0, 0.0], &star).expect("a model")
     }
 
-    /// Arrivals at the times that the model has, each later by `late` (s).
+    /// Arrivals at the times of the model, each later by `late` (s).
     fn arrivals(model: &TimingModel, numbers: &[i64], late: f64, sigma: f64) -> Vec<MeasuredArrival> {
         let of = |number: &i64| {
             let [time, rest] = model.arrival(*number).expect("a pulse");
@@ -257,7 +258,7 @@ mod tests {
         }
     }
 
-    /// The model less what is measured, in standard deviations: late arrivals and long pulses have negative residuals.
+    /// Residuals are model minus measurement, in standard deviations: late arrivals and long pulses have negative residuals.
     #[test]
     fn residuals_are_the_model_less_the_data() {
         let model = star();
@@ -270,7 +271,8 @@ mod tests {
         assert_eq!(residuals.len(), 6);
     }
 
-    /// Against central differences, by a change that moves the largest residual by a thousandth of a standard deviation.
+    /// Compared with central differences, for a change that moves the largest residual by a thousandth of a standard
+    /// deviation.
     #[test]
     fn derivatives_of_residuals_are_their_differences() {
         let model = star();
@@ -299,7 +301,8 @@ mod tests {
         }
     }
 
-    /// Numbers of the data begin anywhere: the first that has one is that of its turn, and a pulse without a number has that of the turn nearest to it.
+    /// Numbers of the data may begin anywhere: the first numbered pulse gets the number of its turn, and a pulse without a number that of the nearest
+    /// turn.
     #[test]
     fn pulses_are_numbered_as_the_model_counts() {
         let model = star();
@@ -311,11 +314,11 @@ mod tests {
         let data = TimingData { arrivals, ..TimingData::default() };
         let numbers: Vec<_> =
             data.numbered(&model).expect("turns").arrivals.iter().map(|arrival| arrival.number).collect();
-        // The last was counted one too far, which the residuals then show.
+        // The last pulse was numbered one too high, which the residuals then show.
         assert_eq!(numbers, [Some(20), Some(21), Some(25), Some(41)]);
     }
 
-    /// Two measurements of one number, known beforehand too: their weighted mean.
+    /// Two measurements of one number and a prior for it: the result is their weighted mean.
     #[test]
     fn what_is_known_beforehand_counts_as_data() {
         let priors = vec![
@@ -357,7 +360,8 @@ mod tests {
         assert!((enough.sigmas()[0] - 1.0).abs() < 1e-12);
     }
 
-    /// With errors far below rounding, data of the model itself are told to be rounding, and data that are off by a hundred times as much are not.
+    /// With errors far below rounding, data from the model itself are reported as rounding, and data that are off by a hundred times as much are
+    /// not.
     #[test]
     fn residuals_that_are_rounding_are_told() {
         let model = TimingModel::new([300.0, 0.0], &[]).expect("a model");

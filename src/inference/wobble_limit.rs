@@ -1,4 +1,4 @@
-//! How large a wobble can be that arrival times do not show.
+//! Upper limits on a wobble that arrival times do not show.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -10,30 +10,36 @@ use super::{InferenceError, TimingData};
 use crate::error::Error;
 use crate::observables::pulsar::timing_model::{TimingModel, TimingParameter};
 
-/// The wobble of a star by its arrival times, for one period of precession.
+/// The wobble of a star from its arrival times, for one precession period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WobbleLimit {
     /// Rate of the precession (rad/s).
     pub precession_rate: f64,
-    /// Wobble angle of the least `chi^2` (rad).
+    /// Wobble angle at the minimum of `chi^2` (rad).
     pub best: f64,
-    /// By how much `chi^2` is less there than without a wobble. Of two more unknowns: 6 or more in one of twenty periods by chance.
+    /// Reduction of `chi^2` there relative to no wobble. With two extra parameters, values of 6 or more occur by chance at one in
+    /// twenty periods.
     pub gain: f64,
-    /// The wobble that is not exceeded with the probability asked (rad).
+    /// Upper limit on the wobble at the requested probability (rad).
     pub limit: f64,
 }
 
-/// A wobble (rad) that is none: rounding of the initial state.
+/// A wobble (rad) below this counts as none: it is rounding of the initial state.
 const NO_WOBBLE: f64 = 1e-12;
 
-/// The wobble that arrival times allow at each of some rates of precession, of a star that was fitted to them without one, by the `unknowns`: none of them of the wobble or of the torque.
+/// Upper limits on the wobble at each precession rate, for a star that was fitted to the arrival times without a wobble. `unknowns` are the fitted
+/// parameters and must not include those of the wobble or of the torque.
 ///
-/// Residuals of a small wobble are `theta (D_c cos psi_0 + D_s sin psi_0)`, with the derivatives of the phase by the wobble at two phases: `theta cot chi sin psi / (2 pi F0)` by geometry, and the
-/// lateness by the torque. The other unknowns are projected out. The limit is the quantile of the posterior of `theta`, with a flat prior for `theta` and for `psi_0`. Where it is above 0.1 rad the
-/// data do not limit it, and it is infinite.
+/// Residuals of a small wobble are `theta (D_c cos psi_0 + D_s sin psi_0)`, with the derivatives of the phase with respect to the wobble at two
+/// phases: `theta cot chi sin psi / (2 pi F0)` from geometry, plus the timing delay due to the torque. The other unknowns are projected out. The
+/// limit is the quantile of the posterior of `theta`, with a flat prior for `theta` and for `psi_0`. Where it is above 0.1 rad the data do not limit
+/// the wobble, and it is infinite.
 ///
 /// # Errors
-/// [`InferenceError::TooFew`] for no more arrivals than unknowns; as for [`fit_timing`](super::fit_timing) by the model; [`Error::Domain`] for a probability outside 0 to 1, for a fitted model with a wobble, and for unknowns on which residuals without a wobble do not depend: `wobble`, `chi`, `precession_phase`, `precession_rate` and `torque_share`. Where a wobble does not move the pulses, as with `chi` a right angle, the limit is infinite.
+/// [`InferenceError::TooFew`] if there are no more arrivals than unknowns; as for [`fit_timing`](super::fit_timing) for the model; [`Error::Domain`]
+/// for a probability outside 0 to 1, for a fitted model with a wobble, and for unknowns on which residuals without a wobble do not depend: `wobble`,
+/// `chi`, `precession_phase`, `precession_rate` and `torque_share`. If a wobble does not move the pulses, as for `chi` a right angle, the limit is
+/// infinite.
 pub fn wobble_limits(
     fitted: &TimingModel,
     data: &TimingData,
@@ -66,7 +72,7 @@ pub fn wobble_limits(
     let (residuals, jacobian) = data.linearised(&rest, unknowns)?;
     let others = orthonormal(jacobian.matrix);
     let project = |v: DVector<f64>| -> DVector<f64> { &v - &others * (others.transpose() * &v) };
-    // Twice, so that what rounding left goes too.
+    // Twice, to remove what rounding left the first time.
     let residuals = project(project(DVector::from_vec(residuals)));
     precession_rates
         .iter()
@@ -130,7 +136,7 @@ mod tests {
         }
     }
 
-    /// A model of which a limit is asked that it cannot have.
+    /// Limits cannot be computed for such a model.
     #[test]
     fn fitted_wobbles_and_unknowns_of_the_wobble_are_refused() {
         use TimingParameter::{Chi, F0, Phase, PrecessionPhase, PrecessionRate, TorqueShare, Wobble};
@@ -154,7 +160,7 @@ mod tests {
         }
     }
 
-    /// Columns of any length and nearly alike span what they span.
+    /// Columns of any length and nearly parallel keep their span.
     #[test]
     fn a_basis_spans_its_columns() {
         let of =

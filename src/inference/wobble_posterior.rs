@@ -1,4 +1,4 @@
-//! The posterior probability of a wobble whose residuals are in proportion to it.
+//! The posterior probability of a wobble whose residuals are proportional to it.
 
 use core::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
 use core::num::NonZeroUsize;
@@ -9,13 +9,14 @@ use nalgebra::{DMatrix, DVector, Vector2};
 use crate::error::Error;
 use crate::numerics::gauss::unit_rule;
 
-/// Largest wobble (rad) for which residuals are taken as in proportion to it: what is left out is of relative size `theta`.
+/// Largest wobble (rad) for which residuals are taken as proportional to it; the neglected part has the relative size
+/// `theta`.
 const LARGEST: f64 = 0.1;
 
 /// Standard deviations from the best wobble beyond which `exp(-x^2 / 2)` is below the smallest double.
 const REACH: f64 = 38.7;
 
-/// Standard deviations about the best wobble in which every quantile lies that is asked for in doubles.
+/// Number of standard deviations about the best wobble within which every quantile requested as a double lies.
 const QUANTILES: f64 = 9.0;
 
 /// Relative error of a probability.
@@ -24,7 +25,8 @@ const TOLERANCE: f64 = 1e-12;
 /// Nodes of a panel.
 const NODES: NonZeroUsize = NonZeroUsize::new(12).unwrap();
 
-/// What data tell of a small wobble: the posterior of `x = theta (cos psi_0, sin psi_0)` where residuals are linear in it, with a flat prior for the wobble `theta` and its phase `psi_0`.
+/// Constraints of data on a small wobble: the posterior of `x = theta (cos psi_0, sin psi_0)` where residuals are linear in it, with a flat prior for
+/// the wobble `theta` and its phase `psi_0`.
 #[derive(Debug, Clone)]
 pub struct WobblePosterior {
     /// Standard deviations (rad) along the principal axes, the wider one first.
@@ -33,12 +35,13 @@ pub struct WobblePosterior {
     offset: Vector2<f64>,
     /// The best `x` (rad).
     best: Vector2<f64>,
-    /// Gauss' nodes and weights.
+    /// Nodes and weights of Gaussian quadrature.
     rule: Vec<(f64, f64)>,
 }
 
 impl WobblePosterior {
-    /// By `residuals + columns x` in standard deviations: the derivatives by the wobble at the phases 0 and a quarter of a turn, both without what the other unknowns take up.
+    /// From the linear model `residuals + columns x` in standard deviations. The columns are the derivatives with respect to the wobble at the phases
+    /// 0 and a quarter of a turn, both after projecting out the other unknowns.
     ///
     /// # Errors
     /// [`Error::Domain`] for a number that is not finite.
@@ -49,11 +52,11 @@ impl WobblePosterior {
         for number in columns.iter().chain(residuals) {
             Error::ensure(number.is_finite(), "residual or derivative", *number, "finite")?;
         }
-        // Rows of zeros change nothing, and a matrix of the size of one has squares that are numbers.
+        // Rows of zeros change nothing, and a matrix scaled to the size of one has finite squares.
         let (rows, scale) = (residuals.len().max(2), if columns.is_empty() { 0.0 } else { columns.amax() });
         let columns = columns.resize_vertically(rows, 0.0) / if scale > 0.0 { scale } else { 1.0 };
         let residuals = residuals.clone().resize_vertically(rows, 0.0);
-        // Not by products of the columns, which would lose half of the digits of the wider axis.
+        // Products of the columns would lose half of the digits of the wider axis.
         let svd = columns.svd(true, true);
         let (left, right) = (svd.u.expect("asked for"), svd.v_t.expect("asked for"));
         let widths = [1, 0].map(|axis: usize| (svd.singular_values[axis] * scale).recip());
@@ -63,17 +66,18 @@ impl WobblePosterior {
         Ok(Self { widths, offset: offset.into(), best, rule: unit_rule(NODES) })
     }
 
-    /// The wobble of the least `chi^2`, as `theta (cos psi_0, sin psi_0)` (rad); not a number where one of the two is without effect.
+    /// The wobble at the minimum of `chi^2`, as `theta (cos psi_0, sin psi_0)` (rad); NaN if one of the two has no effect.
     pub fn best(&self) -> [f64; 2] {
         self.best.into()
     }
 
-    /// By how much `chi^2` is less there than without a wobble.
+    /// Reduction of `chi^2` there relative to no wobble.
     pub fn gain(&self) -> f64 {
         if self.widths[0].is_finite() { self.offset.norm_squared() } else { 0.0 }
     }
 
-    /// The wobble (rad) that is not exceeded with this probability, to 1e-12 of probability (1e-14 of the standard deviations of the best wobble from zero, if that is more). Infinite above 0.1 rad, where residuals are not linear.
+    /// Upper limit on the wobble (rad) at this probability, accurate to 1e-12 of probability (or to 1e-14 of the distance of the best wobble from
+    /// zero in standard deviations, if that is more). Infinite above 0.1 rad, where residuals are not linear.
     ///
     /// # Errors
     /// [`Error::Domain`] for a probability outside 0 to 1.
@@ -81,7 +85,7 @@ impl WobblePosterior {
         Error::ensure((0.0..1.0).contains(&probability), "confidence", probability, "from 0 to below 1")?;
         let wide = self.widths[0];
         let best = self.best.norm() / wide;
-        // Not a number: an axis without effect.
+        // NaN: an axis has no effect.
         if wide > LARGEST || best.is_nan() || (best - QUANTILES) * wide > LARGEST {
             return Ok(f64::INFINITY);
         }
@@ -89,7 +93,7 @@ impl WobblePosterior {
         let wanted = probability * all;
         let mut ends = [(best - QUANTILES).max(0.0), best + QUANTILES];
         let mut excess = ends.map(|end| self.below(end, Some(all)) - wanted);
-        // The Illinois method: a secant between two ends, with half the excess of an end that stays.
+        // The Illinois method: a secant between two ends, halving the excess of an end that stays.
         let mut last = None;
         while ends[1] - ends[0] > TOLERANCE * ends[1] {
             let middle = (ends[0] * excess[1] - ends[1] * excess[0]) / (excess[1] - excess[0]);
@@ -109,13 +113,15 @@ impl WobblePosterior {
         Ok(if limit <= LARGEST { limit } else { f64::INFINITY })
     }
 
-    /// In proportion to the probability of a wobble below `largest`, in standard deviations of the wider axis.
+    /// Proportional to the probability of a wobble below `largest`, in standard deviations of the wider axis.
     ///
-    /// In standard deviations `x / widths = R (sin phi, cos phi)` the posterior is round and `theta = R g`, `g^2 = sin^2 phi + (fine / wide)^2 cos^2 phi`; `d theta d psi_0` is in proportion to `dR d phi / g`.
-    /// Over `R` of both signs the integral is a sum of error functions. That over `phi`, half a circle, has three sharp places: the finer axis, where `1 / g` has a peak as narrow as the ratio of the
-    /// widths; the direction of the best wobble; and where `largest` and the best `R` meet. Panels end at the first two, and are halved until they resolve all three.
+    /// In standard deviations `x / widths = R (sin phi, cos phi)` the posterior is round and `theta = R g`,
+    /// `g^2 = sin^2 phi + (fine / wide)^2 cos^2 phi`; `d theta d psi_0` is proportional to `dR d phi / g`. Over `R` of both signs the integral is a
+    /// sum of error functions. The integrand over `phi`, half a circle, has three sharp features: the finer axis, where `1 / g` has a peak as narrow
+    /// as the ratio of the widths; the direction of the best wobble; and the place where `largest` and the best `R` meet. Panels end at the first
+    /// two, and are halved until they resolve all three.
     ///
-    /// The error is of the size of [`TOLERANCE`] times `all`, the value for any wobble; without it, times the result.
+    /// The error is of the order of [`TOLERANCE`] times `all`, the value for any wobble; without it, times the result.
     fn below(&self, largest: f64, all: Option<f64>) -> f64 {
         let (ratio, best) = (self.widths[1] / self.widths[0], self.offset.norm());
         let towards = if self.offset.y == 0.0 { FRAC_PI_2 } else { (self.offset.x / self.offset.y).atan() };
@@ -139,7 +145,7 @@ impl WobblePosterior {
             ends.sort_by(f64::total_cmp);
             panels.extend(ends.windows(2).filter(|ends| ends[0] < ends[1]).map(|ends| integral(ends[0], ends[1])));
         }
-        // A direction is known to 1e-16, by which the density changes by `REACH` times `best` as much.
+        // A direction is known to 1e-16, which changes the density by `REACH` times `best` as much.
         let tolerance = TOLERANCE.max(1e-14 * best) * all.unwrap_or_else(|| panels.iter().map(|panel| panel.2).sum());
         let mut total = 0.0;
         while let Some((from, to, whole)) = panels.pop() {
@@ -160,7 +166,7 @@ impl WobblePosterior {
 mod tests {
     use super::*;
 
-    /// With given widths, and a best wobble in these along their axes, which are turned.
+    /// A posterior with given widths and a best wobble in units of these along their axes, which are rotated.
     fn posterior(widths: [f64; 2], offset: [f64; 2], turn: f64) -> WobblePosterior {
         let (sin, cos) = turn.sin_cos();
         let columns =
@@ -172,7 +178,7 @@ mod tests {
         posterior(widths, offset, 0.3).limit(probability).expect("a probability")
     }
 
-    /// Without a pull and with one width the wobble has half a normal distribution; far from zero a normal one.
+    /// With the best wobble at zero and equal widths the wobble has half a normal distribution; far from zero a normal one.
     #[test]
     fn limits_of_known_distributions() {
         let quantiles =
@@ -185,22 +191,24 @@ mod tests {
             );
         }
         let far = posterior([1e-6; 2], [1e3, 2e3], 0.0);
-        // The prior is flat in theta, not over the plane: the density has a factor theta^(-1/2) more, which moves it by 2.2e-10.
+        // The prior is flat in theta, not over the plane: the density has an extra factor theta^(-1/2), which shifts it by
+        // 2.2e-10.
         let expected = 5.0_f64.sqrt() * 1e-3 + 1.644853626951472e-6 - 0.5e-12 / (5.0_f64.sqrt() * 1e-3);
         assert!((far.limit(0.95).unwrap() - expected).abs() < 1e-12, "{far:?} {expected:e}");
         assert!((far.best()[1] / 2e-3 - 1.0).abs() < 1e-14 && (far.gain() / 5e6 - 1.0).abs() < 1e-14, "{far:?}");
-        // At 1e5 standard deviations by the same. The probability is right to 1e-14 of that, 1e-9: over a density of 0.1 that is 1e-8 of a standard deviation.
+        // The same at 1e5 standard deviations. The probability is accurate to 1e-14 of that, 1e-9: over a density of 0.1 that is 1e-8 of a standard
+        // deviation.
         let farther = limit([1e-9; 2], [0.0, 1e5], 0.95) / 1e-9;
         assert!((farther - (1e5 + 1.644853626951472 - 0.5e-5)).abs() < 1e-8, "{farther}");
         assert_eq!(limit([1e-6; 2], [0.0; 2], 0.0), 0.0);
-        // Far above what residuals are in proportion to; and where one axis is not seen.
+        // Far above the range where residuals are proportional to it; and with one axis unconstrained.
         assert_eq!(limit([1e-12; 2], [1e17, 0.0], 0.95), f64::INFINITY);
         let blind = posterior([f64::INFINITY, 1e-6], [0.0; 2], 0.0);
         assert_eq!((blind.limit(0.95).unwrap(), blind.gain()), (f64::INFINITY, 0.0));
         assert!(far.limit(1.0).is_err() && blind.limit(-0.1).is_err());
     }
 
-    /// The best wobble in the plane, and what it gains; none of an axis without effect.
+    /// The best wobble in the plane, and the reduction of `chi^2`; NaN for an axis without effect.
     #[test]
     fn the_best_wobble_is_that_of_least_squares() {
         for turn in [0.0_f64, 0.3, 2.0] {
@@ -216,16 +224,16 @@ mod tests {
             let blind = posterior([f64::INFINITY, 1e-6], [pull, 3.0], 0.0);
             assert!(blind.gain() == 0.0 && blind.best().iter().all(|x| x.is_nan()), "{blind:?}");
         }
-        // Derivatives whose squares are no numbers any more.
+        // Derivatives whose squares overflow.
         let tiny = posterior([1e200, 1e199], [2.0, -7.0], 0.0);
         assert!((tiny.gain() - 53.0).abs() < 1e-12 && (tiny.best()[0] / 2e200 - 1.0).abs() < 1e-14, "{tiny:?}");
-        // One datum says nothing of two numbers.
+        // One datum does not constrain two numbers.
         let one =
             WobblePosterior::new(DMatrix::from_row_slice(1, 2, &[1e3, 3e2]), &DVector::from_element(1, 5.0)).unwrap();
         assert!(one.gain() == 0.0 && one.limit(0.95).unwrap() == f64::INFINITY, "{one:?}");
     }
 
-    /// A small probability to all digits; wide posteriors of which the quantile asked for is below 0.1 rad, and those that are too wide for any.
+    /// A small probability to all digits; wide posteriors whose requested quantile is below 0.1 rad, and those that are too wide for any.
     #[test]
     fn limits_at_the_ends_of_their_range() {
         // Half a normal distribution: probability times sqrt(pi / 2), to its square.
@@ -233,13 +241,14 @@ mod tests {
         assert!((found / (1e-15 * (PI / 2.0).sqrt()) - 1.0).abs() < 1e-9, "{found:e}");
         assert_eq!(limit([0.5; 2], [0.0; 2], 0.01), f64::INFINITY);
         assert!((limit([0.05; 2], [0.0; 2], 0.5) / (0.05 * 0.674489750196082) - 1.0).abs() < 1e-10);
-        // A normal distribution about 0.105 rad, less what the factor theta^(-1/2) moves it by.
+        // A normal distribution about 0.105 rad, minus its shift by the factor theta^(-1/2).
         let found = limit([0.01; 2], [0.0, 10.5], 0.1);
         assert!((found - (0.105 - 0.012815515655446)).abs() < 1e-3 && found < 0.1, "{found}");
         assert_eq!(limit([0.01; 2], [0.0, 10.5], 0.5), f64::INFINITY);
     }
 
-    /// The density of `theta` by its own sum over the phase, of equal steps: exact to rounding once they are finer than the needle.
+    /// The density of `theta` from its own sum over the phase in equal steps: exact to rounding once the steps are finer than the
+    /// narrow width.
     fn by_sums(ratio: f64, offset: [f64; 2], probability: f64) -> f64 {
         let reach = offset[0].hypot(offset[1] * ratio) + 9.0;
         let phases = (10.0 * reach / ratio).max(100.0) as usize;
@@ -251,7 +260,7 @@ mod tests {
             };
             (0..phases).map(term).sum()
         };
-        // Gauss' formula in panels that are narrow where the density is: near zero by the narrow axis.
+        // Gauss' formula in panels that are narrow where the density is narrow: near zero because of the narrow axis.
         let mut ends: Vec<f64> = (0..=70).map(|k| reach * 0.85_f64.powi(70 - k)).collect();
         ends.insert(0, 0.0);
         let rule = unit_rule(NonZeroUsize::new(16).unwrap());
@@ -307,7 +316,7 @@ mod tests {
                         DMatrix::from_fn(rows, 2, |row, column| if row == column { size } else { 0.3 * size });
                     let posterior = WobblePosterior::new(columns, &DVector::repeat(rows, residual)).unwrap();
                     let limit = posterior.limit(0.95).unwrap();
-                    // Two rows that are not alike, with widths from 1.5 / size down, see both axes.
+                    // Two rows that are not alike, with widths from 1.5 / size down, constrain both axes.
                     let seen = rows == 2 && size > 100.0 && residual < 1e-2 * size;
                     assert_eq!(limit.is_finite(), seen, "{rows} {size:e} {residual:e}: {limit:e}");
                 }
@@ -315,7 +324,8 @@ mod tests {
         }
     }
 
-    /// Without a pull the density of `theta` is `exp(-theta^2 / 2) exp(-z) I_0(z)`, `z = theta^2 (wide^2 / fine^2 - 1) / 4`. The quantiles are those of SciPy (`ive`, Gauss' formula in `ln theta`).
+    /// With the best wobble at zero the density of `theta` is `exp(-theta^2 / 2) exp(-z) I_0(z)`, `z = theta^2 (wide^2 / fine^2 - 1) / 4`. The
+    /// quantiles are from SciPy (`ive`, Gauss' formula in `ln theta`).
     #[test]
     fn limits_of_needles_are_quantiles_of_bessel_functions() {
         let quantiles =
@@ -333,7 +343,7 @@ mod tests {
             for offset in [[0.0, 0.0], [3.0, 0.0], [0.0, 50.0], [20.0, 1e3]] {
                 let limits = [0.0, 0.3, 1.234, PI / 2.0].map(|turn| of(turn, offset));
                 let off = |limit: &f64| (limit / limits[0] - 1.0).abs();
-                // The turned axes are known to 1e-16 of the finer width: of the wider one to that over the ratio.
+                // The rotated axes are known to 1e-16 of the finer width; of the wider one to that over the ratio.
                 assert!(limits.iter().all(|limit| off(limit) < 1e-10 + 1e-14 / ratio), "{ratio} {offset:?} {limits:?}");
             }
         }

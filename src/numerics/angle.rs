@@ -1,4 +1,4 @@
-//! Angles up to whole turns.
+//! Angles modulo whole turns.
 //!
 //! ```
 //! use core::f64::consts::TAU;
@@ -14,31 +14,32 @@ use nalgebra::Vector3;
 use crate::numerics::four_lanes::FourLanes;
 use crate::numerics::scalar::Real;
 
-/// The whole turns (rad) nearest to an angle.
+/// The multiple of a whole turn (rad) nearest to an angle.
 pub(crate) fn whole_turns(angle: f64) -> f64 {
     (angle / TAU).round() * TAU
 }
 
-/// The angle less its nearest whole turns: from -pi to pi.
+/// The angle minus the nearest multiple of a whole turn: from -pi to pi.
 pub fn wrapped(angle: f64) -> f64 {
     angle - whole_turns(angle)
 }
 
-/// Angle about a unit vector from one vector to another, in (-pi, pi]. One of the two, at least, is across it.
+/// Angle about a unit vector from one vector to another, in (-pi, pi]. At least one of the two is perpendicular to the unit
+/// vector.
 pub(crate) fn about<S: Real>(axis: &Vector3<S>, from: &Vector3<S>, to: &Vector3<S>) -> S {
     axis.dot(&from.cross(to)).atan2(from.dot(to))
 }
 
-/// Angle between two vectors, in [0, pi]. By the sine too: the cosine of a small angle has lost it.
+/// Angle between two vectors, in [0, pi]. Uses the sine as well, because the cosine of a small angle loses its digits.
 pub(crate) fn between(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
     a.cross(b).norm().atan2(a.dot(b))
 }
 
-/// Added to a double below a quarter of it this rounds it to a whole number, whose last bits are then those of the sum.
+/// Adding this to a double below a quarter of it rounds the double to an integer, whose last bits are then those of the sum.
 pub(crate) const WHOLE: f64 = 6_755_399_441_055_744.0;
 
-/// Sines and cosines of two parts of a turn, at most one in size: the nearest quarter turn is taken off exactly, and the rest, at most an eighth, has short Taylor series.
-/// Each to an ulp of one.
+/// Sines and cosines of two fractions of a turn, at most one in size. The nearest quarter turn is subtracted exactly, and the remainder, at most an
+/// eighth, has a short Taylor series. Each is accurate to an ulp of one.
 #[inline(always)]
 pub(crate) fn sines_of_turns<F: FourLanes>(four: F, turns: [f64; 2]) -> [(f64, f64); 2] {
     let (first, second) = (QuarterTurns::nearest(turns[0]), QuarterTurns::nearest(turns[1]));
@@ -46,7 +47,7 @@ pub(crate) fn sines_of_turns<F: FourLanes>(four: F, turns: [f64; 2]) -> [(f64, f
     let (zero, one) = (four.all(0.0), four.all(1.0));
     let x = four.load(&[a, a, b, b]);
     let square = four.multiply_add(x, x, zero);
-    // 2 3, 4 5, ... and 1 2, 3 4, ...: what is left out is below (pi / 4)^18 / 18! = 2e-18.
+    // 2 3, 4 5, ... and 1 2, 3 4, ...: the truncation error is below (pi / 4)^18 / 18! = 2e-18.
     let divisors = [
         [272.0, 240.0],
         [210.0, 182.0],
@@ -66,9 +67,9 @@ pub(crate) fn sines_of_turns<F: FourLanes>(four: F, turns: [f64; 2]) -> [(f64, f
     [first.added(a * sin_a, cos_a), second.added(b * sin_b, cos_b)]
 }
 
-/// Quarters of a turn, and what is left of an angle (rad).
+/// The number of quarter turns in an angle, and the remainder (rad).
 struct QuarterTurns {
-    /// The last two bits are those of their number.
+    /// The last two bits are those of the number of quarter turns.
     bits: u64,
     rest: f64,
 }
@@ -80,7 +81,8 @@ impl QuarterTurns {
         Self { bits: sum.to_bits(), rest: TAU * (turns - 0.25 * (sum - WHOLE)) }
     }
 
-    /// Sine and cosine of the whole angle from those of the rest, without branches, which random phases would mispredict.
+    /// Sine and cosine of the whole angle from those of the remainder, without branches, which random phases would
+    /// mispredict.
     #[inline(always)]
     fn added(&self, sin: f64, cos: f64) -> (f64, f64) {
         let swap = (self.bits & 1).wrapping_neg();
@@ -111,7 +113,7 @@ mod tests {
             let [(sin, cos), other] = sines_of_turns(plain(), [turns, -turns]);
             assert_eq!(other, (-sin, cos));
             let (expected_sin, expected_cos) = (TAU * turns).sin_cos();
-            // The rounding of the angle itself is in what is expected.
+            // The expected values include the rounding of the angle itself.
             assert!((sin - expected_sin).abs() < 1e-15 && (cos - expected_cos).abs() < 1e-15, "{turns}: {sin} {cos}");
         }
         for (quarters, expected) in [(0.0, (0.0, 1.0)), (1.0, (1.0, 0.0)), (2.0, (0.0, -1.0)), (-1.0, (-1.0, 0.0))] {

@@ -1,11 +1,11 @@
-//! Arithmetic of three-component vectors, so that one code serves every scalar and every set of vector instructions.
+//! Arithmetic of three-component vectors, so that one code serves every scalar type and every vector instruction set.
 
 use nalgebra::Vector3;
 
 use crate::numerics::ring::Ring;
 use crate::numerics::scalar::{Real, Scalar};
 
-/// A vector as it is kept: three components and padding to 32 bytes for doubles, which is one register.
+/// A vector as stored: three components and padding to 32 bytes for doubles, which is one register.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
 pub(crate) struct Padded<S>(pub(crate) [S; 4]);
@@ -26,17 +26,17 @@ impl<S: Scalar> From<Vector3<S>> for Padded<S> {
     }
 }
 
-/// Three-component vectors whose components are multiplied one by one. Cross products are made of the two cyclic
+/// Three-component vectors whose components are multiplied one by one. Cross products are computed from the two cyclic
 /// permutations: `a x b = a.yzx * b.zxy - a.zxy * b.yzx`.
 pub(crate) trait Arithmetic: Copy {
     /// Three components.
     type Vector: Copy;
-    /// A vector with both cyclic permutations at hand.
+    /// A vector with both cyclic permutations available.
     type Permuted: Copy;
-    /// Whether the recurrences may take the tensor `s^IJ` to be diagonal. Turning to its principal axes is exact to
-    /// rounding for real numbers; a dual number may have derivatives by the other components.
+    /// Whether the recurrences may take the tensor `s^IJ` to be diagonal. Rotation to its principal axes is exact to
+    /// rounding for real numbers; a dual number may have derivatives with respect to the other components.
     const PRINCIPAL_FRAME: bool;
-    /// Whether there are many vectors side by side, which fill the registers by themselves.
+    /// Whether there are many vectors side by side, which fill the registers without padding.
     const MANY: bool = false;
 
     fn zero(self) -> Self::Vector;
@@ -45,7 +45,7 @@ pub(crate) trait Arithmetic: Copy {
     fn mul(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
     /// `a * b + c`, rounded once or twice.
     fn mul_add(self, a: Self::Vector, b: Self::Vector, c: Self::Vector) -> Self::Vector;
-    /// A small whole number divides better than its rounded inverse multiplies, for wider numbers.
+    /// For wider numbers, division by a small integer is more accurate than multiplication by its rounded inverse.
     fn divide(self, a: Self::Vector, divisor: f64) -> Self::Vector;
     /// The sum of the three columns multiplied by the components of `v`.
     fn combine(self, columns: &[Self::Vector; 3], v: Self::Vector) -> Self::Vector;
@@ -57,25 +57,25 @@ pub(crate) trait Arithmetic: Copy {
     fn zxy(self, v: Self::Permuted) -> Self::Vector;
 }
 
-/// Vectors of single numbers, which memory holds with padding.
+/// Vectors of single numbers, stored with padding.
 pub(crate) trait LoadStore: Arithmetic {
     /// A component.
     type Scalar: Real;
 
     fn load(self, kept: &Padded<Self::Scalar>) -> Self::Vector;
     fn store(self, v: Self::Vector) -> Padded<Self::Scalar>;
-    /// All components alike.
+    /// A vector with equal components.
     fn splat(self, value: Self::Scalar) -> Self::Vector;
-    /// Largest component in size, by real parts; NaN if one is NaN.
+    /// Largest component in size, by real parts; NaN if one component is NaN.
     fn largest(self, v: Self::Vector) -> f64;
 }
 
-/// Vectors whose components are numbers of their own, made like the one given: any scalar without special instructions, or one number
+/// Vectors whose components are separate numbers of the type of the one given: any scalar without special instructions, or one number
 /// for each of several vectors.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Componentwise<T>(pub(crate) T);
 
-/// Vectors of any scalar.
+/// Vectors of any scalar type.
 pub(crate) fn plain<S: Real>() -> Componentwise<S> {
     Componentwise(S::zero())
 }

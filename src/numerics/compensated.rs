@@ -1,9 +1,9 @@
-//! Sums that keep what each addition loses.
+//! Compensated sums, which keep the rounding error of each addition.
 
 use crate::numerics::arithmetic::Arithmetic;
 use crate::numerics::rounding::two_sum;
 
-/// A time as an unevaluated sum, so that many small steps do not add up their rounding.
+/// A time as an unevaluated sum, so that the rounding errors of many small steps do not accumulate.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Compensated {
     pub(crate) high: f64,
@@ -21,7 +21,7 @@ impl Compensated {
     }
 }
 
-/// Vectors whose additions are compensated: `high` are the vectors, `low` what their last addition lost.
+/// Vectors whose additions are compensated: `high` are the vectors, `low` the rounding errors of their last addition.
 pub(crate) struct CompensatedVectors<A: Arithmetic, const V: usize> {
     pub(crate) high: [A::Vector; V],
     pub(crate) low: [A::Vector; V],

@@ -1,4 +1,4 @@
-//! Sums of two doubles, of some 32 digits: for phases over many turns, and no more than those need.
+//! Sums of two doubles with some 32 digits, for phases over many turns; only the operations that these require are here.
 
 use core::f64::consts::TAU;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -48,7 +48,7 @@ impl DoubleDouble {
         Self::sum(first, second) + Self::from(rest.high / divisor.high)
     }
 
-    /// The square root of a number that is not negative: Newton's step from that of the high part.
+    /// The square root of a non-negative number: one Newton step from the root of the high part.
     pub(crate) fn sqrt(self) -> Self {
         let root = self.high.sqrt();
         if root == 0.0 {
@@ -83,7 +83,7 @@ impl Sub for DoubleDouble {
 }
 
 impl From<[f64; 2]> for DoubleDouble {
-    /// Of an unevaluated sum in any order.
+    /// From an unevaluated sum in any order.
     fn from([a, b]: [f64; 2]) -> Self {
         Self::sum(a, b)
     }
@@ -136,7 +136,7 @@ impl Div<f64> for DoubleDouble {
     }
 }
 
-/// An operation that assigns its result.
+/// The assigning form of an operation.
 macro_rules! assigning {
     ($($name:ident, $function:ident, $operator:tt;)*) => {
         $(impl $name for DoubleDouble {
@@ -179,7 +179,8 @@ impl Scalar for DoubleDouble {
         Self::from(value)
     }
 
-    /// To some 30 digits of a turn. Of the halved angle by series, then `sin 2x = 2 sin x cos x` and `1 - cos 2x = 2 sin^2 x`.
+    /// Accurate to some 30 digits of a turn. A series for the halved angle, then `sin 2x = 2 sin x cos x` and
+    /// `1 - cos 2x = 2 sin^2 x`.
     fn sin_cos(self) -> (Self, Self) {
         let turns = (self.high / TAU).round();
         let small = (self - Self::TAU * turns) * 0.5_f64.powi(HALVINGS);
@@ -209,19 +210,20 @@ impl Real for DoubleDouble {
         Self::sqrt(self)
     }
 
-    /// By the series of `x / 2^8` and squares; of a negative number by a reciprocal, which keeps the digits that the sum of one and nearly minus one would lose.
+    /// By the series for `x / 2^8` and repeated squaring. A negative number uses a reciprocal, which keeps the digits that the sum of one and nearly
+    /// minus one would lose.
     fn exp(self) -> Self {
         if self.high < -745.2 {
             return Self::zero();
         }
         if self.high < 0.0 {
-            // Of half of it, as the products of a number above 1e300 overflow.
+            // The exponential of half the number, since products of a number above 1e300 overflow.
             let root = Self::one() / (self * -0.5).exp();
             return root * root;
         }
         let halvings = (self.high.log2().ceil() as i32 + HALVINGS).max(0);
         let small = self * 0.5_f64.powi(halvings);
-        // exp x - 1, which keeps its digits.
+        // exp x - 1, which is kept to all its digits.
         let mut less_one = Self::zero();
         for k in (1..=TERMS).rev() {
             less_one = (Self::one() + less_one) * small / f64::from(k);
@@ -232,13 +234,13 @@ impl Real for DoubleDouble {
         less_one + Self::one()
     }
 
-    /// Newton's step from the logarithm of the high part.
+    /// One Newton step from the logarithm of the high part.
     fn ln(self) -> Self {
         let near = Self::from(self.high.ln());
         near + (self * (-near).exp() - Self::one())
     }
 
-    /// Newton's step from the angle of the high parts.
+    /// One Newton step from the angle of the high parts.
     fn atan2(self, x: Self) -> Self {
         let near = Self::from(self.high.atan2(x.high));
         let (sin, cos) = near.sin_cos();
@@ -285,7 +287,7 @@ mod tests {
         assert!((of(1.0).sin_cos().0 - of(1.0 + 4.0 * TAU).sin_cos().0).high.abs() < 1e-14);
     }
 
-    /// Against 32 digits by mpmath.
+    /// Compared with 32 digits from mpmath.
     #[test]
     fn exponentials_have_thirty_digits_of_themselves() {
         for (x, high, low) in [
@@ -297,7 +299,7 @@ mod tests {
             let off = DoubleDouble::from(x).exp() / DoubleDouble::sum(high, low) - DoubleDouble::one();
             assert!(off.high.abs() < 2e-30, "{x}: {:e}", off.high);
         }
-        // Down to where it is no number any more.
+        // Down to the underflow to zero.
         for (x, expected) in [(-720.5, 1.2326102893e-313), (-746.0, 0.0), (-1e4, 0.0), (f64::NEG_INFINITY, 0.0)] {
             let found = DoubleDouble::from(x).exp();
             assert!((found.high - expected).abs() <= 1e-8 * expected && found.low.abs() < 1e-320, "{x}: {found:?}");

@@ -2,14 +2,14 @@
 
 use crate::numerics::arithmetic::Componentwise;
 
-/// How four doubles are kept and multiplied.
+/// The storage and multiplication of four doubles.
 pub(crate) trait FourLanes: Copy {
     type Lanes: Copy;
-    /// Whether products are added without being rounded.
+    /// Whether products are added without intermediate rounding.
     const FUSED: bool;
 
     fn load(self, values: &[f64; 4]) -> Self::Lanes;
-    /// All four alike.
+    /// Four equal numbers.
     fn all(self, value: f64) -> Self::Lanes;
     /// `a b + sum`.
     fn multiply_add(self, a: Self::Lanes, b: Self::Lanes, sum: Self::Lanes) -> Self::Lanes;

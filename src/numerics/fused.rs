@@ -1,4 +1,4 @@
-//! Vectors of doubles in one register of four, with fused multiply-add: processors with AVX2.
+//! Vectors of doubles in one register of four, with fused multiply-add, for processors with AVX2.
 
 use pulp::f64x4;
 use pulp::x86::V3;
@@ -6,7 +6,7 @@ use pulp::x86::V3;
 use crate::numerics::arithmetic::{Arithmetic, LoadStore, Padded, largest};
 use crate::numerics::four_lanes::FourLanes;
 
-/// Proof that the processor has the instructions, found at run time.
+/// Proof, obtained at run time, that the processor has the instructions.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Fused(V3);
 
@@ -62,7 +62,7 @@ impl Arithmetic for Fused {
         self.mul_add(*a, x, self.mul_add(*b, y, self.mul(*c, z)))
     }
 
-    /// Both permutations are made once: each takes part in many products.
+    /// Both permutations are computed once, since each is used in many products.
     #[inline(always)]
     fn permuted(self, v: f64x4) -> [f64x4; 2] {
         let v = pulp::cast(v);

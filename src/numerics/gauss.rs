@@ -1,4 +1,4 @@
-//! Gauss' formula for integrals.
+//! Gaussian quadrature.
 
 use core::num::NonZeroUsize;
 
@@ -6,8 +6,8 @@ use gauss_quad::GaussLegendre;
 
 /// Gauss-Legendre nodes and weights on [0, 1], exact for polynomials of degree up to twice their number less one.
 ///
-/// The nodes come from the crate `gauss-quad` (Bogaert's expansions, good to rounding for any number of nodes): it is
-/// maintained, and without its default features it depends on `nalgebra` alone, which is here already.
+/// The nodes come from the crate `gauss-quad` (Bogaert's expansions, accurate to rounding for any number of nodes): it is
+/// maintained, and without its default features it depends only on `nalgebra`, which is used here already.
 pub(crate) fn unit_rule(nodes: NonZeroUsize) -> Vec<(f64, f64)> {
     GaussLegendre::new(nodes).iter().map(|&(x, w)| (0.5 * (x + 1.0), 0.5 * w)).collect()
 }

@@ -1,6 +1,7 @@
-//! The polynomial of fifth degree between two times at which a function and its derivatives are known, and what it proves.
+//! The polynomial of fifth degree between two times at which a function and its derivatives are known, and the bounds that
+//! it proves.
 
-/// A time with a function of it and its first three derivatives.
+/// A time with the value of a function and its first three derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Jet {
     pub(crate) time: f64,
@@ -17,27 +18,28 @@ impl Jet {
     }
 }
 
-/// Hermite's polynomial `H` that has value and first two derivatives of `f` at both ends of a piece of length `h`.
+/// Hermite's polynomial `H` that has the value and the first two derivatives of `f` at both ends of a piece of length `h`.
 ///
-/// With a bound `M` on the sixth derivative, everywhere in the piece (G. Birkhoff and A. Priver, J. Math. Phys. 46, 440 (1967))
+/// With a bound `M` on the sixth derivative everywhere in the piece (G. Birkhoff and A. Priver, J. Math. Phys. 46, 440 (1967))
 ///
 /// ```text
 /// |f - H| <= M h^6 / 46080,   |f' - H'| <= sqrt(5) M h^5 / 30000,   |f'' - H''| <= M h^4 / 1920
 /// ```
 ///
-/// A polynomial lies between the least and the largest of its Bernstein coefficients: those of `H`, `h H'` and `h^2 H''`.
+/// A polynomial lies between the smallest and the largest of its Bernstein coefficients; here these are the coefficients of
+/// `H`, `h H'` and `h^2 H''`.
 pub(crate) struct Quintic {
     value: [f64; 6],
     /// `h f'` and `h^2 f''` at both ends.
     rates: [f64; 2],
     seconds: [f64; 2],
-    /// `M h^6`, and what is allowed for rounding.
+    /// `M h^6`, and the allowance for rounding.
     remainder: f64,
     rounding: f64,
 }
 
 impl Quintic {
-    /// With bounds on the first, second and sixth derivative.
+    /// The polynomial, with bounds on the first, second and sixth derivative.
     #[inline]
     pub(crate) fn between(a: &Jet, b: &Jet, [first, second, sixth]: [f64; 3]) -> Self {
         let h = b.time - a.time;
@@ -61,31 +63,31 @@ impl Quintic {
         [df, df + ddf / 4.0, 5.0 * (self.value[3] - self.value[2]), dg - ddg / 4.0, dg]
     }
 
-    /// Whether the function has one sign, further from zero than `distance`.
+    /// Whether the function keeps one sign and stays farther from zero than `distance`.
     #[inline]
     pub(crate) fn is_clear(&self, distance: f64) -> bool {
         one_sign(&self.value, self.remainder / 46080.0 + self.rounding + distance).is_some()
     }
 
-    /// Whether the function rises or falls all the way.
+    /// Whether the function is monotonic over the whole piece.
     #[inline]
     pub(crate) fn is_monotonic(&self) -> bool {
-        // Each coefficient is a difference of two values, five times.
+        // Each coefficient is a difference of two values, times five.
         one_sign(&self.rate(), self.remainder * 7.46e-5 + 10.0 * self.rounding).is_some()
     }
 
-    /// Whether its graph is convex (`Some(true)`) or concave all the way.
+    /// Whether its graph is convex (`Some(true)`) or concave over the whole piece.
     #[inline]
     pub(crate) fn convexity(&self) -> Option<bool> {
         let ([ddf, ddg], [_, r1, r2, r3, _]) = (self.seconds, self.rate());
         one_sign(&[ddf, 4.0 * (r2 - r1), 4.0 * (r3 - r2), ddg], self.remainder / 1920.0 + 80.0 * self.rounding)
     }
 
-    /// Where the polynomial crosses zero, as a share of the piece; the signs at its ends differ. Close, not exact.
+    /// The zero crossing of the polynomial, as a fraction of the piece; the signs at its ends differ. It is approximate.
     #[inline]
     pub(crate) fn root(&self) -> f64 {
         let [c0, c1, c2, c3, c4, c5] = self.value;
-        // Powers of the share.
+        // Powers of the fraction.
         let [p1, p2] = [5.0 * (c1 - c0), 10.0 * (c0 - 2.0 * c1 + c2)];
         let p3 = 10.0 * (c3 - c0 + 3.0 * (c1 - c2));
         let p4 = 5.0 * (c0 + c4 - 4.0 * (c1 + c3) + 6.0 * c2);
@@ -116,7 +118,7 @@ impl Quintic {
     }
 }
 
-/// The common sign of numbers that are all further from zero than `error`.
+/// The common sign of numbers that are all farther from zero than `error`.
 #[inline]
 fn one_sign(values: &[f64], error: f64) -> Option<bool> {
     let (mut least, mut most) = (values[0], values[0]);
@@ -173,8 +175,8 @@ mod tests {
         assert!(10 * proved > 8 * pieces, "{proved} of {pieces}");
     }
 
-    /// `f = (t (t - h))^3 / 720` has the sixth derivative one and vanishes with two derivatives at both ends, so that `H = 0`; the
-    /// largest `-f`, `|f'|` and `|f''|` are the three bounds.
+    /// `f = (t (t - h))^3 / 720` has the sixth derivative one and vanishes with two derivatives at both ends, so that `H = 0`. The
+    /// largest values of `-f`, `|f'|` and `|f''|` are the three bounds.
     #[test]
     fn remainder_is_neither_less_nor_much_more_than_it_can_be() {
         let h: f64 = 1.5;
@@ -214,11 +216,11 @@ mod tests {
                 }
                 row[0]
             };
-            // Within three hundredths there is a change of sign.
+            // There is a change of sign within three hundredths.
             let around = (at((x - 0.03).max(0.0)), at((x + 0.03).min(1.0)));
             far += usize::from(around.0 * around.1 > 0.0);
         }
-        // Where it is flat, or has two more roots beside.
+        // Where it is flat, or has two more roots nearby.
         assert!(far <= 880, "{far} of 20000");
     }
 }

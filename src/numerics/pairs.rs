@@ -6,8 +6,9 @@ use crate::numerics::arithmetic::{Arithmetic, LoadStore, Padded};
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::rounding::{add_pairs, multiply_pairs, two_sum};
 
-/// Arithmetic of double-double numbers by that of doubles whose `a * b + c` is rounded once, as that of
-/// [`detect_fused`](crate::numerics::fused::detect_fused) is: the same digits as by [`DoubleDouble`], 10 operations for a vector of products in place of 72.
+/// Arithmetic of double-double numbers in terms of doubles whose `a * b + c` is rounded once, as in
+/// [`detect_fused`](crate::numerics::fused::detect_fused): the same digits as with [`DoubleDouble`], with 10 operations for a vector of products in
+/// place of 72.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pairs<A>(pub(crate) A);
 
@@ -158,7 +159,7 @@ mod tests {
     use crate::numerics::arithmetic::plain;
     use crate::numerics::fused::detect_fused;
 
-    /// Sizes from 1e-100 to 1e100, cancelling sums among them.
+    /// Sizes from 1e-100 to 1e100, with cancelling sums among them.
     fn vectors() -> Vec<[DoubleDouble; 3]> {
         let number = |k: usize| {
             let high = (0.7 * k as f64).sin() * 10f64.powi([-100, -3, -1, 0, 1, 3, 100][k % 7]);
@@ -185,7 +186,7 @@ mod tests {
                 same(pairs.sub(wide_a, wide_b), single.sub(a, b));
                 same(pairs.mul(wide_a, wide_b), single.mul(a, b));
                 same(pairs.mul_add(wide_a, wide_b, wide_c), single.mul_add(a, b, c));
-                // All but the rounding of the product cancels.
+                // Everything except the rounding of the product cancels.
                 let product = a.map(|x| -x);
                 let product = [0, 1, 2].map(|i| DoubleDouble::from((product[i] * b[i]).high));
                 same(pairs.mul_add(wide_a, wide_b, load(product)), single.mul_add(a, b, product));

@@ -1,7 +1,7 @@
 //! Roots of polynomials.
 
-/// The root nearest to zero on the way to `end` of a polynomial (coefficients ascending) that is positive at zero; `end` if
-/// rounding hides the change of sign that must be there.
+/// The root nearest to zero, between zero and `end`, of a polynomial (coefficients ascending) that is positive at zero;
+/// `end` if rounding hides the change of sign that must be there.
 pub(crate) fn first_root(p: &[f64], end: f64) -> f64 {
     roots_between(p, end).first().copied().unwrap_or(end)
 }
@@ -18,7 +18,7 @@ fn roots_between(p: &[f64], end: f64) -> Vec<f64> {
     ends.windows(2).filter_map(|w| root_where_monotone(p, &slope, w[0], w[1])).collect()
 }
 
-/// The root between `a` and `b`, if the signs there differ: Newton's method kept inside the shrinking bracket.
+/// The root between `a` and `b`, if the signs there differ: Newton's method restricted to the shrinking bracket.
 fn root_where_monotone(p: &[f64], slope: &[f64], mut a: f64, mut b: f64) -> Option<f64> {
     let at = |p: &[f64], v: f64| p.iter().rev().fold(0.0, |sum, c| sum * v + c);
     let positive_at_a = at(p, a) > 0.0;
@@ -26,7 +26,7 @@ fn root_where_monotone(p: &[f64], slope: &[f64], mut a: f64, mut b: f64) -> Opti
         return None;
     }
     let mut v = 0.5 * (a + b);
-    // Bisection alone needs up to 1100 steps to a root next to zero; Newton's steps leave a few.
+    // Bisection alone needs up to 1100 steps to a root next to zero; with Newton's steps a few suffice.
     for _ in 0..1200 {
         let value = at(p, v);
         if (value > 0.0) == positive_at_a {
@@ -48,7 +48,7 @@ fn root_where_monotone(p: &[f64], slope: &[f64], mut a: f64, mut b: f64) -> Opti
 mod tests {
     use super::*;
 
-    /// To the rounding of the root, however small it is: `(1 - v / r) (2 - v) (3 + v)`.
+    /// Roots are accurate to their own rounding, however small they are: `(1 - v / r) (2 - v) (3 + v)`.
     #[test]
     fn small_roots_have_all_digits() {
         for root in [1e-3, 1e-9, 1e-15, -1e-9, -1e-15, 0.7] {

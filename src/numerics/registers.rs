@@ -3,7 +3,7 @@
 use pulp::x86::{V3, V4};
 use pulp::{f64x4, f64x8};
 
-/// A register of doubles and what is done with it lane by lane.
+/// A register of doubles and its lane-by-lane operations.
 pub(crate) trait Register: Copy {
     /// The register.
     type Lanes: Copy;
@@ -19,7 +19,7 @@ pub(crate) trait Register: Copy {
     fn mul_sub(self, a: Self::Lanes, b: Self::Lanes, c: Self::Lanes) -> Self::Lanes;
     /// `a / b`, and zero where `b` is zero.
     fn div_or_zero(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
-    /// Larger size of two, lane by lane; NaN in `a` stays.
+    /// The larger of two in size, lane by lane; NaN in `a` stays.
     fn larger(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
     fn get(self, a: &Self::Lanes, lane: usize) -> f64;
     fn set(self, a: &mut Self::Lanes, lane: usize, value: f64);
@@ -27,7 +27,7 @@ pub(crate) trait Register: Copy {
     fn run<R>(self, work: impl FnOnce() -> R) -> R;
 }
 
-/// A register of pulp, whose functions have its name for an ending.
+/// A register of pulp, whose functions are named with its name as a suffix.
 macro_rules! register {
     ($token:ident, $lanes:ident, $count:literal, $splat:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $mul_add:ident,
      $mul_sub:ident, $select:ident, $equal:ident, $greater:ident, $abs:ident) => {

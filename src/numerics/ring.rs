@@ -1,15 +1,16 @@
-//! Ring operations, for one number, with or without fused multiply-add, or for one in each lane of the vector registers.
+//! Ring operations: for one number, with or without fused multiply-add, or for one number in each lane of the vector
+//! registers.
 
 use core::ops::{Add, Mul, Sub};
 
 use crate::numerics::scalar::Real;
 
-/// A number, or one number for each of several motions, of which none knows of the others.
+/// A number, or one number for each of several independent motions.
 pub(crate) trait Ring: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     /// Whether it is many numbers.
     const MANY: bool = false;
 
-    /// The constant `value`, of the kind of `self`.
+    /// The constant `value`, in the type of `self`.
     fn like(self, value: f64) -> Self;
     /// `self a + b`, rounded once or twice.
     fn mul_add(self, a: Self, b: Self) -> Self;
@@ -41,7 +42,7 @@ impl<S: Real> Ring for S {
     }
 }
 
-/// A double, one way or the other.
+/// A double in either form.
 pub(crate) trait Double: Ring {
     fn of(value: f64) -> Self;
     fn value(self) -> f64;
@@ -71,7 +72,7 @@ impl Double for FusedDouble {
     }
 }
 
-/// A double whose products and sums are fused: fast only where the code is compiled for processors that have the instruction.
+/// A double with fused products and sums: fast only where the code is compiled for processors that have the instruction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(transparent)]
 pub(crate) struct FusedDouble(pub(crate) f64);

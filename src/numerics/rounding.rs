@@ -1,7 +1,7 @@
-//! Error-free sums and products: what a rounded operation lost, as a number.
+//! Error-free sums and products: the rounding error of an operation, as a number.
 //!
-//! They are identities of real numbers whose second part is zero, so that they act on duals as well: what is lost carries no
-//! derivative beyond rounding.
+//! They are identities of real numbers whose second part is zero, so they also work for duals: the rounding error has no
+//! derivatives beyond rounding.
 //!
 //! Sums and products of double-double numbers are here too, for single numbers and for registers of them.
 
@@ -17,7 +17,8 @@ pub(crate) fn two_sum<S: Copy + Add<Output = S> + Sub<Output = S>>(a: S, b: S) -
     (sum, (a - (sum - b_part)) + (b - b_part))
 }
 
-/// Dekker's sum: exact where `|a| >= |b|`, as where `b` is a small change of `a`. Elsewhere what it loses is below the rounding of `b`.
+/// Dekker's sum: exact where `|a| >= |b|`, for example if `b` is a small change of `a`. Elsewhere its error is below the rounding of
+/// `b`.
 #[inline(always)]
 pub(crate) fn quick_two_sum<S: Copy + Add<Output = S> + Sub<Output = S>>(a: S, b: S) -> (S, S) {
     let sum = a + b;

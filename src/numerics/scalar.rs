@@ -1,6 +1,6 @@
 //! The number types that the equations run on.
 //!
-//! Two bounds, so that a signature says what an equation needs:
+//! There are two bounds, so that a signature states what an equation needs:
 //!
 //! * [`Scalar`] — field operations and the sine and cosine of an angle. Enough for every equation of motion, and for
 //!   exact arithmetic: a prime field implements it with angles coded as rational points of the circle.
@@ -43,7 +43,7 @@ use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssig
 use num_dual::DualNum;
 use num_traits::{One, Zero};
 
-/// A field with angles: what the equations of motion need.
+/// A field with angles, as required by the equations of motion.
 ///
 /// Constants enter as `f64` on the right of a product (`x * 2.0`) or through [`from_f64`](Scalar::from_f64). An exact
 /// field accepts those that are small dyadic rationals, which is all that a `Scalar` kernel uses.
@@ -67,9 +67,9 @@ pub trait Scalar:
     fn sin_cos(self) -> (Self, Self);
 }
 
-/// An ordered field with roots and inverse functions: what stars, closed solutions and propagation need.
+/// An ordered field with roots and inverse functions, as required by stars, closed solutions and propagation.
 ///
-/// Order and branches go by the real part; derivatives never choose a branch.
+/// Order and branches depend on the real part only; derivatives never choose a branch.
 pub trait Real: Scalar {
     /// Whether numbers carry derivatives.
     const HAS_DERIVATIVES: bool;
@@ -89,7 +89,7 @@ pub trait Real: Scalar {
     /// Angle (rad) of the point with ordinate `self` and abscissa `x`, in (-pi, pi].
     fn atan2(self, x: Self) -> Self;
 
-    /// Absolute value by the sign of the real part.
+    /// Absolute value, by the sign of the real part.
     fn abs(self) -> Self {
         if self.re() < 0.0 { -self } else { self }
     }
@@ -141,8 +141,8 @@ where
         if T::NDERIV == 0 {
             return DualNum::atan2(&self, x);
         }
-        // num-dual 0.15 divides by `x`, which loses the higher derivatives where `x` is small. Turned by the angle itself
-        // the point lies on the abscissa, and the quotient is regular all round.
+        // num-dual 0.15 divides by `x`, which loses the higher derivatives where `x` is small. Rotated by the angle itself
+        // the point lies on the abscissa, and the quotient is regular everywhere.
         let angle = Real::re(self).atan2(Real::re(x));
         let (sin, cos) = angle.sin_cos();
         let across = self * cos - x * sin;
@@ -151,13 +151,13 @@ where
     }
 }
 
-/// A value whose type is known to be another one only where its scalar is, as `f64` is; `None` elsewhere.
+/// Converts a value to another type if both are the same concrete type, as for the scalar `f64`; `None` otherwise.
 pub(crate) fn cast<T: 'static, U: 'static>(value: T) -> Option<U> {
     let mut value = Some(value);
     (&mut value as &mut dyn Any).downcast_mut::<Option<U>>()?.take()
 }
 
-/// The same of a reference.
+/// The same for a reference.
 #[inline(always)]
 pub(crate) fn cast_ref<T: 'static, U: 'static>(value: &T) -> Option<&U> {
     (value as &dyn Any).downcast_ref()

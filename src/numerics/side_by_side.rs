@@ -5,8 +5,8 @@ use core::ops::{Add, Mul, Sub};
 use crate::numerics::registers::Register;
 use crate::numerics::ring::Ring;
 
-/// [`COUNT`](Self::COUNT) numbers, in `N` registers whose operations take turns: one starts while the other
-/// waits for its result.
+/// [`COUNT`](Self::COUNT) numbers in `N` registers with interleaved operations: one starts while the other waits for its
+/// result.
 #[derive(Clone, Copy)]
 pub(crate) struct SideBySide<R: Register, const N: usize> {
     register: R,
@@ -14,7 +14,7 @@ pub(crate) struct SideBySide<R: Register, const N: usize> {
 }
 
 impl<R: Register, const N: usize> SideBySide<R, N> {
-    /// How many numbers.
+    /// Number of numbers.
     pub(crate) const COUNT: usize = N * R::COUNT;
 
     /// The same number everywhere.
@@ -33,7 +33,7 @@ impl<R: Register, const N: usize> SideBySide<R, N> {
         self.register.set(&mut self.lanes[place / R::COUNT], place % R::COUNT, value);
     }
 
-    /// The numbers by their places.
+    /// Collects numbers by their positions.
     #[inline(always)]
     pub(crate) fn gather(register: R, value: impl Fn(usize) -> f64) -> Self {
         let mut all = Self::splat(register, 0.0);
@@ -51,7 +51,7 @@ impl<R: Register, const N: usize> SideBySide<R, N> {
 }
 
 impl<R: Register, const N: usize> SideBySide<R, N> {
-    /// Larger size of two, place by place; NaN in `self` stays.
+    /// The larger of two in size, position by position; NaN in `self` stays.
     #[inline(always)]
     pub(crate) fn larger(mut self, other: Self) -> Self {
         for i in 0..N {
@@ -60,13 +60,13 @@ impl<R: Register, const N: usize> SideBySide<R, N> {
         self
     }
 
-    /// The vector of one place.
+    /// The vector at one position.
     #[inline(always)]
     pub(crate) fn take(v: &[Self; 3], place: usize) -> [f64; 3] {
         [v[0].get(place), v[1].get(place), v[2].get(place)]
     }
 
-    /// Replaces the vector of one place.
+    /// Replaces the vector at one position.
     #[inline(always)]
     pub(crate) fn put(v: &mut [Self; 3], place: usize, components: [f64; 3]) {
         for (v, component) in v.iter_mut().zip(components) {

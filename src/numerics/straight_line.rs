@@ -1,4 +1,4 @@
-//! Straight lines by least squares: powers by which one quantity goes with another.
+//! Least-squares slopes, for measuring convergence orders and other power laws.
 //!
 //! # Example
 //!
@@ -26,7 +26,7 @@ pub struct Slope {
 /// Least-squares slope of `y` against `x`.
 ///
 /// # Errors
-/// With fewer than three points there is no scatter to judge the fit by.
+/// With fewer than three points there is no scatter from which to estimate the error.
 pub fn slope(points: &[(f64, f64)]) -> Result<Slope, Error> {
     let n = points.len() as f64;
     Error::ensure(n >= 3.0, "number of points of a slope", n, "three or more")?;
@@ -39,7 +39,7 @@ pub fn slope(points: &[(f64, f64)]) -> Result<Slope, Error> {
     Ok(Slope { value, error: (scatter / (n - 2.0) / sxx).sqrt() })
 }
 
-/// Slope of `log10 y` against `log10 x`, points with `y` below `floor` (rounding) left out.
+/// Slope of `log10 y` against `log10 x`, without the points with `y` below `floor` (rounding).
 ///
 /// # Errors
 /// As for [`slope`].

@@ -1,11 +1,11 @@
-//! Processors for which the vectors of doubles have no instructions of their own.
+//! Fallback for processors without special instructions for vectors of doubles.
 
 use crate::numerics::arithmetic::Componentwise;
 
-/// Arithmetic by components.
+/// Arithmetic component by component.
 pub(crate) type Fused = Componentwise<f64>;
 
-/// There are none.
+/// Always `None`: there are no such instructions.
 pub(crate) fn detect_fused() -> Option<Fused> {
     None
 }

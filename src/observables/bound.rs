@@ -18,7 +18,8 @@ use nalgebra::Vector3;
 use crate::error::Error;
 use crate::numerics::scalar::{Real, Scalar};
 
-/// What an observation says of the spin axis of a star: by how much `cos lambda` changed at most, and in what time.
+/// An observed limit on the motion of the spin axis of a star: the largest change of `cos lambda`, and the time that it
+/// took.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpinAxisDrift<S> {
     /// `I^zz / C`, a time squared; [`inertia_over_c_estimate`](crate::star::estimates::inertia_over_c_estimate).
@@ -34,9 +35,9 @@ pub struct SpinAxisDrift<S> {
 impl<S: Real> SpinAxisDrift<S> {
     /// Bound `|2 s^ZZ - s^XX - s^YY| <~ eta |I^zz Omega^z Delta cos lambda / (C Delta t)|`, Eq. (41) `[est1]`.
     ///
-    /// The paper's estimate takes the factors by which Eq. (38) depends on the directions to be one: `eta` is
-    /// [`eta_from_inclination`] for `beta_0` up to about 1.1 and, says the paper, at most 10. What it is on the average, and
-    /// which number it does not exceed with a given probability, follows from [`eta`](super::eta) and
+    /// The paper's estimate sets the factors by which Eq. (38) depends on the directions to one: `eta` is
+    /// [`eta_from_inclination`] for `beta_0` up to about 1.1 and, according to the paper, at most 10. Its mean, and the
+    /// value that it does not exceed with a given probability, follow from [`eta`](super::eta) and
     /// [`eta_distribution`](super::eta_distribution).
     ///
     /// # Errors
@@ -60,23 +61,23 @@ pub fn eta_from_inclination<S: Real>(beta_0: S) -> Result<S, Error> {
     Ok(S::one() / cb.abs())
 }
 
-/// `I^zz / C = 4 / (Omega^z)^2` of a star that owes its oblateness to its spin alone.
+/// `I^zz / C = 4 / (Omega^z)^2` of a star whose oblateness is entirely due to its spin.
 ///
-/// It is the virial relation `T_rot = 2 C` of a fluid star in equilibrium, which the paper derives from Eq. (14), with
-/// `T_rot = I^zz (Omega^z)^2 / 2`: density profile, radius and the size of the oblateness do not matter. Error: that of
-/// Newtonian gravity, and what is not fluid. Eq. (43) with Eq. (20) `[epf]` gives the same to first order in the oblateness for a
-/// uniform star, whose `eps = (5/4) (Omega^z)^2 R^3 / M` (Eq. (20) leaves the coefficient 5/4 to one). With it and Eq. (5)
-/// `[replace]` the spin axis precesses about `w` with the rate `(alpha_2 / 2) |w|^2 Omega^z cos(beta)` of Nordtvedt. Time
-/// squared, as `spin` (rad per unit of time) is given.
+/// This is the virial relation `T_rot = 2 C` of a fluid star in equilibrium, which the paper derives from Eq. (14), with
+/// `T_rot = I^zz (Omega^z)^2 / 2`: density profile, radius and the size of the oblateness do not matter. The errors are those of
+/// Newtonian gravity and of treating the star as a fluid. Eq. (43) with Eq. (20) `[epf]` gives the same to first order in the
+/// oblateness for a uniform star, whose `eps = (5/4) (Omega^z)^2 R^3 / M` (Eq. (20) sets the coefficient 5/4 to one). With it and
+/// Eq. (5) `[replace]` the spin axis precesses about `w` with the rate `(alpha_2 / 2) |w|^2 Omega^z cos(beta)` of Nordtvedt. The
+/// result is a time squared, with `spin` in rad per unit of time.
 pub fn fluid_inertia_over_c<S: Scalar>(spin: S) -> S {
     S::from_f64(4.0) / (spin * spin)
 }
 
-/// Bound on `|alpha_2|` of the PPN form, from one on `|2 s^ZZ - s^XX - s^YY|` and a given velocity `w` relative to the
+/// Bound on `|alpha_2|` of the PPN form, from a bound on `|2 s^ZZ - s^XX - s^YY|` and a given velocity `w` relative to the
 /// preferred frame (units of c): `|alpha_2| <= combination / (2 |w|^2)`.
 ///
-/// With the replacement (5) `[replace]` the tensor `-alpha_2 w w` is symmetric about `w`, the star precesses about `w`, so
-/// that Z lies along `w` and the combination is `-2 alpha_2 |w|^2`. The bound on it must be taken with `beta_0` the angle
+/// With the replacement (5) `[replace]` the tensor `-alpha_2 w w` is symmetric about `w` and the star precesses about `w`.
+/// So Z lies along `w` and the combination is `-2 alpha_2 |w|^2`. The bound on it must be taken with `beta_0` the angle
 /// between the spin axis and `w`.
 ///
 /// # Errors
@@ -106,7 +107,8 @@ pub fn cos_opening_angle<S: Scalar>(zeta: S, chi: S, width: S) -> S {
 /// If `lambda` of Eq. (37) is taken with `n-hat` of Eq. (46), it is `zeta`, with [`zeta_change_terms`].
 ///
 /// # Errors
-/// [`Error::Domain`] where the denominator vanishes to rounding: there the width is stationary and says nothing of `lambda`.
+/// [`Error::Domain`] where the denominator vanishes to rounding: there the width is stationary and does not constrain
+/// `lambda`.
 pub fn lambda_change<S: Real>(lambda: S, chi: S, width: S, width_change: S) -> Result<S, Error> {
     let [sine, turning] = lambda_change_terms(lambda, chi, width);
     Error::ensure(

@@ -1,16 +1,16 @@
 //! The factor `eta` of Eq. (41) `[est1]`, derived from the averaged motion of the spin axis in single precession.
 //!
-//! The symmetry axis stays within a nutation, of first order in `s`, of the direction `l` of the angular momentum. Over many
-//! turns of the star what is left of the motion is [`secular_axis_rate`]. A direction `n-hat` to the observer then sees
+//! The symmetry axis stays within a nutation, of first order in `s`, of the direction `l` of the angular momentum. Averaged
+//! over many turns of the star, the remaining motion is [`secular_axis_rate`]. A direction `n-hat` to the observer then sees
 //!
 //! ```text
 //! |d cos lambda / dt| = |n-hat . dl/dt|,      eta = C |2 s^ZZ - s^XX - s^YY| / (I^zz Omega^z |n-hat . dl/dt|)
 //! ```
 //!
-//! which makes Eq. (41) an equality. `eta` depends on the direction, on where the axis is and on the shape of the tensor, by
-//! the asymmetry ratio `r = (s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)`: 0 for a tensor symmetric about Z, 1/3 in size for the
-//! most asymmetric one (`s^YY` midway between the others), 1 for one symmetric about X or Y. It does not depend on the size
-//! of `s`. Speeds here are in units of `C |2 s^ZZ - s^XX - s^YY| / (I^zz Omega^z)`.
+//! which makes Eq. (41) an equality. `eta` depends on the direction, on the position of the axis and on the shape of the
+//! tensor, through the asymmetry ratio `r = (s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)`: 0 for a tensor symmetric about Z, 1/3
+//! in size for the most asymmetric one (`s^YY` midway between the others), 1 for one symmetric about X or Y. It does not
+//! depend on the size of `s`. Speeds here are in units of `C |2 s^ZZ - s^XX - s^YY| / (I^zz Omega^z)`.
 //!
 //! ```
 //! use nalgebra::Vector3;
@@ -43,7 +43,7 @@ use crate::solutions::averaged::mean_of_cn2;
 /// `I^zz / C` and the spin `Omega^z`: the torque on a star that spins about its symmetry axis, divided by its angular momentum.
 ///
 /// For `s^XX = s^YY` it is a rotation about Z with the rate `a^(1)` of Eq. (31) `[consdef]`, as in Eq. (32) `[precangvel]`. Error: of
-/// second order in `s`, and the nutation, which averages out.
+/// second order in `s`, plus the nutation, which averages out.
 pub fn secular_axis_rate<S: Scalar>(polar_inertia_over_c: S, spin: S, s: &Matrix3<S>, axis: &Vector3<S>) -> Vector3<S> {
     (s * axis).cross(axis) * (S::from_f64(2.0) / (polar_inertia_over_c * spin))
 }
@@ -78,11 +78,11 @@ pub fn mean_squared_speed<S: Scalar>(asymmetry_ratio: S, beta: S) -> S {
 /// ```
 ///
 /// For `r = 0` it is `sqrt(3) / (sin b cos b)`: the estimate `1 / cos b` of Eq. (40) `[est]` with the factor
-/// `sin b |n-hat . dl/dt| / |dl/dt|` that Eqs. (38), (39) have and the estimate leaves out. At `b = pi/2` it is `sqrt(6) / |r|`.
-/// A single star may see less: quantiles are those of [`EtaDistribution`](super::eta_distribution::EtaDistribution).
+/// `sin b |n-hat . dl/dt| / |dl/dt|` that is in Eqs. (38), (39) but not in the estimate. At `b = pi/2` it is `sqrt(6) / |r|`. A
+/// single star may see a smaller change: for quantiles see [`EtaDistribution`](super::eta_distribution::EtaDistribution).
 ///
 /// # Errors
-/// [`Error::Domain`] where the axis is at rest, to 2.2e-16: on the poles, and for `r = 0` on the equator.
+/// [`Error::Domain`] where the axis is at rest, to 2.2e-16: at the poles, and for `r = 0` on the equator.
 pub fn root_mean_square_eta<S: Real>(asymmetry_ratio: S, beta: S) -> Result<S, Error> {
     let mean = mean_squared_speed(asymmetry_ratio, beta);
     let speed = mean.re().sqrt();
@@ -100,10 +100,10 @@ pub fn root_mean_square_eta<S: Real>(asymmetry_ratio: S, beta: S) -> Result<S, E
 /// ```
 ///
 /// for `h <= s2`, and with `s1` and `s3` interchanged for `h >= s2`. On the separatrix, `h = s2`, it is zero: the axis stays
-/// near the middle principal axis for ever. Error: a few ulp of the terms.
+/// near the middle principal axis forever. Error: a few ulp of the terms.
 pub fn squared_speed_along_motion<S: Real>(asymmetry_ratio: S, alpha: S, beta: S) -> S {
     let half = asymmetry_ratio * 0.5;
-    // With 2 s^ZZ - s^XX - s^YY = 1; a multiple of the unit tensor makes no difference.
+    // With 2 s^ZZ - s^XX - s^YY = 1; adding a multiple of the unit tensor makes no difference.
     let values = [half, -half, S::from_f64(0.5)];
     let ((sa, ca), (sb, cb)) = (alpha.sin_cos(), beta.sin_cos());
     let (x, y) = (sa * sb, ca * sb);
@@ -114,13 +114,13 @@ pub fn squared_speed_along_motion<S: Real>(asymmetry_ratio: S, alpha: S, beta: S
     if margin(order).re() < 0.0 {
         order.reverse();
     }
-    // Of `h` only differences from an eigenvalue are formed, as sums of terms of one sign where that is possible.
+    // Only differences of `h` from an eigenvalue are formed, as sums of terms of one sign where possible.
     let ([first, middle, last], [x2, y2, z2]) = (order.map(|i| values[i]), order.map(|i| squares[i]));
     let from_first = (first - middle) * y2 + (first - last) * z2;
     let from_last = (first - last) * x2 + (middle - last) * y2;
     let from_middle = margin(order);
     let complement = (first - last) * from_middle / ((middle - last) * from_first);
-    // Not above zero on the separatrix; not a number where the axis rests because two eigenvalues are equal.
+    // Zero or negative on the separatrix; NaN where the axis rests because two eigenvalues are equal.
     let mean_cn2 = if complement.re() > 0.0 {
         let parameter = (first - middle) * from_last / ((middle - last) * from_first);
         mean_of_cn2(parameter, complement.sqrt())
@@ -137,7 +137,8 @@ pub fn squared_speed_along_motion<S: Real>(asymmetry_ratio: S, alpha: S, beta: S
 /// alpha = alpha_0 + (r / 2) sin 2 alpha_0,     beta = beta_0 - (r / 2) tan b0 cos 2 alpha_0
 /// ```
 ///
-/// The constant `beta_0` is not the inclination of any moment; near `pi/2`, where `tan b0` is large, not even near one.
+/// The constant `beta_0` is not the inclination at any time; near `pi/2`, where `tan b0` is large, it is not even close to
+/// one.
 pub fn single_precession_start<S: Scalar>(asymmetry_ratio: S, alpha_0: S, beta_0: S) -> (S, S) {
     let ((sa, ca), (sb, cb)) = (alpha_0.sin_cos(), beta_0.sin_cos());
     let half = asymmetry_ratio / 2.0;

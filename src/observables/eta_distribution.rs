@@ -20,19 +20,19 @@ use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 use super::eta::{single_precession_start, squared_speed, squared_speed_along_motion};
 use crate::error::Error;
 
-/// Nodes of the averages over one variable.
+/// Number of nodes of the averages over one variable.
 const NODES: usize = 256;
 
 /// Distribution of `eta = 1 / |n-hat . v|` over directions `n-hat` to the observer, for a spin axis that moves with one of
 /// several mean velocities `v`, each with a weight; units as in [`eta`](super::eta).
 ///
 /// Directions are isotropic, or with [`seen_at`](Self::seen_at) those at a known angle to the spin axis. The component of a
-/// fixed vector in an isotropic direction is uniform, so that `P(eta > x) = sum of w min(1, 1 / (|v| x))`: a sum over the
-/// speeds is left, and quantiles are exact for them. The tail falls as `1/x`: `eta` has no mean, and a bound at the confidence
+/// fixed vector in an isotropic direction is uniform, so that `P(eta > x) = sum of w min(1, 1 / (|v| x))`. Only a sum over the
+/// speeds remains, and quantiles are exact for them. The tail falls as `1/x`: `eta` has no mean, and a bound at the confidence
 /// `q` grows as `1 / (1 - q)`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EtaDistribution {
-    /// `1 / |v|` in descending order with weights that add up to one.
+    /// `1 / |v|` in descending order with weights that sum to one.
     inverse_speeds: Vec<(f64, f64)>,
     directions: Directions,
 }
@@ -40,30 +40,30 @@ pub struct EtaDistribution {
 /// The directions to the observer that are averaged over.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Directions {
-    /// All, isotropic.
+    /// All directions, isotropic.
     Isotropic,
-    /// Those at an angle to the spin axis, given by its sine; every azimuth is as probable.
+    /// Those at an angle to the spin axis, given by its sine; every azimuth is equally probable.
     OnCone { sine: f64 },
 }
 
-/// What is known of the spin axis of a star.
+/// The known properties of the spin axis of a star.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SpinAxis {
-    /// Its inclination `beta` (rad) to Z; the azimuth is random. Random azimuths are those of a random time too: the secular motion keeps areas
-    /// on the sphere of directions.
+    /// Its inclination `beta` (rad) to Z; the azimuth is random. Random azimuths correspond to random times as well, because the secular motion
+    /// preserves areas on the sphere of directions.
     AtInclination(f64),
-    /// The constant `beta_0` (rad) of a single precession by Eq. (34) `[integraltoinitial]` with a random constant `alpha_0` and `A = 0`: the
-    /// inclination itself is then another, [`single_precession_start`].
+    /// The constant `beta_0` (rad) of a single precession by Eq. (34) `[integraltoinitial]` with a random constant `alpha_0` and `A = 0`. The
+    /// inclination itself then differs from it; see [`single_precession_start`].
     AtConstant(f64),
-    /// Nothing: every direction is as probable.
+    /// Nothing is known: every direction is equally probable.
     Unknown,
 }
 
 impl EtaDistribution {
-    /// From speeds and their weights, which need not add up to one.
+    /// From speeds and their weights, which need not sum to one.
     ///
     /// # Errors
-    /// [`Error::Domain`] for a speed or weight that is negative or not finite, and for weights that add up to zero.
+    /// [`Error::Domain`] for a speed or weight that is negative or not finite, and for weights that sum to zero.
     pub fn from_speeds(speeds: impl IntoIterator<Item = (f64, f64)>) -> Result<Self, Error> {
         let mut inverse_speeds = Vec::new();
         for (speed, weight) in speeds {
@@ -80,16 +80,16 @@ impl EtaDistribution {
     }
 
     /// The same spin axes seen in a direction at the known angle `lambda` (rad) to them, or `pi - lambda`; every azimuth of the
-    /// direction about the spin axis is as probable.
+    /// direction about the spin axis is equally probable.
     ///
-    /// The axis moves at right angles to itself: with the azimuth `psi` counted from `v`, `n-hat . v = |v| sin(lambda) cos(psi)`, and
+    /// The axis moves perpendicular to itself: with the azimuth `psi` counted from `v`, `n-hat . v = |v| sin(lambda) cos(psi)`, and
     ///
     /// ```text
     /// P(eta > x) = sum of w (2/pi) asin min(1, 1 / (|v| sin(lambda) x))
     /// ```
     ///
     /// # Errors
-    /// [`Error::Domain`] for an angle whose sine is not above 2.2e-16: a motion across the line of sight is not seen.
+    /// [`Error::Domain`] for an angle whose sine is not above 2.2e-16: a motion across the line of sight is not observable.
     pub fn seen_at(self, lambda: f64) -> Result<Self, Error> {
         let sine = lambda.sin();
         let allowed = "above 2.2e-16 in size: a motion across the line of sight is not seen";
@@ -97,7 +97,7 @@ impl EtaDistribution {
         Ok(Self { directions: Directions::OnCone { sine: sine.abs() }, ..self })
     }
 
-    /// For what is known of the spin axis, and the asymmetry ratio `r`.
+    /// The distribution for the known properties of the spin axis and the asymmetry ratio `r`.
     ///
     /// # Errors
     /// [`Error::Domain`] for numbers that are not finite, and where Eq. (34) gives an inclination outside `[0, pi]` for some `alpha_0`.
@@ -119,12 +119,12 @@ impl EtaDistribution {
                 Self::from_speeds(speeds)
             }
             SpinAxis::Unknown => {
-                // More nodes near the equator and the pole, where the axis is slow. About an axis of symmetry all azimuths are the same, and
-                // do not smooth the corner of the probability at the speed that it asks for.
+                // More nodes near the equator and the pole, where the axis is slow. With an axis of symmetry all azimuths are equivalent and
+                // do not smooth the corner of the probability at their speed.
                 let (latitudes, count) = if asymmetry_ratio == 0.0 { (64 * NODES, 1) } else { (NODES, NODES) };
                 Self::from_speeds(nodes(latitudes).flat_map(|(latitude, node_weight)| {
                     let (beta, band) = (FRAC_PI_2 - latitude, node_weight * latitude.cos());
-                    // The probability has corners, across which other weights gain nothing.
+                    // The probability has corners, across which other weights bring no improvement.
                     let azimuths = midpoints(NODES).map(|u| (FRAC_PI_2 * u * u * (3.0 - 2.0 * u), u * (1.0 - u)));
                     azimuths.take(count).map(move |(alpha, weight)| (speed(alpha, beta), weight * band))
                 }))
@@ -136,7 +136,7 @@ impl EtaDistribution {
     /// [`root_mean_square_eta`](super::eta::root_mean_square_eta).
     pub fn root_mean_square(&self) -> f64 {
         let squared_speed: f64 = self.inverse_speeds.iter().map(|(inverse, weight)| weight / (inverse * inverse)).sum();
-        // Mean of the squared component along the line of sight, over that of the speed: 1/3, or sin^2(lambda) / 2.
+        // Mean of the squared component along the line of sight, divided by that of the speed: 1/3, or sin^2(lambda) / 2.
         match self.directions {
             Directions::Isotropic => (3.0 / squared_speed).sqrt(),
             Directions::OnCone { sine } => (2.0 / squared_speed).sqrt() / sine,
@@ -154,8 +154,8 @@ impl EtaDistribution {
         }
     }
 
-    /// The number that `eta` does not exceed with the given probability: with it Eq. (41) is a bound at that confidence, as
-    /// far as directions go.
+    /// The value that `eta` does not exceed with the given probability. With it Eq. (41) is a bound at that confidence, as
+    /// far as directions are concerned.
     ///
     /// # Errors
     /// [`Error::Domain`] for a probability outside (0, 1).
@@ -163,7 +163,7 @@ impl EtaDistribution {
         Error::ensure(0.0 < probability && probability < 1.0, "probability", probability, "in (0, 1)")?;
         let isotropic = self.isotropic_quantile(probability);
         let Directions::OnCone { sine } = self.directions else { return Ok(isotropic) };
-        // Since (2/pi) asin(u) <= u, eta sin(lambda) is not above the quantile of isotropic directions; below 1 / (fastest speed) it never is.
+        // Since (2/pi) asin(u) <= u, eta sin(lambda) is at most the quantile of isotropic directions; it is never below 1 / (fastest speed).
         let (fastest, _) = self.inverse_speeds[self.inverse_speeds.len() - 1];
         let (mut low, mut high) = (fastest / sine, isotropic / sine);
         while high.is_finite() {
@@ -179,7 +179,7 @@ impl EtaDistribution {
     /// The quantile for isotropic directions, in closed form.
     fn isotropic_quantile(&self, probability: f64) -> f64 {
         // With the k slowest speeds below 1/x: 1 - q = (their weights) + (sum of w/|v| of the others) / x, solved for x. The
-        // sums start from the fast end, where the terms are small.
+        // sums start at the fast end, where the terms are small.
         let mut others = vec![0.0; self.inverse_speeds.len() + 1];
         for (k, &(inverse, weight)) in self.inverse_speeds.iter().enumerate().rev() {
             others[k] = others[k + 1] + inverse * weight;
@@ -193,7 +193,7 @@ impl EtaDistribution {
             }
             slower += weight;
         }
-        // More than a share of 1 - q of the speeds are zero.
+        // More than a fraction 1 - q of the speeds are zero.
         f64::INFINITY
     }
 }
@@ -202,7 +202,7 @@ impl EtaDistribution {
 /// inclination `beta` (rad), and over all later times of each such motion; asymmetry ratio `r`.
 ///
 /// It differs from [`root_mean_square_eta`](super::eta::root_mean_square_eta) since the inclination changes along the motion. Error: some 1e-12,
-/// across the separatrix too.
+/// also across the separatrix.
 pub fn root_mean_square_along_motion(asymmetry_ratio: f64, beta: f64) -> f64 {
     let nodes = about(separatrix(asymmetry_ratio, beta))
         .map(|(alpha, weight)| (squared_speed_along_motion(asymmetry_ratio, alpha, beta), weight));
@@ -210,8 +210,8 @@ pub fn root_mean_square_along_motion(asymmetry_ratio: f64, beta: f64) -> f64 {
     (3.0 * total / sum).sqrt()
 }
 
-/// The azimuth in the first quarter turn where `h = l.(s l)` is the middle principal value, or the nearest end of it: `h` is linear in the
-/// squared sine.
+/// The azimuth in the first quarter turn where `h = l.(s l)` equals the middle principal value, or the nearest end of the quarter turn:
+/// `h` is linear in the squared sine.
 fn separatrix(asymmetry_ratio: f64, beta: f64) -> f64 {
     let half = asymmetry_ratio / 2.0;
     let [_, middle, _] = {
@@ -220,7 +220,7 @@ fn separatrix(asymmetry_ratio: f64, beta: f64) -> f64 {
         values
     };
     let (sin, cos) = beta.sin_cos();
-    // `h` along Y and along X, the middle value subtracted.
+    // `h` along Y and along X, with the middle value subtracted.
     let [along_y, along_x] = [-half, half].map(|value| (value - middle) * sin * sin + (0.5 - middle) * cos * cos);
     let squared_sine = along_y / (along_y - along_x);
     if squared_sine.is_nan() { 0.0 } else { squared_sine.clamp(0.0, 1.0).sqrt().asin() }
@@ -230,8 +230,8 @@ fn midpoints(nodes: usize) -> impl Iterator<Item = f64> {
     (0..nodes).map(move |i| (i as f64 + 0.5) / nodes as f64)
 }
 
-/// Angles with weights over a quarter turn, with more nodes at its ends, where an axis near the equator is slow: the weight vanishes there twice, so that
-/// smooth functions are averaged to the fourth order.
+/// Angles with weights over a quarter turn, with more nodes at its ends, where an axis near the equator is slow. The weight has a double zero there,
+/// so that smooth functions are averaged to the fourth order.
 fn nodes(count: usize) -> impl Iterator<Item = (f64, f64)> {
     midpoints(count).map(|u| (FRAC_PI_2 * u * u * u * (10.0 - 15.0 * u + 6.0 * u * u), (u * (1.0 - u)).powi(2)))
 }
@@ -241,9 +241,9 @@ fn quarter_turn() -> impl Iterator<Item = (f64, f64)> {
     nodes(NODES)
 }
 
-/// The same for a function that is singular at an edge as one over a logarithm: a double exponential of the node, on both sides.
+/// The same for a function with an inverse-logarithmic singularity at an edge: a double exponential of the node, on both sides.
 fn about(edge: f64) -> impl Iterator<Item = (f64, f64)> {
-    // There the weights are below 1e-16 of the largest.
+    // Beyond this the weights are below 1e-16 of the largest.
     const LAST: f64 = 3.2;
     [0.0, FRAC_PI_2].into_iter().flat_map(move |end| {
         midpoints(NODES).map(move |u| {
@@ -276,7 +276,7 @@ mod tests {
         assert_eq!(EtaDistribution::from_speeds([(0.0, 1.0)]).unwrap().quantile(0.5).unwrap(), f64::INFINITY);
     }
 
-    /// `eta |v| sin(lambda) = 1 / |cos psi|` with a uniform `psi`: the quantile is `1 / cos(q pi/2)` turned about.
+    /// `eta |v| sin(lambda) = 1 / |cos psi|` with a uniform `psi`: the quantile `1 / cos(q pi/2)` follows by inversion.
     #[test]
     fn at_a_known_angle_the_azimuth_alone_is_random() {
         for lambda in [0.3_f64, 1.7, -0.3, 4.0] {
@@ -290,7 +290,8 @@ mod tests {
         }
     }
 
-    /// Numbers of ball arithmetic (`verify/oracles/certified/eta.py`): no azimuth on the separatrix, some, and at the end of the quarter turn.
+    /// Reference values from ball arithmetic (`verify/oracles/certified/eta.py`): no azimuth on the separatrix, some, and one at the end of
+    /// the quarter turn.
     #[test]
     fn the_mean_along_the_motion_is_right_across_the_separatrix() {
         for (ratio, beta, expected) in [

@@ -34,7 +34,7 @@ use crate::units::geometrised::{KILOGRAM, METRE};
 /// Metric perturbation `h^{IJ} = -(2 / r) ddot I^{IJ}` at the distance `r`, Eq. (59), geometrised units.
 ///
 /// `ddot I^{IJ}` is the second time derivative of the moment-of-inertia tensor `I = integral rho (x.x delta - x x)`. The mass
-/// quadrupole `integral rho x x` has the opposite sign up to a constant, hence the minus.
+/// quadrupole `integral rho x x` has the opposite sign up to a constant; this is the reason for the minus sign.
 pub fn metric_perturbation<S: Scalar>(distance: S, inertia_acceleration: &Matrix3<S>) -> Matrix3<S> {
     -(inertia_acceleration * (S::from_f64(2.0) / distance))
 }
@@ -65,7 +65,7 @@ pub fn polarizations<S: Scalar>(observer: &Observer<S>, metric_perturbation: &Ma
     Polarizations { plus, cross }
 }
 
-/// `h_+` and `h_x` of a spheroid under the tensor `s^IJ` in a state of rotation, at an observer at the distance one: Eqs. (59), (69)-(71) with
+/// `h_+` and `h_x` of a spheroid under the tensor `s^IJ` in a state of rotation, for an observer at unit distance: Eqs. (59), (69)-(71) with
 /// [`spheroid_inertia_acceleration`].
 pub fn wave_of_state<S: Scalar>(
     spheroid: &RigidSpheroid<S>,
@@ -77,10 +77,10 @@ pub fn wave_of_state<S: Scalar>(
     polarizations(observer, &metric_perturbation(S::one(), &source))
 }
 
-/// The strain that one unit of `h` stands for, `G I^xx / (c^4 t_c^2 r)`, from `I^xx` (kg m^2), `t_c` (s) and the distance
-/// `r` (m): what [`polarizations`] of `I^xx = 1`, `t_c = 1`, `r = 1` are multiplied by.
+/// The strain that corresponds to one unit of `h`, `G I^xx / (c^4 t_c^2 r)`, from `I^xx` (kg m^2), `t_c` (s) and the
+/// distance `r` (m): the factor for [`polarizations`] with `I^xx = 1`, `t_c = 1`, `r = 1`.
 ///
-/// For `ddot I^{IJ}` in J (kg m^2 / s^2) it is the factor with `I^xx = t_c = 1`. As accurate as G, 2.2e-5.
+/// For `ddot I^{IJ}` in J (kg m^2 / s^2) it is the factor with `I^xx = t_c = 1`. Its accuracy is that of G, 2.2e-5.
 ///
 /// ```
 /// use twofold::observables::gravitational_wave::strain_unit;
@@ -91,6 +91,6 @@ pub fn wave_of_state<S: Scalar>(
 /// assert!((unit / 2.6777e-20 - 1.0).abs() < 1e-4);
 /// ```
 pub fn strain_unit<S: Real>(inertia_xx: S, time_unit: S, distance: S) -> S {
-    // The square of METRE in I^xx loses one factor to the distance.
+    // One of the two factors METRE in I^xx cancels with that of the distance.
     inertia_xx * (KILOGRAM * METRE) / (time_unit * time_unit * distance)
 }

@@ -24,7 +24,7 @@ impl<S: Scalar> Observer<S> {
     /// phi-hat   = (-sin p,       cos p,        0    )
     /// ```
     ///
-    /// Regular on the poles too, where `phi_o` only says how the basis is turned.
+    /// Regular at the poles too, where `phi_o` only sets the orientation of the basis.
     pub fn at(theta_o: S, phi_o: S) -> Self {
         let (st, ct) = theta_o.sin_cos();
         let (sp, cp) = phi_o.sin_cos();

@@ -1,7 +1,8 @@
 //! Angle `lambda` between the spin axis `e_z` and a fixed direction, and its change. Eqs. (37)-(39).
 //!
-//! The fixed direction is any: from the star to the observer, as `n-hat` in Eq. (46), or the opposite one, from which the
-//! paper counts `lambda` in Eq. (42) `[dela]`. Reversed, `cos lambda` and all its changes reverse their sign.
+//! The fixed direction is arbitrary: from the star to the observer, as `n-hat` in Eq. (46), or the opposite one, from which
+//! the paper counts `lambda` in Eq. (42) `[dela]`. For the reversed direction `cos lambda` and all its changes reverse their
+//! sign.
 //!
 //! ```
 //! use nalgebra::Vector3;
@@ -27,7 +28,7 @@ use crate::observables::sin_cos_of_sum;
 use crate::solutions::perturbation::Perturbation;
 
 /// `cos lambda = sin t sin b sin(a - p) + cos t cos b` for the direction of colatitude `t = theta_o` and azimuth `p = phi_o`
-/// (rad), Eq. (37); without coordinates it is the product `e_z . direction`.
+/// (rad), Eq. (37); in coordinate-free form it is the product `e_z . direction`.
 pub fn cos_lambda_in_angles<S: Scalar>(theta_o: S, phi_o: S, alpha: S, beta: S) -> S {
     let (st, ct) = theta_o.sin_cos();
     let (sb, cb) = beta.sin_cos();
@@ -62,8 +63,8 @@ pub fn cos_lambda_change<S: Scalar>(
 /// Delta beta  = (A cos phi               + sin b0 C~ sin 2 alpha_0) Delta t
 /// ```
 ///
-/// Error: of second order in the interval. The terms in `A` belong to an oscillation of frequency `omega` and stand for
-/// `omega Delta t << 1` alone, less than one turn of the star; over many turns they average out. Without them (`A = 0`) and
+/// Error: of second order in the interval. The terms in `A` belong to an oscillation of frequency `omega` and are valid only
+/// for `omega Delta t << 1`, less than one turn of the star; over many turns they average out. Without them (`A = 0`) and
 /// for `s^XX = s^YY` the error after any number of turns is of second order in `s`.
 pub fn changes_from_start<S: Scalar>(solution: &Perturbation<S>, interval: S) -> (S, S) {
     let start = solution.at(S::zero());

@@ -20,7 +20,7 @@ use crate::observables::Observer;
 use crate::observables::gravitational_wave::Polarizations;
 use crate::observables::pulsar::position_angle::position_angle;
 
-/// Amplitudes and phase of the wave while `L` is constant, as it nearly is over a turn:
+/// Amplitudes and phase of the wave for constant `L`, which is a good approximation over one turn:
 ///
 /// ```text
 /// h_+' = -(1/2) h_1 sin 2i cos Phi + (1/2) h_2 (1 + cos^2 i) cos 2 Phi
@@ -28,26 +28,26 @@ use crate::observables::pulsar::position_angle::position_angle;
 /// h_1 = 2 (I^zz - I^xx) (|L| / I^xx)^2 sin theta cos theta,    h_2 = 4 (I^zz - I^xx) (|L| / I^xx)^2 sin^2 theta
 /// ```
 ///
-/// at the distance one, with the primed polarizations along the projection of `L` on the sky (M. Zimmermann and E. Szedenits, Phys. Rev. D
+/// at unit distance, with the primed polarizations along the projection of `L` on the sky (M. Zimmermann and E. Szedenits, Phys. Rev. D
 /// 20, 351 (1979)).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaveHarmonics<S> {
-    /// `h_1`, once a turn of the symmetry axis about `L`.
+    /// `h_1`, at once per turn of the symmetry axis about `L`.
     pub once: S,
-    /// `h_2`, twice a turn.
+    /// `h_2`, at twice per turn.
     pub twice: S,
     /// `Phi`, azimuth of the symmetry axis about `L` from that of the observer, in (-pi, pi] (rad).
     pub phase: S,
     /// `i`, angle of `L` to the direction to the observer (rad).
     pub inclination: S,
-    /// Position angle of `L` on the sky (rad), as that of [`position_angle`].
+    /// Position angle of `L` on the sky (rad), defined as for [`position_angle`].
     pub orientation: S,
     /// `theta`, angle of the symmetry axis to `L` (rad): the wobble.
     pub wobble: S,
 }
 
 impl<S: Real> WaveHarmonics<S> {
-    /// Those of a state.
+    /// The harmonics for a state.
     ///
     /// # Errors
     /// [`Error::Domain`] where `L` is along the line of sight.
@@ -61,7 +61,7 @@ impl<S: Real> WaveHarmonics<S> {
         Ok(Self {
             once: scale * sin * cos,
             twice: scale * sin * sin * 2.0,
-            // Both by `l x n`, so that nothing cancels however small the wobble is.
+            // Both from `l x n`, so that nothing cancels however small the wobble is.
             phase: (-o.dot(&across)).atan2(across.dot(&beside)),
             inclination: length(&beside).atan2(l.dot(o)),
             orientation: position_angle(&l, observer)?,
@@ -69,7 +69,7 @@ impl<S: Real> WaveHarmonics<S> {
         })
     }
 
-    /// `h_+` and `h_x` at the observer, at the distance one.
+    /// `h_+` and `h_x` at the observer, at unit distance.
     pub fn polarizations(&self) -> Polarizations<S> {
         let ((s, c), (s_i, c_i)) = (self.phase.sin_cos(), self.inclination.sin_cos());
         let (cos_2, sin_2) = (c * c - s * s, s * c * 2.0);

@@ -1,7 +1,7 @@
-//! A star, its beam and its observer as named numbers, by which derivatives are taken and which are fitted.
+//! A star, its beam and its observer as named parameters, for derivatives and fits.
 //!
-//! A change of one [`Parameter`] holds all other numbers of [`Parameters`] fixed. Of the rate of `gamma` and `Omega^z = gamma' + alpha' cos(beta)`
-//! the struct has one, its [`ThirdRate`]: that one is held when `beta` or `alpha'` change.
+//! A change of one [`Parameter`] keeps all other numbers of [`Parameters`] fixed. Of the rate of `gamma` and `Omega^z = gamma' + alpha' cos(beta)`
+//! the struct stores one, its [`ThirdRate`]: that one stays fixed when `beta` or `alpha'` change.
 //!
 //! # Example
 //!
@@ -34,7 +34,7 @@ use crate::numerics::scalar::{Real, Scalar};
 use crate::observables::Observer;
 use crate::observables::pulsar::Beam;
 
-/// The rate that stays when `beta` or the rate of `alpha` change.
+/// The rate that stays fixed when `beta` or the rate of `alpha` change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ThirdRate<S> {
     /// Rate of `gamma`.
@@ -43,24 +43,25 @@ pub enum ThirdRate<S> {
     Spin(S),
 }
 
-/// Everything that motions and data depend on. Time and length are in any units; those of fits have `I^xx = 1`.
+/// All numbers that motions and data depend on. Time and length may be in any units; in fits `I^xx = 1`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Parameters<S> {
     /// The body.
     pub spheroid: RigidSpheroid<S>,
     /// `s^IJ`.
     pub coefficients: Matrix3<S>,
-    /// Coefficient `b` of the energy `b L.(s L)` of a centrifugal [`bulge`](crate::dynamics::bulge), zero at first; not a parameter.
+    /// Coefficient `b` of the energy `b L.(s L)` of a centrifugal [`bulge`](crate::dynamics::bulge), initially zero; not a
+    /// parameter.
     pub bulge: S,
-    /// By how much `s^IJ` has been multiplied, one at first.
+    /// Factor by which `s^IJ` has been multiplied, initially one.
     pub s_scale: S,
-    /// Euler angles at the start.
+    /// Initial Euler angles.
     pub angles: EulerAngles<S>,
-    /// Rate of `alpha` there.
+    /// Initial rate of `alpha`.
     pub alpha_rate: S,
-    /// Rate of `beta` there.
+    /// Initial rate of `beta`.
     pub beta_rate: S,
-    /// Rate of `gamma` or `Omega^z` there.
+    /// Initial rate of `gamma`, or initial `Omega^z`.
     pub third_rate: ThirdRate<S>,
     /// Angle of the magnetic axis to the symmetry axis, Eq. (45).
     pub chi: S,
@@ -72,15 +73,15 @@ pub struct Parameters<S> {
     pub theta_o: S,
     /// Azimuth of the observer.
     pub phi_o: S,
-    /// By how much the strain has been multiplied, one at first.
+    /// Factor by which the strain has been multiplied, initially one.
     pub strain_scale: S,
-    /// Strain of `h = 1` at `r = 1`, not a parameter.
+    /// Strain that corresponds to `h = 1` at `r = 1`, not a parameter.
     pub strain_unit: f64,
 }
 
 impl<S: Scalar> Parameters<S> {
-    /// A body with its initial values, the rate of `gamma` held. Beam and observer are some until their fields are set: a motion does not depend
-    /// on them.
+    /// A body with its initial values and the rate of `gamma` held fixed. Beam and observer get placeholder values until their fields are set: a
+    /// motion does not depend on them.
     pub fn new(
         spheroid: RigidSpheroid<S>,
         coefficients: Matrix3<S>,
@@ -107,12 +108,12 @@ impl<S: Scalar> Parameters<S> {
         }
     }
 
-    /// The same with `Omega^z` held in place of the rate of `gamma`.
+    /// The same with `Omega^z` held fixed instead of the rate of `gamma`.
     pub fn holding_spin(self) -> Self {
         Self { third_rate: ThirdRate::Spin(self.spin()), ..self }
     }
 
-    /// The same with the rate of `gamma` held.
+    /// The same with the rate of `gamma` held fixed.
     pub(crate) fn holding_gamma_rate(self) -> Self {
         Self { third_rate: ThirdRate::Gamma(self.rates().gamma), ..self }
     }
@@ -125,7 +126,7 @@ impl<S: Scalar> Parameters<S> {
         }
     }
 
-    /// Euler rates at the start.
+    /// Initial Euler rates.
     pub fn rates(&self) -> EulerRates<S> {
         let gamma = match self.third_rate {
             ThirdRate::Gamma(rate) => rate,
@@ -151,7 +152,7 @@ impl<S: Scalar> Parameters<S> {
 }
 
 impl<S: Real> Parameters<S> {
-    /// What moves.
+    /// The `Problem` (body, tensor and initial state) of these parameters.
     ///
     /// # Errors
     /// As for [`Problem::new`].
@@ -187,14 +188,14 @@ impl Parameters<f64> {
         }
     }
 
-    /// The same numbers as functions of one parameter, at the value it has.
+    /// The same numbers as functions of one parameter, at its current value.
     pub fn seeded(&self, parameter: Parameter) -> Parameters<Dual64> {
         let mut seeded = self.lifted();
         parameter.add(&mut seeded, Dual64::new(0.0, 1.0));
         seeded
     }
 
-    /// With some parameters changed.
+    /// The parameters with some of them changed.
     pub fn moved(&self, parameters: &[Parameter], changes: &[f64]) -> Self {
         let mut moved = *self;
         parameters.iter().zip(changes).for_each(|(parameter, change)| parameter.add(&mut moved, *change));
@@ -234,7 +235,7 @@ mod tests {
             let moved = start.moved(&[parameter], &[0.01]);
             let change = moved.values(&[parameter])[0] - start.values(&[parameter])[0];
             assert!((change - 0.01).abs() < 1e-15, "{parameter:?}: {change}");
-            // Of the combinations of s each keeps the two others.
+            // Each of the combinations of s keeps the two others fixed.
             let others = [Parameter::SAxial, Parameter::SAsymmetry, Parameter::STrace];
             for other in others.into_iter().filter(|other| others.contains(&parameter) && *other != parameter) {
                 let change = moved.values(&[other])[0] - start.values(&[other])[0];
@@ -253,7 +254,7 @@ mod tests {
         for (parameter, expected) in by_field {
             assert_eq!(start.moved(&[parameter], &[0.01]), expected, "{parameter:?}");
         }
-        // The tensor is multiplied by what its factor is: 3 / 2.5.
+        // The tensor is multiplied by the ratio of the factors, 3 / 2.5.
         let scaled = start.moved(&[Parameter::SScale], &[0.5]).coefficients;
         assert!((scaled - start.coefficients * 1.2).amax() < 1e-16);
     }
@@ -272,7 +273,7 @@ mod tests {
         assert_eq!(Parameters::new(STAR, Matrix3::zeros(), ANGLES, RATES).strain_unit, 1.0);
     }
 
-    /// Keys are what scenes and commands call them.
+    /// Keys are the names in scenes and commands.
     #[test]
     fn names_are_found_again() {
         let keys = [(Parameter::BetaRate, "beta_rate", "beta'"), (Parameter::S(1, 0), "s_xy", "s^XY")];

@@ -1,26 +1,26 @@
-//! The parameters by which derivatives are taken and which are fitted.
+//! The parameters for derivatives and fits.
 
 use Parameter::*;
 
 use super::{Parameters, ThirdRate};
 use crate::numerics::scalar::Scalar;
 
-/// One number of [`Parameters`], or a combination of some.
+/// One number of [`Parameters`], or a combination of several.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Parameter {
     /// `I^xx`.
     InertiaXx,
     /// `I^zz`.
     InertiaZz,
-    /// Oblateness `eps = (I^zz - I^xx) / I^xx`, by a change of `I^zz`.
+    /// Oblateness `eps = (I^zz - I^xx) / I^xx`, changed through `I^zz`.
     Oblateness,
     /// The constant `C`.
     ConstantC,
     /// The component `s^IJ` for two of the indices 0, 1, 2, in either order. The tensor is symmetric: `s^JI` changes with it.
     S(usize, usize),
-    /// A factor of the whole tensor `s^IJ`.
+    /// A factor multiplying the whole tensor `s^IJ`.
     SScale,
-    /// `2 s^ZZ - s^XX - s^YY`. A change of one of this, the next and the trace keeps the other two.
+    /// `2 s^ZZ - s^XX - s^YY`. A change of this parameter, the next one or the trace keeps the other two fixed.
     SAxial,
     /// `s^XX - s^YY`.
     SAsymmetry,
@@ -38,7 +38,7 @@ pub enum Parameter {
     BetaRate,
     /// Initial rate of `gamma`.
     GammaRate,
-    /// Initial `Omega^z`. The other rates held, a change of it is the same change of the rate of `gamma`.
+    /// Initial `Omega^z`. With the other rates fixed, it changes by the same amount as the rate of `gamma`.
     Spin,
     /// Angle of the magnetic axis to the symmetry axis.
     Chi,
@@ -50,12 +50,12 @@ pub enum Parameter {
     ThetaO,
     /// Azimuth of the observer.
     PhiO,
-    /// A factor of the strain, as `I^xx` over distance is one.
+    /// A factor multiplying the strain, for `I^xx` over distance equal to one.
     Strain,
 }
 
 impl Parameter {
-    /// Those that a motion depends on, each in itself.
+    /// The individual numbers that a motion depends on.
     pub const OF_MOTION: [Self; 15] = [
         InertiaXx,
         InertiaZz,
@@ -74,10 +74,10 @@ impl Parameter {
         GammaRate,
     ];
 
-    /// Those that data depend on beside the motion.
+    /// The parameters that data depend on in addition to those of the motion.
     pub const OF_SIGHT: [Self; 6] = [Chi, Delta, Rho, ThetaO, PhiO, Strain];
 
-    /// Those that can be fitted in units of `I^xx = 1`.
+    /// The parameters that can be fitted in units of `I^xx = 1`.
     pub const FITTED: [Self; 21] = [
         Oblateness,
         Spin,
@@ -102,11 +102,12 @@ impl Parameter {
         Strain,
     ];
 
-    /// Those that the pulses of a beam determine, where the frame is the principal one of `s^IJ`.
+    /// The parameters that the pulses of a beam determine, if the frame is the principal one of `s^IJ`.
     pub const OF_PULSES: [Self; 13] =
         [Oblateness, Spin, SAxial, SAsymmetry, Alpha, Beta, Gamma, AlphaRate, BetaRate, Chi, Rho, ThetaO, PhiO];
 
-    /// Those that the strain determines in the same frame where the distance is known. It depends on no beam and not on `gamma`.
+    /// The parameters that the strain determines in the same frame if the distance is known. It does not depend on the beam or
+    /// on `gamma`.
     pub const OF_STRAIN: [Self; 10] =
         [Oblateness, Spin, SAxial, SAsymmetry, Alpha, Beta, AlphaRate, BetaRate, ThetaO, PhiO];
 
@@ -147,12 +148,12 @@ impl Parameter {
         self.names()[0]
     }
 
-    /// In symbols.
+    /// Mathematical symbol.
     pub fn symbol(self) -> &'static str {
         self.names()[1]
     }
 
-    /// The one of [`FITTED`](Self::FITTED) with a name.
+    /// The parameter of [`FITTED`](Self::FITTED) with a name.
     pub fn named(key: &str) -> Option<Self> {
         Self::FITTED.into_iter().find(|parameter| parameter.key() == key)
     }
@@ -162,7 +163,7 @@ impl Parameter {
         matches!(self, S(..) | SScale | SAxial | SAsymmetry | STrace)
     }
 
-    /// How far its value can be from a known one at all: a radian, the rate of rotation, one.
+    /// Largest possible deviation of its value from a known one: a radian, the rate of rotation, one.
     pub(crate) fn range(self, parameters: &Parameters<f64>) -> f64 {
         match self {
             Spin | GammaRate | AlphaRate | BetaRate => {
@@ -173,7 +174,7 @@ impl Parameter {
         }
     }
 
-    /// Interval that a fit stays within, where there is one.
+    /// Interval that a fit stays within, if there is one.
     pub(crate) fn limits(self) -> (Option<f64>, Option<f64>) {
         use std::f64::consts::PI;
         match self {
@@ -199,7 +200,7 @@ impl Parameter {
         }
     }
 
-    /// The number that it is, if it is no combination of several.
+    /// The number that the parameter refers to, unless it is a combination of several.
     fn number<T: Scalar>(self, parameters: &mut Parameters<T>) -> &mut T {
         let Parameters { spheroid, coefficients: s, angles, .. } = parameters;
         match self {

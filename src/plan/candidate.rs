@@ -1,4 +1,5 @@
-//! Each method before it is used: whether it holds for a scene, how large its error and its work will be.
+//! Predictions for each method before it is used: whether it is applicable to a scene, and how large its error and its work
+//! will be.
 
 use super::{Cost, Method, Output, Request, State, Work};
 use crate::dynamics::Problem;
@@ -9,43 +10,46 @@ use crate::propagation::{AveragedMotion, SymmetricMotion, TaylorForecast, TorusM
 use crate::solutions::averaged::AveragingOrder;
 use crate::solutions::torus::error_of_derivatives;
 
-/// What the predicted error of a method promises of the true one, rounding apart.
+/// How the predicted error of a method relates to the true error, excluding rounding.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Promise {
-    /// It is never above: a bound that is proved.
+    /// A proven upper bound.
     Bound,
-    /// It was above in none of the random motions of its test ([averaged](Method::Averaged): `docs/averaged-solution.md`).
+    /// An estimate: it was exceeded in none of the random motions of its test ([averaged](Method::Averaged):
+    /// `docs/averaged-solution.md`).
     Estimate,
-    /// A goal that the steps are chosen for: this share of random motions of every kind stays below. Most of the others start beside the
-    /// unstable middle axis, whose growth is not foreseen.
+    /// A target for which the steps are chosen: this fraction of random motions of every kind stays below it. Most of the others start
+    /// near the unstable middle axis, whose growth is not predicted.
     Goal(f64),
 }
 
-/// What a method would do.
+/// The predicted performance of a method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prediction {
-    /// Its own error at the end: all but rounding.
+    /// Its truncation error at the end, without rounding.
     pub truncation: f64,
-    /// What that promises.
+    /// How that relates to the true error.
     pub promise: Promise,
-    /// What the motion's [`error_estimate`](crate::propagation::Motion::error_estimate) will take for rounding at the end.
+    /// The rounding error that the motion's [`error_estimate`](crate::propagation::Motion::error_estimate) will report at
+    /// the end.
     pub rounding: f64,
-    /// Order of the series; zero without.
+    /// Order of the series; zero if there is none.
     pub order: usize,
-    /// Work. Turns and events are counted as they typically are; with derivatives, that of all motions that are followed for them.
+    /// Work. Turns and events are counted with typical numbers; with derivatives, it includes all motions that are computed for
+    /// them.
     pub work: Work,
-    /// Heap that the motion takes, in bytes; a growing vector takes up to four times as much in all. Evaluations take none.
+    /// Heap memory of the motion, in bytes; a growing vector takes up to four times as much in total. Evaluations take none.
     pub bytes: f64,
-    /// Time in ns on the [machine](super::MACHINE) of the fit.
+    /// Time in ns on the [machine](super::MACHINE) on which the costs were fitted.
     pub cost: f64,
 }
 
-/// A method, and what it would do or why it cannot.
+/// A method with its prediction, or the reason why it cannot be used.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidate {
     /// The method.
     pub method: Method,
-    /// What it would do.
+    /// Its prediction.
     pub prediction: Result<Prediction, Error>,
 }
 
@@ -82,7 +86,7 @@ struct Forecast {
     rounding: f64,
     order: usize,
     steps: f64,
-    /// Heap beside the steps, in bytes.
+    /// Heap memory in addition to the steps, in bytes.
     table: f64,
 }
 
@@ -95,7 +99,7 @@ impl Forecast {
         let Self { truncation, promise, rounding, order, steps, table } = self;
         let full = state == State::Orientation;
         let vectors = if full { 3.0 } else { 2.0 };
-        // Each step keeps its coefficients, padded to registers, and its start; there is some room to spare.
+        // Each step stores its coefficients, padded to registers, and its start; some room is added.
         let dense_output = if method == Method::Splitting {
             (4.0 + 48.0 * vectors) * steps.min(1e5)
         } else {
@@ -121,7 +125,7 @@ impl Forecast {
     }
 }
 
-/// A closed form for a family of tensors has no derivatives by changes of the tensor that leave the family.
+/// A closed form for a family of tensors has no derivatives with respect to changes of the tensor that leave the family.
 fn refuse_derivatives(request: &Request, why: &'static str) -> Result<(), Error> {
     let by_tensor = request.derivatives.iter().any(|parameter| parameter.is_of_s());
     if by_tensor { Err(Error::Unsupported { what: "derivatives by components of s^IJ", why }) } else { Ok(()) }
@@ -163,10 +167,10 @@ fn symmetric(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Res
         truncation,
         "zero within rounding, for derivatives",
     )?;
-    // The rounding costs more than the motion: only for one that may be used.
+    // Computing the rounding costs more than the motion, so it is done only for a motion that may be used.
     let usable = truncation <= request.tolerance || request.method == Some(Method::Symmetric);
     let rounding = if usable { motion.rounding(elapsed) } else { f64::NAN };
-    // The roots of the quartic are sought with a few short lists, once.
+    // The roots of the quartic are found once, with a few short lists.
     Ok(Forecast { table: 1024.0, ..Forecast::closed(Promise::Bound, truncation, rounding) })
 }
 
@@ -176,7 +180,7 @@ fn averaged(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Resu
     let (mut truncation, rounding) = (motion.mean.truncation(elapsed), motion.mean.rounding(elapsed));
     if !request.derivatives.is_empty() {
         motion.mean.require_derivatives()?;
-        // A derivative by s^IJ has one order less, in its own unit.
+        // A derivative with respect to s^IJ is accurate to one order less, in its own unit.
         truncation /= motion.mean.relative_strength + motion.mean.bulge_strength();
         truncation += error_of_principal_frame_along(principal_frame(problem.coefficients())?.coefficients);
     }
@@ -191,7 +195,7 @@ fn torus(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Result<
         rounding = rounding.max(error_of_derivatives(solution, problem)?);
     }
     let closed = Forecast::closed(Promise::Estimate, solution.truncation(), rounding);
-    // Eight doubles at most for a pair of frequencies, in lists that have grown.
+    // At most eight doubles for a pair of frequencies, in vectors that have grown.
     Ok(Forecast { table: 128.0 * solution.term_counts().iter().sum::<usize>() as f64, ..closed })
 }
 
@@ -204,8 +208,8 @@ fn splitting(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Res
     Ok(Forecast { truncation, promise: Promise::Goal(coverage), rounding, order, steps, table: 0.0 })
 }
 
-/// Share of random motions whose error by Taylor series, rounding apart, stays below the tolerance: none of 10,000 with strong torques was
-/// above, and 0.3 % of 3,000 of every kind (`docs/plans.md`).
+/// Fraction of random motions whose error by Taylor series, excluding rounding, stays below the tolerance: it was exceeded by none of
+/// 10,000 with strong torques, and by 0.3 % of 3,000 of every kind (`docs/plans.md`).
 const TAYLOR_COVERAGE: f64 = 0.99;
 
 fn taylor(problem: &Problem<f64>, request: &Request, state: State, span: (f64, f64)) -> Result<Forecast, Error> {
@@ -225,7 +229,7 @@ fn taylor(problem: &Problem<f64>, request: &Request, state: State, span: (f64, f
     })
 }
 
-/// Evaluations that the outputs of a request need for a rotation by `rotation` rad.
+/// Number of evaluations that the outputs of a request need for a rotation by `rotation` rad.
 pub(super) fn evaluations(request: &Request, rotation: f64) -> f64 {
     use super::Evaluations as E;
     let needs = || request.outputs.iter().map(|output: &Output| output.need().evaluations);
@@ -250,7 +254,7 @@ mod tests {
     use crate::dynamics::fixture::problem;
     use crate::parameters::Parameter;
 
-    /// What a method would do over a span with a tensor of those principal values.
+    /// The prediction for a method over a span with a tensor of those principal values.
     fn forecast(method: Method, s: [f64; 3], span: (f64, f64), derivatives: Vec<Parameter>) -> Candidate {
         let request = Request { derivatives, ..Request::new(&[Output::SymmetryAxis], span, 5, 1e-9) };
         Candidate::of(method, &problem(s), &request, State::Axis, span, 5.0)
@@ -264,7 +268,8 @@ mod tests {
         assert_relative_eq!(value, 0.7 * (2.0 * 14e-4_f64).sqrt(), max_relative = 1e-12);
     }
 
-    /// Only a proof is a bound: those of the averaged motion and of the series on the torus are estimates, whatever their tests found.
+    /// Only a proven bound is called a bound: the averaged motion and the series on the torus have estimates, whatever their tests
+    /// found.
     #[test]
     fn no_estimate_is_called_a_bound() {
         let cases = [
@@ -285,7 +290,8 @@ mod tests {
 
     #[test]
     fn errors_and_work_go_by_the_length_of_the_span_alone() {
-        // Free motion and its error by a torque, a steady motion, two equal eigenvalues and nearly equal ones, a weak violation, and a strong one.
+        // Free motion with its error from a torque, a steady motion, two equal eigenvalues and nearly equal ones, a weak violation, and a strong
+        // one.
         let cases = [
             (Method::Free, [0.0; 3]),
             (Method::Free, [2e-9, 1e-9, -3e-9]),
@@ -300,21 +306,22 @@ mod tests {
         for (method, s) in cases {
             let first = forecast(method, s, (0.0, 7.0), Vec::new()).prediction.unwrap();
             assert_eq!(forecast(method, s, (3.0, 10.0), Vec::new()).prediction, Ok(first), "{method:?}");
-            // Of the elliptic solution the rounding is sampled, at other times on the way back.
+            // The rounding of the elliptic solution is sampled, at different times for a backward motion.
             let back = forecast(method, s, (3.0, -4.0), Vec::new()).prediction.unwrap();
             assert_relative_eq!(back.rounding, first.rounding, max_relative = 0.05);
             assert_eq!(Prediction { rounding: first.rounding, ..back }, first, "{method:?}");
         }
     }
 
-    /// Steady precession has no truncation, and its rounding is not zero.
+    /// Steady precession has no truncation error, and its rounding is not zero.
     #[test]
     fn a_steady_precession_has_rounding_alone() {
         let found = forecast(Method::Steady, [0.0; 3], (0.0, 7.0), Vec::new()).prediction.unwrap();
         assert!(found.truncation == 0.0 && found.rounding > 0.0 && found.rounding < 1e-12, "{found:?}");
     }
 
-    /// A derivative by `s^IJ` is as much less exact as `s` is small, and by what the principal frame turns where two eigenvalues are nearly equal.
+    /// A derivative with respect to `s^IJ` is less accurate in proportion as `s` is small, and by the rotation of the principal frame where two
+    /// eigenvalues are nearly equal.
     #[test]
     fn averaged_derivatives_have_an_error_of_their_own() {
         for s in [[2e-7, 1e-7, -3e-7], [2e-7, 2e-7 - 1e-17, -4e-7]] {
@@ -335,7 +342,7 @@ mod tests {
         assert_relative_eq!(truncation(vec![Parameter::Spin]), expected, max_relative = 1e-6);
     }
 
-    /// Derivatives on a torus lose by how thin it is what values do not.
+    /// On a thin torus derivatives lose accuracy, unlike values.
     #[test]
     fn derivatives_on_a_torus_have_an_error_of_their_own() {
         let problem = problem([0.2, 0.1, -0.3]);
@@ -347,7 +354,7 @@ mod tests {
         let expected = error_of_derivatives(solution.solution(), &problem).unwrap();
         assert!(rounding(7.0, vec![]) < expected, "{expected:e}");
         assert_eq!(rounding(7.0, vec![Parameter::Spin]), expected);
-        // After so long a time the phases are worse than that, of both.
+        // After so long a time the error of the phases is larger, for both.
         assert!(rounding(1e20, vec![]) > expected);
         assert_eq!(rounding(1e20, vec![Parameter::Spin]), rounding(1e20, vec![]));
     }
@@ -367,7 +374,7 @@ mod tests {
         assert_eq!((orientation.axis_evaluations, orientation.orientation_evaluations), (0.0, 5.0));
     }
 
-    /// Counted turns take two states between each pair of samples at least, and samples of their own.
+    /// Counted turns take at least two states between each pair of samples, in addition to the samples.
     #[test]
     fn turns_are_counted_on_two_states_for_each_sample() {
         let request = |count: usize| Request::new(&[Output::EulerAngles], (0.0, 7.0), count, 1e-9);

@@ -2,26 +2,26 @@
 
 use super::{Method, State};
 
-/// The machine on which the costs were measured. On another one they are all larger or smaller by about the same factor,
-/// which does not change the choice.
+/// The machine on which the costs were measured. On another machine all costs change by about the same factor, which does
+/// not affect the choice.
 pub const MACHINE: &str = "one core of an AMD EPYC, opt-level 2";
 
 /// Costs of a method in ns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cost {
-    /// Once.
+    /// Set-up cost.
     pub setup: f64,
-    /// Of each step whose series has `order` terms: `step[0] + step[1] order + step[2] order^2`.
+    /// Cost of each step whose series has `order` terms: `step[0] + step[1] order + step[2] order^2`.
     pub step: [f64; 3],
-    /// Of each evaluation: `evaluation[0] + evaluation[1] order`.
+    /// Cost of each evaluation: `evaluation[0] + evaluation[1] order`.
     pub evaluation: [f64; 2],
 }
 
-/// Of derivatives on the torus by one parameter: once, and of each state.
+/// Cost of derivatives on the torus with respect to one parameter: set-up, and for each state.
 const TORUS_DERIVATIVE: [f64; 2] = [100_000.0, 20_000.0];
 
 impl Cost {
-    /// Costs of a method that carries `state`. From `cargo run -p twofold-tools --bin fit_cost`.
+    /// Costs of a method that carries `state`, from `cargo run -p twofold-tools --bin fit_cost`.
     pub fn of(method: Method, state: State) -> Self {
         let closed = |setup, evaluation| Self { setup, step: [0.0; 3], evaluation: [evaluation, 0.0] };
         match (method, state) {
@@ -44,11 +44,11 @@ impl Cost {
         }
     }
 
-    /// Costs of a method that carries `state` and its derivatives by so many parameters.
+    /// Costs of a method that carries `state` and its derivatives with respect to a number of parameters.
     ///
-    /// By splitting a state beside tangent maps takes 1.4 times the work of a state alone, and each register of four directions 0.6 times that;
-    /// a dual number takes ten times the
-    /// work of a series in vector registers and three times that of a closed form, and goes through it once for each parameter; on the torus it goes through both closed ways
+    /// By splitting, a state with tangent maps takes 1.4 times the work of a state alone, and each register of four directions takes 0.6 times that.
+    /// A dual number takes ten times the work of a series in vector registers and three times that of a closed form, once for each parameter. On the
+    /// torus it goes through both closed orbits once and through a part of them for each state.
     /// once and through a part of them for each state.
     pub(super) fn with_derivatives(method: Method, state: State, count: usize) -> Self {
         let Self { setup, step, evaluation } = Self::of(method, state);
@@ -66,7 +66,7 @@ impl Cost {
         Self { setup: times(setup), step: step.map(times), evaluation: evaluation.map(times) }
     }
 
-    /// Of a whole computation.
+    /// Total cost of a computation.
     pub fn total(&self, order: usize, steps: f64, evaluations: f64) -> f64 {
         let order = order as f64;
         let step = self.step[0] + order * (self.step[1] + order * self.step[2]);
@@ -78,7 +78,8 @@ impl Cost {
 mod tests {
     use super::*;
 
-    /// Splitting by five parameters carries one motion with two registers of tangents, by twenty two motions with five registers.
+    /// Splitting with five parameters carries one motion with two registers of tangents; with twenty, two motions with five
+    /// registers.
     #[test]
     fn derivatives_cost_so_many_times_what_a_state_costs() {
         let factors = [
@@ -106,7 +107,7 @@ mod tests {
         }
     }
 
-    /// On the torus 0.1 ms once and 20 us for each state are added for each parameter.
+    /// On the torus each parameter adds 0.1 ms once and 20 us for each state.
     #[test]
     fn derivatives_on_the_torus_cost_something_beside_the_state() {
         let found = Cost::with_derivatives(Method::Torus, State::Axis, 3);

@@ -1,4 +1,4 @@
-//! The plan: what is computed, by which method, and what is left out.
+//! The plan: what is computed, by which method, and what is skipped.
 
 use super::candidate::evaluations;
 use super::{Candidate, Cost, Evaluations, Method, Output, PlannedMotion, Prediction, Request, State};
@@ -8,42 +8,43 @@ use crate::error::Error;
 use crate::parameters::Parameter;
 use crate::propagation::largest_torque;
 
-/// Rounding above the tolerance is admitted unless another method's is smaller by this factor.
+/// Rounding above the tolerance is accepted unless that of another method is smaller by this factor.
 const FAR_BELOW: f64 = 100.0;
 
-/// Something that a plan does not do.
+/// A quantity that a plan does not compute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Skipped {
-    /// What.
+    /// The skipped quantity.
     pub what: &'static str,
-    /// Why.
+    /// The reason.
     pub why: &'static str,
 }
 
-/// What is computed for a [`Request`].
+/// The computation for a [`Request`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
-    /// Outputs.
+    /// The outputs.
     pub outputs: Vec<Output>,
-    /// State carried: what the outputs need.
+    /// The part of the state that the outputs need.
     pub state: State,
-    /// The method; none where no output needs a motion.
+    /// The method; `None` if no output needs a motion.
     pub method: Option<Method>,
-    /// Whether the method was asked for by name.
+    /// Whether the method was requested by name.
     pub forced: bool,
-    /// From the initial state to the last time that is needed.
+    /// From the initial state to the last time needed.
     pub span: (f64, f64),
-    /// Samples that are evaluated; zero where only events are asked for.
+    /// Number of samples that are evaluated; zero if only events are requested.
     pub samples: usize,
-    /// Parameters by which derivatives are computed.
+    /// Parameters with respect to which derivatives are computed.
     pub derivatives: Vec<Parameter>,
-    /// Truncation error that the motion may have at the end of its span.
+    /// Allowed truncation error of the motion at the end of its span.
     pub tolerance: f64,
-    /// What the method will do; nothing where there is none.
+    /// The prediction for the method; `None` if there is no method.
     pub prediction: Option<Prediction>,
-    /// Every method in the order of [`Method::ALL`], with what it would do or why it cannot; [`Method::Torus`] only where it may be the one that is taken.
+    /// Every method in the order of [`Method::ALL`], with its prediction or the reason why it cannot be used; [`Method::Torus`] only if it may be the
+    /// chosen one.
     pub considered: Vec<Candidate>,
-    /// What is left out.
+    /// The skipped quantities.
     pub skipped: Vec<Skipped>,
 }
 
@@ -75,8 +76,8 @@ impl Plan {
             let problem = problem.with_equatorial_axis();
             let wanted = |method: &Method| request.method.is_none_or(|forced| forced == *method);
             let candidate = |method| Candidate::of(method, &problem, request, state, span, count);
-            // The errors of a series on the torus are known once it is computed: it is tried where it would be the cheapest, or where the others lose
-            // what was asked to rounding.
+            // The errors of a series on the torus are known only once it is computed. It is tried if it would be the cheapest, or if the others lose
+            // the required accuracy to rounding.
             let others = Method::ALL.into_iter().filter(|method| *method != Method::Torus);
             plan.considered = others.filter(wanted).map(candidate).collect();
             let cost = Cost::with_derivatives(Method::Torus, state, request.derivatives.len()).total(0, 0.0, count);
@@ -93,8 +94,8 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Whether a method is foreseen to meet the tolerance by what it leaves out, and by rounding: above the tolerance, rounding must not be a hundred times that
-    /// of another method. Phases after 1e12 turns are in doubles no longer what was asked.
+    /// Whether the method is predicted to meet the tolerance. Its truncation error must be below the tolerance. Its rounding, if above the tolerance,
+    /// must be at most a hundred times that of another method: after 1e12 turns phases in doubles no longer have the required accuracy.
     pub fn admits(&self, prediction: &Prediction) -> bool {
         let meets = |prediction: &Prediction| prediction.truncation <= self.tolerance;
         let predictions = self.considered.iter().filter_map(|candidate| candidate.prediction.as_ref().ok());
@@ -102,7 +103,7 @@ impl Plan {
         meets(prediction) && prediction.rounding <= (FAR_BELOW * least).max(self.tolerance)
     }
 
-    /// The cheapest method that is admitted; of methods asked for, the only one.
+    /// The cheapest admissible method; if one was requested, this one.
     fn choose(&self) -> Result<(Method, Prediction), Error> {
         let mut best: Option<(Method, Prediction)> = None;
         for Candidate { method, prediction } in &self.considered {
@@ -122,7 +123,7 @@ impl Plan {
         best.ok_or_else(|| self.why_none())
     }
 
-    /// What the averaged motion lacks: without it only the Taylor series meets any tolerance.
+    /// The reason why the averaged motion cannot be used: without it only the Taylor series meets any tolerance.
     fn why_none(&self) -> Error {
         let averaged = self.considered.iter().find(|candidate| candidate.method == Method::Averaged);
         match &averaged.expect("considered where no method was asked for").prediction {
@@ -169,10 +170,12 @@ impl Plan {
         skipped
     }
 
-    /// The motion of the plan's problem or, segment by segment, from a later state of it; with or without `e_x`, as the problem has it.
+    /// The motion of the plan's problem or, for a computation in segments, from a later state of it; with or without `e_x`, like the
+    /// problem.
     ///
     /// # Errors
-    /// As for [`Problem::taylor`], or for the closed form chosen; [`Error::Unsupported`] for a problem with `e_x` if the plan carries less.
+    /// As for [`Problem::taylor`], or for the closed form chosen; [`Error::Unsupported`] for a problem with `e_x` if the plan does not
+    /// carry `e_x`.
     pub fn motion<X: RotationState<f64>>(&self, problem: &Problem<f64, X>) -> Result<PlannedMotion<X>, Error> {
         if X::VECTORS == 3 && self.state != State::Orientation {
             return Err(Error::Unsupported { what: "motion with e_x", why: "no output of the plan needs it" });
@@ -181,7 +184,8 @@ impl Plan {
         problem.motion_by(self.method.ok_or(none)?, self.span, self.tolerance)
     }
 
-    /// Whether a time costs the same however many turns lie before it: in closed form, and without events or turns to be counted.
+    /// Whether the cost of a time does not depend on the number of turns before it: in closed form, and without events or turns
+    /// to be counted.
     pub fn costs_the_same_at_any_time(&self) -> bool {
         let counts = |output: &Output| {
             matches!(output.need().evaluations, Evaluations::CountingTurns { .. } | Evaluations::ForEvents { .. })
@@ -190,7 +194,7 @@ impl Plan {
     }
 }
 
-/// Upper estimate of the rate at which directions turn.
+/// Upper estimate of the rotation rate of directions.
 fn turning_rate<X: RotationState<f64>>(problem: &Problem<f64, X>) -> f64 {
     let (spheroid, AxisState { axis, momentum }) = (problem.spheroid(), problem.initial().axis_state());
     let omega = angular_velocity(spheroid, &axis, &momentum).norm();
@@ -247,7 +251,7 @@ mod tests {
         assert_eq!(weak.plan(&free).unwrap().method, Some(Method::Free));
         let derivatives = Request { derivatives: vec![Parameter::Beta], ..free };
         assert!(matches!(weak.plan(&derivatives), Err(Error::Unsupported { .. }) | Err(Error::Domain { .. })));
-        // Free rotation leaves it out, and has it in its bound.
+        // Free rotation neglects it, and includes it in its bound.
         let [free, averaged] =
             [Method::Free, Method::Averaged].map(|method| weak.motion_by(method, (0.0, 50.0), 1e-9).unwrap());
         let off = (free.state(50.0).unwrap().axis - averaged.state(50.0).unwrap().axis).norm();
@@ -263,7 +267,8 @@ mod tests {
         assert_eq!(why, "none of its outputs needs one");
     }
 
-    /// A series on the torus costs more than the averaged motion, and is tried where that loses a hundred times the tolerance to rounding.
+    /// A series on the torus costs more than the averaged motion, and is tried if the averaged motion loses a hundred times the tolerance
+    /// to rounding.
     #[test]
     fn the_torus_is_tried_where_the_cheapest_method_loses_too_much() {
         let weak = problem([2e-9, 1e-9, -3e-9]);
@@ -289,7 +294,7 @@ mod tests {
         assert!(!left_out(Output::EulerAngles) && !left_out(Output::Pulses));
     }
 
-    /// Of a body that is slender and turns about its axis: `L / I^zz`, which is more than `L / I^xx`.
+    /// For a slender body that rotates about its axis: `L / I^zz`, which is more than `L / I^xx`.
     #[test]
     fn directions_turn_at_most_as_fast_as_the_body() {
         let spheroid = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 0.5, constant_c: 0.7 };

@@ -1,4 +1,4 @@
-//! Outputs and their derivatives by named parameters of a scene.
+//! Outputs and their derivatives with respect to named parameters of a scene.
 
 use nalgebra::{DMatrix, Matrix3};
 use num_dual::Dual64;
@@ -17,12 +17,13 @@ use crate::propagation::splitting::require_tangent_maps;
 use crate::propagation::{AveragedMotion, Motion, SymmetricMotion, TorusMotion, UniformMotion};
 use crate::solutions::averaged::AveragingOrder;
 
-/// Functions of the state at one time, for any scalar. How the derivatives of the state are made is not their concern.
+/// Functions of the state at one time, for any scalar type. They do not depend on how the derivatives of the state are
+/// computed.
 pub trait StateFunction {
-    /// How many values there are.
+    /// Number of values.
     fn len(&self) -> usize;
 
-    /// Whether there are none.
+    /// Whether there are no values.
     fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -40,17 +41,19 @@ pub struct Gradient {
     pub jacobians: Vec<DMatrix<f64>>,
 }
 
-/// Values of `outputs` at `times` and their derivatives by the [`derivatives`](Plan::derivatives) of a plan, and by no others.
+/// Values of `outputs` at `times` and their derivatives with respect to exactly the [`derivatives`](Plan::derivatives) of a
+/// plan.
 ///
-/// All goes by the method of the plan. By splitting, one motion with the tangent map of each of its flows gives the derivatives by up to sixteen
-/// parameters at once, and the outputs follow by forward duals: values and derivatives are those of one numerical motion, made for the tolerance
-/// of the plan, relative to the largest derivative. On the torus values are those of the Fourier series, and a forward dual for each parameter goes through one flow of less
-/// than a turn of its angles ([`TorusDerivative`](crate::solutions::torus::TorusDerivative)). By the other methods a forward dual goes through the motion for each parameter; steps of a
-/// series follow from real parts alone, and the error of derivatives through it can be some hundred times that of the motion.
+/// The method of the plan is used throughout. By splitting, one motion with the tangent map of each of its flows gives the derivatives with respect
+/// to up to sixteen parameters at once, and the outputs follow by forward duals. Values and derivatives then belong to one numerical motion, computed
+/// to the tolerance of the plan, relative to the largest derivative. On the torus, values come from the Fourier series, and a forward dual for each
+/// parameter follows one flow of less than a turn of its angles ([`TorusDerivative`](crate::solutions::torus::TorusDerivative)). With the other
+/// methods a forward dual follows the motion for each parameter; steps of a series are chosen from real parts alone, and the error of its derivatives
+/// can be some hundred times that of the motion.
 ///
 /// # Errors
-/// As for the motion; [`Error::Domain`] for times outside its span; [`Error::Unsupported`] for derivatives by splitting on a processor without vectors of four
-/// doubles, for which no plan chooses it.
+/// As for the motion; [`Error::Domain`] for times outside its span; [`Error::Unsupported`] for derivatives by splitting on a processor without
+/// vectors of four doubles, for which no plan chooses splitting.
 pub fn gradient(
     plan: &Plan,
     start: &Parameters<f64>,
@@ -61,8 +64,8 @@ pub fn gradient(
     gradient_in_parts(plan, start, outputs, &in_parts)
 }
 
-/// As [`gradient`], at times that are sums of two doubles. The averaged motion and that on the torus use both: after 1e10 turns a double does not hold where in its
-/// turn a body is. Other motions take the sum.
+/// As [`gradient`], at times that are sums of two doubles. The averaged motion and the motion on the torus use both: after 1e10 turns a double does
+/// not resolve the phase of a body within its turn. Other motions use the sum.
 ///
 /// # Errors
 /// As for [`gradient`].
@@ -119,7 +122,7 @@ pub(crate) fn gradient_in_parts(
         }
     }
     if plan.method == Some(Method::Averaged) {
-        // Derivatives take nearly equal eigenvalues for equal: values do not.
+        // Derivatives treat nearly equal eigenvalues as equal; values do not.
         found.values = values(plan, start, outputs, times)?;
     }
     Ok(found)
@@ -185,7 +188,7 @@ fn states_by_splitting(_: &Plan, _: &[Problem<Dual64>], _: &[f64]) -> Result<Vec
 
 type StateAt<'a> = Box<dyn Fn([f64; 2]) -> Result<BodyState<Dual64>, Error> + 'a>;
 
-/// The motion of a plan for duals, by any method but splitting and that on the torus.
+/// The motion of a plan for duals, by any method except splitting and the series on the torus.
 fn seeded_motion(plan: &Plan, problem: &Problem<Dual64>) -> Result<StateAt<'static>, Error> {
     fn states(motion: impl Motion<Dual64> + 'static) -> StateAt<'static> {
         Box::new(move |t| Ok(BodyState::from_vectors(motion.state_in_parts(t)?.vectors())))
@@ -214,7 +217,7 @@ mod tests {
     use crate::solutions::perturbation::Precession;
     use crate::solutions::steady::steady_precession_rate;
 
-    /// The first of the components of `n`.
+    /// The first components of `n`, as many as the number says.
     struct Components(usize);
 
     impl StateFunction for Components {
@@ -243,8 +246,8 @@ mod tests {
         assert_eq!([0, 1, 2].map(|count| Components(count).is_empty()), [true, false, false]);
     }
 
-    /// Whether it was asked for or chosen, with and without derivatives: the values are those of the motion of that name, to the last bit where
-    /// it is the same motion (that with tangent maps has other steps).
+    /// Whether the method was requested or chosen, with and without derivatives: the values are those of the motion of that name, to the last
+    /// bit if it is the same motion (the one with tangent maps has other steps).
     #[test]
     fn values_and_derivatives_go_by_the_method_of_the_plan() {
         let start = start([0.2, 0.1, -0.3]);
@@ -261,7 +264,7 @@ mod tests {
                 let found = by(method, derivatives).unwrap().values;
                 for (row, t) in times.into_iter().enumerate() {
                     let off = (found.row(row).transpose() - motion.axis_state(t).unwrap().axis).amax();
-                    // Duals take the series without vectors of doubles: other steps of the same accuracy.
+                    // Duals compute the series without vectors of doubles: different steps of the same accuracy.
                     assert!(off <= if derivatives { 1e-6 } else { 0.0 }, "{method:?}, {derivatives}: {off}");
                 }
             }
@@ -272,7 +275,8 @@ mod tests {
         }
     }
 
-    /// A plan that may choose does not say Taylor and use splitting. Over long spans derivatives are those of the torus.
+    /// A plan that is free to choose does not say Taylor and then use splitting. Over long spans derivatives come from the
+    /// torus.
     #[test]
     fn derivatives_are_planned_by_what_makes_them() {
         let start = start([0.2, 0.1, -0.3]);
@@ -289,7 +293,7 @@ mod tests {
         }
     }
 
-    /// Both parts of a time count: after 1e15 t_c one double does not tell where in its turn a body is.
+    /// Both parts of a time count: after 1e15 t_c one double does not resolve the phase of a body within its turn.
     #[test]
     fn derivatives_on_the_torus_are_at_both_parts_of_a_time() {
         let start = start([0.2, 0.1, -0.3]);
@@ -305,7 +309,7 @@ mod tests {
         assert_eq!(values, a.values);
     }
 
-    /// Steady precession about the axis of a symmetric tensor is no free rotation.
+    /// Steady precession about the axis of a symmetric tensor is not a free rotation.
     #[test]
     fn values_of_a_steady_precession_are_those_of_its_motion() {
         let mut start = start([0.2, 0.2, -0.4]);
@@ -336,7 +340,7 @@ mod tests {
         }
     }
 
-    /// Derivatives of the averaged motion take eigenvalues for equal that are nearly so.
+    /// Derivatives of the averaged motion treat nearly equal eigenvalues as equal.
     #[test]
     fn values_of_the_mean_motion_are_those_without_derivatives() {
         let start = start([2e-6, -1e-6 + 1.2e-14, -1e-6 - 1.2e-14]);

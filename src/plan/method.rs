@@ -1,21 +1,22 @@
-//! The methods that a motion can be computed by.
+//! The methods of computing a motion.
 
 use crate::propagation::splitting::TANGENTS_AT_ONCE;
 
-/// A way to compute a motion.
+/// A method of computing a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Method {
-    /// Free rotation in closed form, the torque left out. Exact for isotropic `s^IJ`; otherwise with a rigorous bound.
+    /// Free rotation in closed form, without the torque. Exact for isotropic `s^IJ`; otherwise with a rigorous bound.
     Free,
     /// Steady precession in closed form, Eq. (26) `[sol1]`, or a body whose axis rests.
     Steady,
     /// Elliptic functions for two equal eigenvalues of `s^IJ`.
     Symmetric,
-    /// The averaged motion to second order in `s^IJ`, for bodies that turn fast against the torque.
+    /// The averaged motion to second order in `s^IJ`, for bodies whose rotation is fast compared with the effect of the
+    /// torque.
     Averaged,
     /// Fourier series on the invariant torus of the motion, for any scene off the separatrix.
     Torus,
-    /// A splitting scheme and a step that suit the tolerance.
+    /// A splitting scheme and a step, both chosen for the tolerance.
     Splitting,
     /// Taylor series with adaptive steps and dense output.
     Taylor,
@@ -39,7 +40,7 @@ impl Method {
         }
     }
 
-    /// What it is, in a few words.
+    /// Short description.
     pub fn description(self) -> &'static str {
         match self {
             Self::Free => "free rotation in closed form",
@@ -57,19 +58,19 @@ impl Method {
         Self::ALL.into_iter().find(|method| method.name() == name)
     }
 
-    /// Motions that are followed for derivatives by so many parameters: a dual number for each, but one motion with tangent maps for
-    /// every sixteen by splitting. One without derivatives.
+    /// Number of motions that are computed for derivatives with respect to a number of parameters: a dual number for each, but with
+    /// splitting one motion with tangent maps for every sixteen. One without derivatives.
     pub(super) fn motions_for(self, derivatives: usize) -> usize {
         let motions = if self == Self::Splitting { derivatives.div_ceil(TANGENTS_AT_ONCE) } else { derivatives };
         motions.max(1)
     }
 
-    /// Whether it keeps its phases in 32 digits, so that a span may have any number of turns.
+    /// Whether it keeps its phases to 32 digits, so that a span may have any number of turns.
     pub(crate) fn keeps_phases(self) -> bool {
         matches!(self, Self::Averaged | Self::Torus)
     }
 
-    /// Whether it gives the state at any time without going through the times before.
+    /// Whether it gives the state at any time without computing earlier times.
     pub fn is_closed_form(self) -> bool {
         !matches!(self, Self::Splitting | Self::Taylor)
     }

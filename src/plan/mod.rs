@@ -1,12 +1,12 @@
-//! Plans: from the outputs asked, what is computed, by which method, and what is left out.
+//! Plans: for the requested outputs, what is computed, by which method, and what is skipped.
 //!
 //! ```text
 //! outputs -> needs (state, evaluations)  -> candidates (each method: may it? error? work?) -> the cheapest one that meets
 //! the tolerance -> a motion
 //! ```
 //!
-//! A [`Plan`] is a decision, made before any work, that can be read ([`Plan::skipped`], [`Plan::considered`]); its
-//! [`motion`](Plan::motion) does what it says. A new method is a variant of [`Method`], a candidate (`candidate.rs`), its
+//! A [`Plan`] is a decision, made before any work, that can be inspected ([`Plan::skipped`], [`Plan::considered`]); its
+//! [`motion`](Plan::motion) carries it out. A new method requires a variant of [`Method`], a candidate (`candidate.rs`), its
 //! costs (`cost.rs`) and an arm of the motions (`motion.rs`).
 //!
 //! # Example

@@ -1,4 +1,4 @@
-//! Motions by the method of a plan.
+//! Motions computed by the method of a plan.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -29,12 +29,13 @@ pub enum PlannedMotion<X = BodyState<f64>> {
     Taylor(TaylorMotion<f64, X>),
 }
 
-/// Samples for which [`Problem::motion`] chooses the cheapest method.
+/// Number of samples for which [`Problem::motion`] chooses the cheapest method.
 const SAMPLES: usize = 1000;
 
 impl<X: RotationState<f64>> Problem<f64, X> {
-    /// The motion from the initial state at `span.0` to `span.1` (forwards or backwards), by the cheapest method that is foreseen to meet the
-    /// `tolerance`: the largest error wanted at the end in the components of `n`, `e_x` and of `L` in units of its size, rounding apart.
+    /// The motion from the initial state at `span.0` to `span.1` (forwards or backwards), by the cheapest method that is predicted to meet
+    /// the `tolerance`: the largest allowed error at the end in the components of `n`, `e_x` and of `L` in units of its size, excluding
+    /// rounding.
     ///
     /// # Errors
     /// As for [`plan`](Self::plan) and [`taylor`](Self::taylor).
@@ -46,9 +47,9 @@ impl<X: RotationState<f64>> Problem<f64, X> {
     /// The motion from the initial state at `span.0`, by a given method.
     ///
     /// # Errors
-    /// Those of the method.
+    /// The errors of the method.
     pub fn motion_by(&self, method: Method, span: (f64, f64), tolerance: f64) -> Result<PlannedMotion<X>, Error> {
-        // Closed forms give either state from one that has e_x.
+        // Closed forms give either type of state from a problem with e_x.
         let problem = self.with_equatorial_axis();
         Ok(match method {
             Method::Free => PlannedMotion::Uniform(UniformMotion::free(&problem, span)),
@@ -61,20 +62,21 @@ impl<X: RotationState<f64>> Problem<f64, X> {
         })
     }
 
-    /// The plan for a request: of the methods whose [predicted error](super::Prediction::truncation) is at most the tolerance, the cheapest one.
+    /// The plan for a request: the cheapest of the methods whose [predicted error](super::Prediction::truncation) is at most the tolerance.
     ///
-    /// A method asked for by name is taken if it can be used at all, whatever its error: [`prediction`](Plan::prediction) tells it.
+    /// A method requested by name is used if it is applicable at all, whatever its error, which [`prediction`](Plan::prediction)
+    /// reports.
     ///
     /// # Errors
-    /// [`Error::Domain`] for a method asked for that the problem does not allow, and for what no method takes (tolerance out of
-    /// range).
+    /// [`Error::Domain`] for a requested method that the problem does not allow, and for requests that no method accepts
+    /// (tolerance out of range).
     pub fn plan(&self, request: &Request) -> Result<Plan, Error> {
         Plan::new(self, request)
     }
 }
 
 impl<X: RotationState<f64>> PlannedMotion<X> {
-    /// Steps and right-hand sides that it took.
+    /// Steps and right-hand sides used so far.
     pub fn work(&self) -> Work {
         match self {
             Self::Uniform(_) | Self::Symmetric(_) | Self::Averaged(_) | Self::Torus(_) => Work::default(),
@@ -84,7 +86,7 @@ impl<X: RotationState<f64>> PlannedMotion<X> {
     }
 }
 
-/// Something done with a motion by whichever method.
+/// Applies an expression to a motion, whichever its method.
 macro_rules! by_any {
     ($planned:expr, $motion:ident => $work:expr) => {
         match $planned {
@@ -114,7 +116,7 @@ impl<X: RotationState<f64>> Motion<f64> for PlannedMotion<X> {
     }
 
     fn state(&self, t: f64) -> Result<X, Error> {
-        // Without e_x where that is not asked for.
+        // Without e_x if it is not requested.
         Ok(X::from_vectors(if X::VECTORS == 3 {
             by_any!(self, motion => motion.state(t)?.vectors())
         } else {
@@ -166,7 +168,7 @@ mod tests {
         }
     }
 
-    /// `n` and `L` do not depend on the equatorial axis that a closed form of a reduced problem is given.
+    /// `n` and `L` do not depend on the arbitrary equatorial axis that a closed form of a reduced problem is given.
     #[test]
     fn a_reduced_motion_is_that_of_n_and_l() {
         for (method, s) in Method::ALL.into_iter().zip([[0.0; 3], [0.0; 3], [0.1, 0.1, -0.2], [0.02, 0.01, -0.03]]) {

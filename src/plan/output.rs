@@ -1,20 +1,20 @@
-//! What can be asked of a motion, and what each needs of it.
+//! The possible outputs of a motion, and the requirements of each.
 
-/// Parts of the state, each with those before it.
+/// Parts of the state. Each includes the previous ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum State {
     /// No motion at all.
     Nothing,
-    /// The symmetry axis `n` alone. A numerical motion carries `L` with it, since `n` does not move by itself.
+    /// The symmetry axis `n` alone. A numerical motion also carries `L`, since the equation of motion of `n` depends on it.
     Axis,
-    /// The symmetry axis `n` and the angular momentum `L`, which move by themselves.
+    /// The symmetry axis `n` and the angular momentum `L`, which form a closed system.
     AxisAndMomentum,
-    /// `n`, `L` and `e_x`: the rotation about the symmetry axis too.
+    /// `n`, `L` and `e_x`: includes the rotation about the symmetry axis.
     Orientation,
 }
 
 impl State {
-    /// In symbols.
+    /// Mathematical symbol.
     pub fn name(self) -> &'static str {
         match self {
             Self::Nothing => "nothing",
@@ -25,38 +25,38 @@ impl State {
     }
 }
 
-/// At which times a motion is evaluated for an output.
+/// The times at which a motion is evaluated for an output.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Evaluations {
     /// Never.
     Never,
-    /// Once at each sample. Outputs at samples share that evaluation.
+    /// Once at each sample. All outputs at samples share that evaluation.
     AtSamples,
-    /// At each sample, and between samples so often that no turn is lost: `per_radian` times per radian of rotation.
+    /// At each sample, and between samples often enough to count every turn: `per_radian` times per radian of rotation.
     CountingTurns {
-        /// Evaluations per radian of rotation, typical.
+        /// Typical number of evaluations per radian of rotation.
         per_radian: f64,
     },
-    /// Wherever bounds on the rates leave an event undecided; samples do not matter.
+    /// Wherever bounds on the rates leave an event undecided; samples are irrelevant.
     ForEvents {
-        /// Evaluations per radian of rotation, typical.
+        /// Typical number of evaluations per radian of rotation.
         per_radian: f64,
     },
 }
 
-/// What an output needs of a motion.
+/// The requirements of an output.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Need {
-    /// State.
+    /// The part of the state.
     pub state: State,
-    /// Times.
+    /// The times.
     pub evaluations: Evaluations,
 }
 
-/// Something that a motion is asked for.
+/// An output of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Output {
-    /// `alpha` and `beta` of a perturbation solution, Eq. (33): functions of time, no motion.
+    /// `alpha` and `beta` of a perturbation solution, Eq. (33): functions of time that need no motion.
     PerturbationAngles,
     /// Components of `n = e_z`.
     SymmetryAxis,
@@ -68,9 +68,9 @@ pub enum Output {
     FirstIntegrals,
     /// Rates of the Euler angles: those of the axis, and `gamma' = Omega^z - alpha' cos(beta)`.
     EulerRates,
-    /// `h_+` and `h_x`, Eq. (71): of a spheroid, functions of `n` and `L`.
+    /// `h_+` and `h_x`, Eq. (71); for a spheroid they are functions of `n` and `L`.
     GravitationalWave,
-    /// Euler angles that count their turns.
+    /// Continuous Euler angles, including whole turns.
     EulerAngles,
     /// Components of `e_x`.
     EquatorialAxis,
@@ -102,7 +102,7 @@ impl Output {
         Self::Pulses,
     ];
 
-    /// In words.
+    /// Name in words.
     pub fn name(self) -> &'static str {
         match self {
             Self::PerturbationAngles => "angles of the perturbation solution",
@@ -121,7 +121,7 @@ impl Output {
         }
     }
 
-    /// What it needs.
+    /// Its requirements.
     pub fn need(self) -> Need {
         let (state, evaluations) = match self {
             Self::PerturbationAngles => (State::Nothing, Evaluations::Never),
@@ -141,8 +141,9 @@ impl Output {
     }
 }
 
-/// Evaluations per radian of the turn counter between samples that are far apart; more where the axis comes near a pole.
+/// Evaluations per radian by the turn counter between samples that are far apart; more are needed where the axis comes near
+/// a pole.
 const TURN_COUNTING: f64 = 12.0;
 
-/// Evaluations per radian of the search for pulses and of their turns.
+/// Evaluations per radian by the search for pulses and their turns.
 const PULSE_SEARCH: f64 = 8.0;

@@ -1,31 +1,31 @@
-//! What is asked of a scene.
+//! A request: outputs, span, samples and tolerance.
 
 use super::{Method, Output};
 use crate::parameters::Parameter;
 
-/// Times at which outputs are wanted, leading away from the start of the span.
+/// Times at which outputs are requested, in order away from the start of the span.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Samples {
-    /// How many.
+    /// Number of samples.
     pub count: usize,
-    /// The last of them.
+    /// The last sample.
     pub last: f64,
 }
 
-/// What is asked of a scene.
+/// A request for the computation of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
-    /// Outputs, none twice.
+    /// The outputs, without repetition.
     pub outputs: Vec<Output>,
-    /// Time of the initial state, and the end of what may be looked at.
+    /// Time of the initial state, and the end of the span that may be used.
     pub span: (f64, f64),
     /// Samples, for the outputs that have values at samples.
     pub samples: Samples,
-    /// Largest error wanted in the components of `n`, `e_x` and of `L` in units of its size, rounding apart.
+    /// Error tolerance in the components of `n`, `e_x` and of `L` in units of its size, excluding rounding.
     pub tolerance: f64,
-    /// The method to use, rather than the cheapest one.
+    /// The method to use instead of the cheapest one.
     pub method: Option<Method>,
-    /// Parameters by which derivatives of the outputs are wanted.
+    /// Parameters with respect to which derivatives of the outputs are requested.
     pub derivatives: Vec<Parameter>,
 }
 

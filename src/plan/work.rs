@@ -1,4 +1,4 @@
-//! What a motion cost, counted.
+//! Operation counts of a computed motion.
 
 use core::cell::Cell;
 
@@ -13,21 +13,21 @@ use crate::propagation::{Motion, Turning};
 pub struct Work {
     /// Steps of a numerical motion.
     pub steps: f64,
-    /// Right-hand sides: coefficients of series, or stages, of all steps.
+    /// Number of right-hand sides: coefficients of series, or stages, of all steps.
     pub right_hand_sides: f64,
-    /// Evaluations of `(n, L)` alone at a time.
+    /// Number of evaluations of `(n, L)` alone at a time.
     pub axis_evaluations: f64,
-    /// Evaluations of `(n, L, e_x)` at a time.
+    /// Number of evaluations of `(n, L, e_x)` at a time.
     pub orientation_evaluations: f64,
 }
 
 impl Work {
-    /// Steps by series of an order.
+    /// Work for steps by series of an order.
     pub(super) fn of_series(steps: usize, order: usize) -> Self {
         Self { steps: steps as f64, right_hand_sides: (steps * order) as f64, ..Self::default() }
     }
 
-    /// Evaluations of either kind.
+    /// Number of evaluations of either kind.
     pub fn evaluations(&self) -> f64 {
         self.axis_evaluations + self.orientation_evaluations
     }
@@ -42,7 +42,7 @@ impl core::ops::AddAssign for Work {
     }
 }
 
-/// A motion that counts how often it is evaluated.
+/// A motion that counts its evaluations.
 ///
 /// ```
 /// use nalgebra::{Matrix3, Vector3};
@@ -67,7 +67,7 @@ pub struct Counted<M> {
 }
 
 impl<M> Counted<M> {
-    /// Counts from zero.
+    /// Starts counting at zero.
     pub fn new(motion: M) -> Self {
         Self { motion, axis: Cell::new(0), orientation: Cell::new(0) }
     }
@@ -87,7 +87,7 @@ impl<M> Counted<M> {
     }
 }
 
-/// Without a projection of its own: every look at the motion is counted.
+/// This type has no projection of its own, so every evaluation of the motion is counted.
 impl<M: Motion<f64>> Motion<f64> for Counted<M> {
     type State = M::State;
 

@@ -1,4 +1,4 @@
-//! Euler angles of a motion without jumps of a whole turn.
+//! Unwrapped (continuous) Euler angles of a motion.
 
 use nalgebra::Vector3;
 
@@ -10,18 +10,18 @@ use crate::numerics::angle::whole_turns;
 use crate::numerics::scalar::{Real, real_part};
 use crate::propagation::{Motion, Turning};
 
-/// Largest rotation (rad) of which the turns are counted in one call; it takes minutes.
+/// Largest rotation (rad) whose turns are counted in one call; it takes minutes.
 pub const MOST_COUNTED: f64 = 1e9;
 
-/// Pieces of time to count turns in, for each radian and beside: a passage by a pole takes some sixty.
+/// Number of pieces of time allowed for counting turns, per radian and in addition: a passage by a pole takes some sixty.
 const PIECES_PER_RADIAN: f64 = 1e3;
 const LEAST_PIECES: f64 = 1e4;
 
-/// Follows the Euler angles of a motion so that `alpha` and `gamma` count their turns.
+/// Follows the Euler angles of a motion continuously, so that `alpha` and `gamma` include whole turns.
 ///
-/// Between two times the motion is halved until neither the symmetry axis, seen from the Z axis, nor the Z axis, seen from
-/// the body, can have turned by a quarter: turns are counted, not guessed. A passage through a pole, where `alpha` and
-/// `gamma` jump by half a turn each, is taken at the shorter side.
+/// An interval of time is halved until neither the symmetry axis, seen from the Z axis, nor the Z axis, seen from the body,
+/// can have turned by a quarter: turns are counted, not guessed. At a passage through a pole, where `alpha` and `gamma` jump
+/// by half a turn each, the shorter side is chosen.
 #[derive(Debug)]
 pub struct ContinuousAngles<'m, S, M> {
     motion: &'m M,
@@ -32,7 +32,7 @@ pub struct ContinuousAngles<'m, S, M> {
 
 impl<'m, S: Real, M: Motion<S, State = BodyState<S>>> ContinuousAngles<'m, S, M> {
     /// Starts at the time `t0` with the angles `start` there, whose turns are kept. They must be those of the motion up to
-    /// whole turns; on a pole, where the motion has no angles of its own, any `start` is taken as given.
+    /// whole turns; at a pole, where the angles of the motion are undefined, any `start` is accepted as given.
     ///
     /// # Errors
     /// [`Error::Domain`] for a time outside the span.
@@ -44,9 +44,9 @@ impl<'m, S: Real, M: Motion<S, State = BodyState<S>>> ContinuousAngles<'m, S, M>
     /// Angles at the time `t`, continued from the last call; `t` may lie on either side of it.
     ///
     /// # Errors
-    /// [`Error::Domain`] for a time outside the span, for a rotation of more than [`MOST_COUNTED`] since the last call, for an axis
-    /// that is held near a pole against the torque, as only an approximate motion can be, or on a pole, where the angles do not exist; the next
-    /// call continues.
+    /// [`Error::Domain`] for a time outside the span, for a rotation of more than [`MOST_COUNTED`] since the last call, for an axis that is
+    /// held near a pole against the torque, as only an approximate motion can be, or at a pole, where the angles are undefined; the next call
+    /// continues.
     pub fn at(&mut self, t: S) -> Result<EulerAngles<S>, Error> {
         let target = t.re();
         let (mut from_time, mut from) = (self.time, self.real_state(self.time)?);
@@ -114,7 +114,7 @@ impl<'m, S: Real, M: Motion<S, State = BodyState<S>>> ContinuousAngles<'m, S, M>
     }
 
     /// Whether no azimuth can have turned by a quarter between two states, as seen from either of them. Between two states
-    /// on the pole less than a radian of rotation apart there is nothing to count.
+    /// at the pole less than a radian of rotation apart there is nothing to count.
     fn resolved(&self, from: &BodyState<f64>, to: &BodyState<f64>, duration: f64) -> bool {
         let on_pole = |state: &BodyState<f64>| off_pole(state) <= f64::EPSILON;
         let inertia = self.motion.spheroid().inertia_xx.re().min(self.motion.spheroid().inertia_zz.re());
@@ -122,21 +122,21 @@ impl<'m, S: Real, M: Motion<S, State = BodyState<S>>> ContinuousAngles<'m, S, M>
         self.stays_aside(from, duration) || self.stays_aside(to, duration) || (short && on_pole(from) && on_pole(to))
     }
 
-    /// Whether over a time `t` from `state` both the path of `n` and that of Z in the body stay shorter than the distance
-    /// to the pole; sin(beta) is below that distance, and such a path turns its azimuth by less than a quarter.
+    /// Whether over a time `t` from `state` both the path of `n` and that of Z in the body stay shorter than the distance to
+    /// the pole; sin(beta) is below that distance, and such a path turns its azimuth by less than a quarter.
     ///
-    /// The bounds shrink with that distance where `n`, `L` and a principal axis are near Z, so that a body spinning there
-    /// costs no more than another: with `v = |dn/dt|`, `w >= |L| / I^xx`, the angular acceleration `g` of the torque now and
-    /// `k |dn|` its change, the path `p` of `n` obeys `p'' <= w p' + k p + g`, hence
-    /// `p <= (v t + g t^2 / 2) exp((w + sqrt(k)) t)`. The rate of Z in the body, `|Omega x Z|`, changes by
-    /// `g t + k int p dt + |I^zz - I^xx| |Omega^z| p / I^xx` at most.
+    /// The bounds shrink with that distance if `n`, `L` and a principal axis are near Z, so that a body spinning there costs
+    /// no more than any other. With `v = |dn/dt|`, `w >= |L| / I^xx`, the angular acceleration `g` of the torque now and its
+    /// change `k |dn|`, the path `p` of `n` obeys `p'' <= w p' + k p + g`, hence
+    /// `p <= (v t + g t^2 / 2) exp((w + sqrt(k)) t)`. The rate of Z in the body, `|Omega x Z|`, changes by at most
+    /// `g t + k int p dt + |I^zz - I^xx| |Omega^z| p / I^xx`.
     fn stays_aside(&self, state: &BodyState<f64>, duration: f64) -> bool {
         let spheroid = self.motion.spheroid().map(|x| x.re());
         let s = self.motion.coefficients().map(S::re);
         let (xx, t) = (spheroid.inertia_xx, duration.abs());
         let (axis_rate, torque) = reduced_rates(&spheroid, &s, &state.axis, &state.momentum);
         let rate = state.momentum.norm() / xx;
-        // A bulge turns everything by no more than this share of the rate.
+        // A bulge rotates everything by at most this fraction of the rate.
         let share = match self.motion.turning() {
             Turning::Equations { bulge } => 2.0 * bulge.abs() * s.norm() * xx,
             Turning::Given { .. } => 0.0,
@@ -154,7 +154,7 @@ impl<'m, S: Real, M: Motion<S, State = BodyState<S>>> ContinuousAngles<'m, S, M>
         axis_path.max(z_path) < off_pole(state)
     }
 
-    /// What is counted stays so if a later piece is refused.
+    /// The count is kept if a later piece is refused.
     fn count(&mut self, state: &BodyState<f64>, time: f64) {
         self.time = time;
         let Ok(angles) = state.angles() else { return };
@@ -187,7 +187,7 @@ mod tests {
     use crate::plan::Counted;
     use crate::propagation::UniformMotion;
 
-    /// Free precession about Z at the rate 1, from a time on.
+    /// Free precession about Z at the rate 1, starting at a given time.
     fn precession(from: f64) -> (UniformMotion<f64>, EulerRates<f64>) {
         let spin = 1.3 * START.beta.cos() / 1.1;
         let rates = EulerRates { alpha: 1.0, beta: 0.0, gamma: 0.2 / 1.3 * spin };
@@ -209,7 +209,7 @@ mod tests {
         }
     }
 
-    /// Doubles near 1e16 are two apart, here two radians: nothing lies between them, and the nearest turn is taken.
+    /// Doubles near 1e16 are two apart, here two radians: there is none between them, and the nearest turn is assumed.
     #[test]
     fn turns_are_counted_on_between_times_that_cannot_be_halved() {
         let (motion, rates) = precession(1e16);
@@ -233,7 +233,8 @@ mod tests {
         assert!(!resolved(&on, &off, 0.9) && !resolved(&off, &on, 0.9) && !resolved(&off, &off, 0.9));
     }
 
-    /// A prolate body that spins about its axis: the Z axis moves in it by the bound of the description, which is taken apart here.
+    /// A prolate body that spins about its axis: the Z axis moves in it by the bound given above, whose terms are tested one by
+    /// one.
     #[test]
     fn the_path_of_z_in_the_body_is_bounded_by_rate_torque_and_spin() {
         let star = RigidSpheroid { inertia_xx: 2.0, inertia_zz: 0.64, constant_c: 3.4 };

@@ -1,4 +1,4 @@
-//! What motions refuse besides what a problem does.
+//! Input checks for motions, beyond those of `Problem`.
 
 use crate::error::Error;
 use crate::propagation::TOLERANCE_RANGE;

@@ -1,4 +1,4 @@
-//! Many motions, as fast as the processor can.
+//! Batch integration of many motions with SIMD lanes.
 
 use crate::dynamics::{AxisState, Problem};
 use crate::error::Error;
@@ -10,27 +10,29 @@ use crate::propagation::splitting::lanes::{Ready, propagate_in_lanes};
 use crate::propagation::taylor::{axis_states_in_lanes, span_of};
 use crate::propagation::{ErrorEstimates, Samples};
 
-/// One of many motions: what [`Problem::taylor_states`] takes.
+/// One of many motions: the input of [`Problem::taylor_states`].
 #[derive(Debug, Clone, Copy)]
 pub struct SampledProblem<'t> {
-    /// What moves.
+    /// The problem (body, tensor and initial state).
     pub problem: Problem<f64, AxisState<f64>>,
     /// Time of the initial state.
     pub start: f64,
-    /// Times of the states asked, in the order in which the motion reaches them from its start.
+    /// Times of the requested states, in the order in which the motion reaches them from its start.
     pub times: &'t [f64],
-    /// As for [`Problem::taylor`].
+    /// Error tolerance, as for [`Problem::taylor`].
     pub tolerance: f64,
 }
 
-/// States of many motions at the times asked of each: those of [`Problem::taylor_states`] within the tolerance, at a fraction of
-/// the time where the processor has vectors of doubles (AVX2: 4 motions at once, AVX-512: 8).
+/// States of many motions at the requested times of each: those of [`Problem::taylor_states`] within the tolerance, in a
+/// fraction of the time if the processor has vectors of doubles (AVX2: 4 motions at once, AVX-512: 8).
 ///
-/// There each motion goes by the splitting scheme that a model of cost and error chooses for it, as in [`Problem::splitting`], and by
-/// Taylor series where rounding would spoil that or samples lie close together. Elsewhere all go by Taylor series.
-/// The model holds for about 99 motions in 100; one near the unstable middle axis may miss the tolerance by a factor of ten.
+/// On such a processor each motion is computed with the splitting scheme that a model of cost and error chooses for it, as in
+/// [`Problem::splitting`], or by Taylor series if rounding would limit the splitting or samples are close together. Otherwise all are
+/// computed by Taylor series. The model holds for about 99 motions in 100; one near the unstable middle axis may miss the tolerance
+/// by a factor of ten.
 ///
-/// Errors are not estimated. Each motion has its own steps, and its numbers do not depend on those beside it, on their order or on their number.
+/// Errors are not estimated. Each motion has its own steps, and its results do not depend on the motions next to it, on their order or on their
+/// number.
 ///
 /// # Errors
 /// As for [`Problem::taylor_states`], for each motion on its own.

@@ -1,4 +1,4 @@
-//! Motions: numerical with dense output or in closed form, and the continuous Euler angles of any.
+//! Motions: numerical with dense output or in closed form, and the continuous Euler angles of any motion.
 //!
 //! # Example
 //!

@@ -1,4 +1,4 @@
-//! A motion: the state of rotation at any time of a span, whoever computed it.
+//! A motion: the state of rotation at any time of a span, independent of the method.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -7,13 +7,13 @@ use crate::error::Error;
 use crate::numerics::scalar::Scalar;
 use crate::propagation::{SeriesProjection, Turning};
 
-/// The motion of one spheroid over a span of time. Observables take a motion and never know the method behind it; those that need the
-/// orientation ask for `Motion<f64, State = BodyState<f64>>`.
+/// The motion of one spheroid over a span of time. Observables take a motion and do not depend on the method behind it; those that
+/// need the orientation require `Motion<f64, State = BodyState<f64>>`.
 pub trait Motion<S: Scalar> {
-    /// What the motion follows: `n` and `L` alone, or `e_x` too.
+    /// The state that the motion follows: `n` and `L` alone, or `e_x` too.
     type State: RotationState<S>;
 
-    /// The body that moves.
+    /// The body.
     fn spheroid(&self) -> &RigidSpheroid<S>;
 
     /// The tensor `s^IJ`, in the inertial frame of the states.
@@ -22,7 +22,8 @@ pub trait Motion<S: Scalar> {
     /// First and last time at which the motion is known, in either order.
     fn span(&self) -> (f64, f64);
 
-    /// State at time `t`. Dense: any `t` of the span, at a cost that does not depend on how far `t` is from a step.
+    /// State at time `t`. The output is dense: any `t` of the span is possible, at a cost that does not depend on how far
+    /// `t` is from a step.
     ///
     /// # Errors
     /// [`Error::Domain`] for a time outside [`span`](Motion::span).
@@ -36,7 +37,7 @@ pub trait Motion<S: Scalar> {
         self.state(t).map(|state| state.axis_state())
     }
 
-    /// As [`state`](Self::state), at the time `t[0] + t[1]`: a motion that keeps its phases in 32 digits uses both.
+    /// As [`state`](Self::state), at the time `t[0] + t[1]`: a motion that keeps its phases to 32 digits uses both.
     ///
     /// # Errors
     /// As for [`state`](Motion::state).
@@ -52,18 +53,18 @@ pub trait Motion<S: Scalar> {
         self.axis_state(S::from_f64(t[0] + t[1]))
     }
 
-    /// Estimated error of the components of `n` and, where it is known, `e_x`, and of those of `L` in units of its size (that
-    /// of `L` at the start and what the torque makes of it), at time `t` of the span.
+    /// Estimated error of the components of `n` and, if it is carried, `e_x`, and of those of `L` in units of its size (`L`
+    /// at the start plus the contribution of the torque), at time `t` of the span.
     fn error_estimate(&self, t: f64) -> f64;
 
-    /// What turns the body: [`Turning::Equations`] of a rigid spheroid unless a motion says so, as one of a star with a bulge does, or the rates of another law with their bounds. A search for pulses misses none if
-    /// this is right.
+    /// The law by which the body rotates: [`Turning::Equations`] of a rigid spheroid unless a motion overrides it, as for a star with a bulge, or the
+    /// rates of another law with their bounds. A search for pulses misses none if this is correct.
     fn turning(&self) -> Turning<'_> {
         Turning::Equations { bulge: 0.0 }
     }
 
-    /// What gives the component along a fixed `direction` of a vector fixed in the body (its components there) for less than a
-    /// state, if the motion has it.
+    /// A cheaper way than the state, if the motion has one, to compute the component along a fixed `direction` of a vector
+    /// fixed in the body (given by its components there).
     fn projection(&self, _in_body: &Vector3<f64>, _direction: &Vector3<f64>) -> Option<SeriesProjection<'_>> {
         None
     }

@@ -33,8 +33,8 @@ use crate::propagation::UniformMotion;
 use crate::solutions::averaged::{AveragedPhases, AveragedSolution, AveragingOrder, Turns};
 use crate::solutions::torus::TorusSolution;
 
-/// A motion whose state is a periodic function of three phases that grow in proportion to time: near any time at the same cost. Two of them move `n` and `L`,
-/// the third turns the body about `n`.
+/// A motion whose state is a periodic function of three phases that grow linearly in time: any time has the same cost. Two of the phases move `n` and
+/// `L`, the third rotates the body about `n`.
 #[derive(Debug, Clone)]
 pub struct PhasedMotion {
     pub(crate) problem: Problem<f64>,
@@ -49,16 +49,16 @@ enum Solution {
         given_from_principal: Matrix3<f64>,
     },
     Torus(TorusSolution),
-    /// Phases: the turn of `n` and `L`, none, and that of `e_x` about `n`.
+    /// The phases are the rotation of `n` and `L`, zero, and the rotation of `e_x` about `n`.
     Uniform(UniformMotion<f64>),
 }
 
 impl PhasedMotion {
-    /// The motion from the initial state at the time zero, for times up to `longest` in size: averaged to second order for a star with a bulge, where what that leaves out is below
-    /// its rounding, or where the torus is refused, else [`exact`](Self::exact).
+    /// The motion from the initial state at the time zero, for times up to `longest` in size. It is the second-order averaged motion if the star has
+    /// a bulge, if the truncation error of that motion is below its rounding, or if the torus is refused; otherwise [`exact`](Self::exact).
     ///
     /// # Errors
-    /// Those of the torus where there is no averaged motion either.
+    /// The errors of the torus, if the averaged motion is not possible either.
     pub fn new(problem: &Problem<f64>, longest: f64) -> Result<Self, Error> {
         let averaged = Self::averaged(problem, AveragingOrder::Second);
         match averaged {
@@ -68,8 +68,8 @@ impl PhasedMotion {
         }
     }
 
-    /// The motion to rounding, for times up to `longest` in size: on the torus. A free motion is uniform; where there is no torus, as of `n` on `L`, it is the averaged one
-    /// if that leaves out less than rounding at the start, or a steady one.
+    /// The motion accurate to rounding, for times up to `longest` in size: on the torus. A free motion is uniform. If there is no torus, as for `n`
+    /// along `L`, it is the averaged motion if its truncation error is below rounding at the start, or a steady one.
     ///
     /// # Errors
     /// As for [`TorusSolution::new`].
@@ -110,7 +110,7 @@ impl PhasedMotion {
         Ok(Self { problem: *problem, solution: Solution::Averaged { mean, given_from_principal } })
     }
 
-    /// The exact motion, to rounding, for times up to `longest` in size.
+    /// The exact motion, to rounding, on the torus, for times up to `longest` in size.
     ///
     /// # Errors
     /// As for [`TorusSolution::new`].
@@ -118,7 +118,8 @@ impl PhasedMotion {
         Ok(Self { problem: *problem, solution: Solution::Torus(TorusSolution::new(problem, 0.0, longest)?) })
     }
 
-    /// Rates of the phases (rad per unit of time): on the torus those of its angles, of an averaged motion about `L`, of `L` about its axis, and of `e_x` about `n`.
+    /// Rates of the phases (rad per unit of time): on the torus the rates of its angles; for an averaged motion those of the rotation about `L`, of
+    /// `L` about its axis, and of `e_x` about `n`.
     pub fn rates(&self) -> [f64; 3] {
         match &self.solution {
             Solution::Averaged { mean, .. } => [mean.rates.about_momentum, mean.rates.slow, mean.rates.about_axis],
@@ -127,7 +128,7 @@ impl PhasedMotion {
         }
     }
 
-    /// The same in turns, to 32 digits where they are known.
+    /// The same in turns, to 32 digits where the rates are known to that precision.
     pub(crate) fn turns_per_time(&self) -> [DoubleDouble; 3] {
         match &self.solution {
             Solution::Torus(torus) => torus.turns_per_time(),
@@ -136,23 +137,25 @@ impl PhasedMotion {
         }
     }
 
-    /// Rate (rad per unit of time) at which the averaged `L` goes round the [pole](Self::pole), in the right-handed sense; None on a torus, whose angles may be any basis of it.
+    /// Rate (rad per unit of time) at which the averaged `L` circles the [pole](Self::pole), in the right-handed sense; `None` on a torus, whose
+    /// angles may be any basis of it.
     pub(crate) fn precession_of_momentum(&self) -> Option<f64> {
         match &self.solution {
-            // Not minus zero where `L` stays.
+            // Avoids minus zero if `L` stays fixed.
             Solution::Averaged { mean, .. } => Some(mean.top().rate_about_axis() * direction_of(&self.axis()) + 0.0),
             Solution::Torus(_) => None,
             Solution::Uniform(_) => Some(0.0),
         }
     }
 
-    /// The pole of the angles `alpha` and `gamma`: the principal axis of `s^IJ` that `L` goes round, directed so that its largest component is positive (of several equal ones the first), or Z if `L` stays.
+    /// The pole of the angles `alpha` and `gamma`: the principal axis of `s^IJ` that `L` circles, directed so that its largest component is positive
+    /// (of several equal ones the first), or Z if `L` stays fixed.
     pub(crate) fn pole(&self) -> Vector3<f64> {
         let axis = self.axis();
         axis * direction_of(&axis)
     }
 
-    /// The same axis, with no choice of direction.
+    /// The same axis, with arbitrary direction.
     fn axis(&self) -> Vector3<f64> {
         match &self.solution {
             Solution::Averaged { mean, given_from_principal } => given_from_principal.column(mean.top().axis()).into(),
@@ -175,7 +178,7 @@ impl PhasedMotion {
         }
     }
 
-    /// The state at given phases, in turns, in the frame of the initial one.
+    /// The state at given phases (in turns), in the frame of the initial state.
     pub fn state_at(&self, turns: [f64; 3]) -> BodyState<f64> {
         match &self.solution {
             Solution::Averaged { mean, given_from_principal } => {
@@ -198,7 +201,8 @@ impl PhasedMotion {
         }
     }
 
-    /// What is left out of directions (rad) at the time `t`: of the averaged motion by its order, of the series on the torus by its length.
+    /// Truncation error of directions (rad) at the time `t`: due to the order of the averaged motion, or the length of the series on the
+    /// torus.
     pub fn truncation(&self, t: f64) -> f64 {
         match &self.solution {
             Solution::Averaged { mean, .. } => mean.truncation(t),
@@ -222,7 +226,8 @@ impl PhasedMotion {
     }
 }
 
-/// The sign of the first of the largest components of an axis; those that are equal to a millionth count as one, so that rounding does not choose.
+/// The sign of the first of the largest components of an axis; components that are equal to a millionth count as equal, so that rounding does not
+/// decide.
 fn direction_of(axis: &Vector3<f64>) -> f64 {
     let largest = axis.amax();
     axis.iter().find(|component| component.abs() >= (1.0 - 1e-6) * largest).map_or(1.0, |component| component.signum())
@@ -243,7 +248,8 @@ mod tests {
         }
     }
 
-    /// A turn of `L` about itself in 2 pi I^xx / |L|, and back about `n` by the oblateness; nothing goes round with `L`.
+    /// One rotation about `L` in 2 pi I^xx / |L|, and a backward one about `n` due to the oblateness; `L` itself does not
+    /// move.
     #[test]
     fn a_free_motion_is_uniform_at_any_time() {
         let problem = problem([0.0; 3]);
@@ -268,12 +274,13 @@ mod tests {
                 assert!((found - expected).amax() < 1e-12 * (1.0 + t[0].abs() / 1e3), "{found} {expected}");
             }
         }
-        // Seconds that are below the rounding of a long time turn it on.
+        // Seconds that are below the rounding of a long time still advance the phase.
         let [first, later] = [[1e9, 0.0], [1e9, 1e-8]].map(|t| motion.turns(t)[0].fraction);
         assert!(((later - first) * TAU / rates[0] / 1e-8 - 1.0).abs() < 1e-6);
     }
 
-    /// `L` on the middle axis has no torus beside it: a motion of weak torque is the averaged one to rounding, one of a strong torque is refused.
+    /// `L` on the middle axis has no torus nearby: for a weak torque the averaged motion is accurate to rounding, and for a strong torque the
+    /// motion is refused.
     #[test]
     fn without_a_torus_a_motion_is_averaged_or_refused() {
         for (strength, is_there) in [(1e-10, true), (0.02, false)] {

@@ -1,18 +1,18 @@
-//! The third angle without a singularity: `e_x` from a vector that turns with `L / I^xx` as `n` does, and a turn about `n` at a
-//! constant rate.
+//! The third angle without a singularity: `e_x` from a vector that rotates with `L / I^xx` like `n`, and a rotation about `n`
+//! at a constant rate.
 
 use nalgebra::Vector3;
 
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::numerics::scalar::Scalar;
 
-/// Rate at which `e_x` turns about `n` against a vector that turns with `L / I^xx`, as `n` does: `-epsilon Omega^z`, from
-/// `Omega = L / I^xx - epsilon Omega^z n`. Constant, since `Omega^z = L.n / I^zz` is.
+/// Rate at which `e_x` rotates about `n` relative to a vector that rotates with `L / I^xx` like `n`: `-epsilon Omega^z`,
+/// from `Omega = L / I^xx - epsilon Omega^z n`. It is constant, since `Omega^z = L.n / I^zz` is.
 pub(super) fn rate_about_axis<S: Scalar>(spheroid: &RigidSpheroid<S>, axis: &Vector3<S>, momentum: &Vector3<S>) -> S {
     -(spheroid.oblateness() * momentum.dot(axis) / spheroid.inertia_zz)
 }
 
-/// The state of the body from `n`, `L` and the vector carried along, from which `e_x` has turned about `n` by an
+/// The state of the body from `n`, `L` and the vector carried along, relative to which `e_x` has rotated about `n` by an
 /// angle (rad).
 pub(super) fn body_state<S: Scalar>([axis, momentum, companion]: [Vector3<S>; 3], turned: S) -> BodyState<S> {
     let (sin, cos) = turned.sin_cos();

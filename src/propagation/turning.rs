@@ -1,13 +1,13 @@
-//! What turns the body of a motion.
+//! The law by which the body of a motion rotates.
 
 use nalgebra::Vector3;
 
 use crate::error::Error;
 
-/// Where the angular velocity `Omega` (inertial components) of a [`Motion`](super::Motion) and its time derivatives come from. A search
-/// for pulses takes from them those of `m.n`.
+/// The source of the angular velocity `Omega` (inertial components) of a [`Motion`](super::Motion) and of its time derivatives. A
+/// search for pulses computes the derivatives of `m.n` from them.
 ///
-/// A star that a torque of its own spins up and down, `Omega = (2 + 0.3 sin t) Z`:
+/// Example: a star that is spun up and down by another torque, `Omega = (2 + 0.3 sin t) Z`:
 ///
 /// ```
 /// use nalgebra::{Matrix3, Vector3};
@@ -47,14 +47,15 @@ pub enum Turning<'m> {
     /// The equations of motion of this package, [`body_state_rates`](crate::dynamics::equations_of_motion::body_state_rates), with the
     /// spheroid, the tensor and the states of the motion.
     Equations {
-        /// With what a [`bulge`](crate::dynamics::bulge) of this coefficient adds to them.
+        /// Coefficient of a [`bulge`](crate::dynamics::bulge), whose terms are added.
         bulge: f64,
     },
-    /// Another law, as of a star with a torque of its own.
+    /// Another law, for example for a star with a torque of its own.
     Given {
-        /// `Omega`, `Omega'` and `Omega''` at a time of the span. The body axes `u` of the states turn by `u' = Omega x u`.
+        /// `Omega`, `Omega'` and `Omega''` at a time of the span. The body axes `u` of the states change by
+        /// `u' = Omega x u`.
         rates: GivenRates<'m>,
-        /// Bounds on `|Omega|`, `|Omega'|` and so on to the fifth derivative, that hold at all times of the span.
+        /// Bounds on `|Omega|`, `|Omega'|` and so on to the fifth derivative, valid at all times of the span.
         bounds: [f64; 6],
     },
 }

@@ -47,8 +47,8 @@ pub fn free_precession_rates<S: Real>(spheroid: &RigidSpheroid<S>, spin: S, beta
     })
 }
 
-/// The free motion from any state after the time `t`: `n` and `e_x` turn about the constant `L` at the rate `|L| / I^xx`,
-/// and `e_x` turns about `n` at the rate `-epsilon Omega^z`. Regular for every orientation and for `L = 0`.
+/// The free motion from any state after the time `t`: `n` and `e_x` rotate about the constant `L` at the rate `|L| / I^xx`,
+/// and `e_x` rotates about `n` at the rate `-epsilon Omega^z`. Regular for every orientation and for `L = 0`.
 ///
 /// Error: a few ulp of one plus the rounding of the angle `|L| t / I^xx`.
 pub fn free_rotation<S: Real>(spheroid: &RigidSpheroid<S>, initial: &BodyState<S>, t: S) -> BodyState<S> {
@@ -65,7 +65,8 @@ pub fn free_rotation<S: Real>(spheroid: &RigidSpheroid<S>, initial: &BodyState<S
     }
 }
 
-/// `v` turned by the rotation vector `turn` (axis times angle). The zero vector is the identity, with right derivatives.
+/// `v` rotated by the rotation vector `turn` (axis times angle). The zero vector gives the identity, with correct
+/// derivatives.
 pub fn rotated_by<S: Real>(turn: &Vector3<S>, v: &Vector3<S>) -> Vector3<S> {
     let angle_squared = turn.dot(turn);
     // Below this the series is exact to rounding and, unlike the square root, has derivatives at zero.
@@ -96,7 +97,7 @@ mod tests {
     type Seventh = Dual3<Fourth>;
     type Tenth = Dual3<Seventh>;
 
-    /// At no angle the last terms of both series are all that these derivatives have: those of sine and cosine.
+    /// At angle zero only the last terms of both series determine these derivatives: those of sine and cosine.
     #[test]
     fn a_rotation_by_nothing_has_ten_derivatives() {
         let inner = Fourth::from_re(Dual64::from(0.0).derivative()).derivative();

@@ -31,10 +31,11 @@ use crate::solutions::perturbation::Precession;
 /// ```
 ///
 /// [`Precession::Twofold`] is the root that becomes free precession as `s -> 0`, [`Precession::Single`] the one that becomes a
-/// stationary spin: the upper and lower sign for positive spin. The smaller root comes from the product of the two, so that
-/// none loses digits however small `s` is.
+/// stationary spin: the upper and lower sign for positive spin. The smaller root is computed from the product of the two, so
+/// that neither loses digits however small `s` is.
 ///
-/// Derivatives (duals) are within `s^XX = s^YY`: the common one of the two is taken from `s^XX`, that of `s^YY` is dropped.
+/// Derivatives (duals) are within `s^XX = s^YY`: the common derivative of the two is taken from `s^XX`, that of `s^YY` is
+/// ignored.
 ///
 /// # Errors
 /// [`Error::Domain`] if `s^XX != s^YY` (no steady precession exists), if the root is not real, and for the twofold root

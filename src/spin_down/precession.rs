@@ -1,4 +1,4 @@
-//! Free precession, with a wobble that friction inside the star damps.
+//! Free precession, with a wobble that internal friction damps.
 
 use core::f64::consts::{PI, TAU};
 use core::num::NonZeroUsize;
@@ -10,33 +10,36 @@ use crate::error::Error;
 use crate::numerics::gauss::unit_rule;
 use crate::numerics::scalar::Real;
 
-/// Largest damping in a radian of the precession: what is left out goes with its third power.
+/// Largest damping per radian of the precession; the error is proportional to its third power.
 const MOST_DAMPING: f64 = 0.1;
 
-/// Largest damping since the time zero. The averages over that time are analytic up to `i pi / 2` from it: Gauss' formula of [`NODES`] nodes is right to 3.4^(-32) = 1e-17 of them.
+/// Largest damping since the time zero. The averages over that time are analytic up to a distance `i pi / 2`, so Gauss' formula with [`NODES`] nodes
+/// is accurate to a fraction 3.4^(-32) = 1e-17 of them.
 const MOST_DAMPED: f64 = 2.0;
 
-/// Nodes of Gauss' formula.
+/// Number of nodes of Gauss' formula.
 const NODES: NonZeroUsize = NonZeroUsize::new(16).unwrap();
 
 static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| unit_rule(NODES));
 
-/// The free precession of a star, with which its torque varies.
+/// The free precession of a star, which modulates its torque.
 ///
-/// Friction inside the star leaves `L` as it is and takes the wobble `theta` away, `d theta / d tau = -gamma sin theta cos theta`:
+/// Internal friction leaves `L` unchanged and reduces the wobble `theta`, `d theta / d tau = -gamma sin theta cos theta`:
 ///
 /// ```text
 /// tan theta = tan theta_0 exp(-gamma tau),    d psi / d tau = w cos theta / cos theta_0
 /// ```
 ///
-/// with the time `tau` in which the star does not slow down. Of a prolate star friction raises the wobble, and `gamma` is below zero.
+/// with the time `tau` in which the star does not slow down. For a prolate star friction increases the wobble, and `gamma` is
+/// negative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Precession<S = f64> {
     /// Wobble angle `theta_0` of the symmetry axis `n` to `L` at the time zero (rad).
     pub wobble: S,
     /// Angle `chi` of the magnetic axis to `n` (rad).
     pub chi: S,
-    /// The angle `psi` about `n`, from the part of the magnetic axis across `n` to that of `L`, at the time zero (rad).
+    /// The angle `psi` about `n`, from the projection of the magnetic axis to the projection of `L`, both onto the plane
+    /// normal to `n`, at the time zero (rad).
     pub phase: S,
     /// Its rate `w` at the time zero (rad per unit of stretched time): `epsilon Omega^z` without Lorentz violation.
     pub rate: S,
@@ -50,24 +53,26 @@ pub struct Precession<S = f64> {
 
 /// Averages of a damped wobble since the time zero.
 struct Averages<S> {
-    /// Of `cos theta / cos theta_0 - 1`.
+    /// Average of `cos theta / cos theta_0 - 1`.
     rate: S,
-    /// Of `sin^2 theta - sin^2 theta_0`.
+    /// Average of `sin^2 theta - sin^2 theta_0`.
     square: S,
-    /// Of the same, weighted by the time that is left: half of it for a constant.
+    /// Average of the same, weighted with the remaining time: half of it for a constant.
     square_twice: S,
 }
 
-/// What a slow damping makes of the oscillating torque.
+/// The effect of a slow damping on the oscillating torque.
 pub(super) struct DampedTorque<S> {
-    /// Of its first integral over `a_1 sin psi / w`, `a_1 cos psi / w`, `a_2 sin 2 psi / (2 w)` and `a_2 cos 2 psi / (2 w)`.
+    /// Factors of its first integral, relative to `a_1 sin psi / w`, `a_1 cos psi / w`, `a_2 sin 2 psi / (2 w)` and
+    /// `a_2 cos 2 psi / (2 w)`.
     pub(super) once: [S; 4],
-    /// Of its second over `-a_1 cos psi / w^2`, `-a_1 sin psi / w^2`, `-a_2 cos 2 psi / (4 w^2)` and `-a_2 sin 2 psi / (4 w^2)`.
+    /// Factors of its second, relative to `-a_1 cos psi / w^2`, `-a_1 sin psi / w^2`, `-a_2 cos 2 psi / (4 w^2)` and
+    /// `-a_2 sin 2 psi / (4 w^2)`.
     pub(super) twice: [S; 4],
 }
 
 impl<S: Real> Precession<S> {
-    /// The precession with its angles (rad) at the time zero, the rate of `psi`, and that of the damping.
+    /// The precession with its angles (rad) at the time zero, the rate of `psi`, and the damping rate.
     pub fn new([wobble, chi, phase]: [S; 3], rate: S, damping: S) -> Self {
         let (sin, cos) = wobble.sin_cos();
         Self {
@@ -81,12 +86,12 @@ impl<S: Real> Precession<S> {
         }
     }
 
-    /// Whether the wobble stays. Then a dual number has its derivative by the damping added to it.
+    /// Whether the wobble is constant. The derivative of a dual number with respect to the damping is then added separately.
     pub(super) fn is_undamped(&self) -> bool {
         self.damping.re() == 0.0
     }
 
-    /// What a damping of zero has of derivatives, times the slope by it; zero for a real number.
+    /// The derivatives of a damping that is zero, times the slope with respect to it; zero for a real number.
     pub(super) fn slope(&self, slope: impl FnOnce(&Precession) -> f64) -> S {
         if !S::HAS_DERIVATIVES {
             return S::zero();
@@ -105,17 +110,17 @@ impl<S: Real> Precession<S> {
         (sin * (-x).exp()).atan2(cos)
     }
 
-    /// The angle `psi` at a stretched time, less whole turns of `w tau` (rad).
+    /// The angle `psi` at a stretched time, without whole turns of `w tau` (rad).
     pub(crate) fn phase_at(&self, tau: S) -> S {
         self.phase + self.swept(tau, TAU)
     }
 
-    /// By how much `psi` has grown, less whole multiples of `turn`, of `w tau` (rad).
+    /// The growth of `psi`, without whole multiples of `turn` in `w tau` (rad).
     pub(super) fn swept(&self, tau: S, turn: f64) -> S {
         within(self.rate * tau, turn) + self.ahead(tau)
     }
 
-    /// By how much damping puts `psi` ahead (rad): a smaller wobble precesses faster.
+    /// Phase advance of `psi` due to damping (rad): a smaller wobble precesses faster.
     pub fn ahead(&self, tau: S) -> S {
         if self.is_undamped() {
             let [rate, tau, sine] = [self.rate.re(), tau.re(), self.squares[0].re()];
@@ -124,14 +129,14 @@ impl<S: Real> Precession<S> {
         self.rate * tau * self.averages(tau).rate
     }
 
-    /// Integral of the mean torque's change, `a_0(theta) - a_0(theta_0)`, and the integral of that.
+    /// Integral of the change of the mean torque, `a_0(theta) - a_0(theta_0)`, and the integral of that integral.
     pub(super) fn mean_torque(&self, tau: S) -> [S; 2] {
         let slope = self.slope_of_mean_torque();
         let Averages { square, square_twice, .. } = self.averages(tau);
         [slope * square * tau, slope * square_twice * tau * tau]
     }
 
-    /// Of `a_0` by `sin^2 theta`.
+    /// Slope of `a_0` with respect to `sin^2 theta`.
     fn slope_of_mean_torque(&self) -> S {
         let (sin, cos) = self.chi.sin_cos();
         cos * cos - sin * sin * 0.5
@@ -144,7 +149,7 @@ impl<S: Real> Precession<S> {
         let secant = (S::one() + tangent).sqrt();
         let mut sum = Averages { rate: S::zero(), square: S::zero(), square_twice: S::zero() };
         for &(part, weight) in RULE.iter() {
-            // Of tan^2 theta.
+            // Change of tan^2 theta.
             let change = tangent * exp_less_one(-x * (2.0 * part));
             let over = S::one() + tangent + change;
             let here = over.sqrt();
@@ -156,7 +161,7 @@ impl<S: Real> Precession<S> {
         sum
     }
 
-    /// By partial integration, to second order in the damping over the rate.
+    /// Computed by partial integration, to second order in the damping over the rate.
     pub(super) fn damped_torque(&self, tau: S) -> DampedTorque<S> {
         let number = S::from_f64;
         let (x, [sin, cos]) = (self.damping * tau, self.squares);
@@ -185,7 +190,8 @@ impl<S: Real> Precession<S> {
 }
 
 impl Precession {
-    /// Slope of the varying part of the first integral of the torque, times `w`, by the damping where that is zero, at fixed `psi`.
+    /// Slope of the varying part of the first integral of the torque, times `w`, with respect to the damping at zero damping and
+    /// fixed `psi`.
     pub(super) fn slope_of_first(&self, tau: f64) -> f64 {
         let (w, psi, [sin, cos]) = (self.rate, self.phase_at(tau), self.squares);
         let TorqueHarmonics { once, twice, .. } = self.torque;
@@ -194,7 +200,7 @@ impl Precession {
             - self.slope_of_mean_torque() * tau * tau * sin * cos * w
     }
 
-    /// Slope of the second integral of the torque by the damping where that is zero, at fixed `psi`.
+    /// Slope of the second integral of the torque with respect to the damping at zero damping and fixed `psi`.
     pub(super) fn slope_of_second(&self, tau: f64) -> f64 {
         let (w, psi, [sin, cos]) = (self.rate, self.phase_at(tau), self.squares);
         let TorqueHarmonics { once, twice, .. } = self.torque;
@@ -205,7 +211,8 @@ impl Precession {
     }
 
     /// # Errors
-    /// [`Error::Domain`] for a damping that is not finite, that is above a tenth of the rate of the precession, or of a wobble of a right angle.
+    /// [`Error::Domain`] for a damping that is not finite, that is above a tenth of the rate of the precession, or that applies to a wobble of a
+    /// right angle.
     pub(super) fn check(&self) -> Result<(), Error> {
         let Self { wobble, rate, damping, .. } = *self;
         Error::ensure(damping.is_finite(), "rate of damping of the wobble", damping, "a finite number")?;
@@ -224,7 +231,8 @@ impl Precession {
     }
 
     /// # Errors
-    /// [`Error::Domain`] for times of more than two damping times, where the wobble has become so large that it is damped in a few turns, and where it becomes the angle of the magnetic axis to `n`: that goes round `L` on one side, round `n` on the other.
+    /// [`Error::Domain`] for times of more than two damping times, if the wobble has become so large that it is damped in a few turns, and if it
+    /// reaches the angle of the magnetic axis to `n`: on one side of this value the magnetic axis circles `L`, on the other `n`.
     pub(super) fn check_time(&self, tau: f64) -> Result<(), Error> {
         if self.damping == 0.0 {
             return Ok(());
@@ -241,10 +249,12 @@ impl Precession {
         Error::ensure(goes_round(wobble) == goes_round(self.wobble), "damped wobble (rad)", wobble, allowed)
     }
 
-    /// A bound on what the damped torque leaves out of the lateness over `kappa g`, from the time zero to a stretched one.
+    /// A bound on the error, from the time zero to a stretched one, of the timing delay over `kappa g` for the damped
+    /// torque.
     ///
-    /// Partial integration goes on with coefficients of `y^3` that are polynomials in `u`: at most 1 and 1/2 in the first integral of `a_1 cos psi` and `a_2 cos 2 psi`, 6 and 1.6 in the second. Those of `y^4`
-    /// are at most four times as large, and `y` is at most 0.1. The first integral is exact at the time zero, so that its third order there adds a constant to the rotation.
+    /// The next terms of the partial integration have coefficients of `y^3` that are polynomials in `u`: at most 1 and 1/2 in the first integral of
+    /// `a_1 cos psi` and `a_2 cos 2 psi`, 6 and 1.6 in the second. Those of `y^4` are at most four times as large, and `y` is at most 0.1. The first
+    /// integral is exact at the time zero, so that its third order there adds a constant to the rotation.
     pub(super) fn truncation(&self, tau: f64) -> f64 {
         let Self { wobble, chi, rate: w, damping, torque, .. } = *self;
         if damping == 0.0 {

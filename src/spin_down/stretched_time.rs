@@ -1,4 +1,4 @@
-//! The time in which a star that slows down moves as one that does not.
+//! The time in which a star that slows down moves like one that does not.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
@@ -7,36 +7,39 @@ use crate::error::Error;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::scalar::Real;
 
-/// Largest part of its rotation that a star may lose, times `n - 2` for braking indices `n` above 3 or below 1: the series in it then has 32 digits after [`TERMS`] terms.
+/// Largest fraction of its rotation that a star may lose, times `n - 2` for braking indices `n` above 3 or below 1: the series in it then has 32
+/// digits after [`TERMS`] terms.
 const MOST: f64 = 0.1;
 
-/// Terms of the series of time in stretched time.
+/// Number of terms of the series of time in stretched time.
 const TERMS: usize = 30;
 
-/// Most steps of Newton's method from the time to the stretched time. From 10 % off it reaches rounding in six.
+/// Maximum number of Newton steps from the time to the stretched time. From an error of 10 % six reach rounding.
 const STEPS: usize = 12;
 
-/// Largest stretched time over the time, and largest `|ln u|` over `kappa tau`, while the star loses or gains so much: 1.06, and a hundredth by the varying torque.
+/// Largest ratio of stretched time to time, and of `|ln u|` to `kappa tau`, for the largest loss or gain: 1.06, and a hundredth because of the
+/// varying torque.
 const MOST_STRETCHED: f64 = 1.1;
 
-/// Largest part of the rotation by which the varying torque may move it within a precession: more is no small change of the rotation that the scene states.
+/// Largest fraction by which the varying torque may change the rotation within a precession: more would not be a small change of the rotation rate
+/// given in the scene.
 const MOST_VARYING: f64 = 0.01;
 
-/// How a star is braked: `d|L|/dt` proportional to `-|L|^n (k_0 + k_1 sin^2 theta_m)`, along `L`.
+/// The braking law of a star: `d|L|/dt` proportional to `-|L|^n (k_0 + k_1 sin^2 theta_m)`, along `L`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Braking<S = f64> {
     /// `-F1 / F0` at the time zero, averaged over a precession (1 per unit of time).
     pub rate: S,
     /// Braking index `n = F0 F2 / F1^2`: 3 for a dipole.
     pub index: S,
-    /// `k_1 / (k_0 + k_1)`, the share of the torque that goes with `sin^2 theta_m`: 1 for a dipole in vacuum, 1/2 for `k_0 = k_1`, as of a magnetosphere filled with
-    /// plasma, 0 for a torque that does not depend on the magnetic axis.
+    /// `k_1 / (k_0 + k_1)`, the fraction of the torque that is proportional to `sin^2 theta_m`: 1 for a dipole in vacuum, 1/2 for `k_0 = k_1`, as for
+    /// a plasma-filled magnetosphere, 0 for a torque that does not depend on the magnetic axis.
     pub torque_share: S,
 }
 
 /// The map between the time `t` and the stretched time `tau` of a star that slows down, `d tau = a dt` with `a = |L| / |L'|`.
 ///
-/// With `kappa` the mean rate of braking and `u = (1 + (n - 2) kappa tau)^(1 / (n - 2))`, the secular `1 / a`:
+/// With `kappa` the mean braking rate and `u = (1 + (n - 2) kappa tau)^(1 / (n - 2))`, the secular `1 / a`:
 ///
 /// ```text
 /// t = integral of u dtau + Q(tau) - Q(0)
@@ -44,15 +47,16 @@ pub struct Braking<S = f64> {
 ///     + (3 - n) / 2 integral of (kappa P)^2 dtau,    P = g (a_1 sin psi / w + a_2 sin 2 psi / (2 w))
 /// ```
 ///
-/// with [`TorqueHarmonics`] `a_0, a_1, a_2`, `psi = psi_0 + w tau`, and `g = q / (1 - q + q a_0)` for the torque's share `q`. `Q` is by how much the varying torque makes a pulse late. The rotation of
-/// the star that does not slow down, `tau`, is the mean one at the time zero. Exact for `n = 3`; else of second order in `kappa`.
+/// with [`TorqueHarmonics`] `a_0, a_1, a_2`, `psi = psi_0 + w tau`, and `g = q / (1 - q + q a_0)` for the torque fraction `q`. `Q` is the timing
+/// delay due to the torque modulation. The rotation in the time `tau`, of the star that does not slow down, is the mean one at the time zero. Exact
+/// for `n = 3`; otherwise to second order in `kappa`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StretchedTime {
     braking: Braking,
     precession: Precession,
     /// `g`.
     modulation: f64,
-    /// Of `t - tau` by powers of `tau`, from the second on.
+    /// Coefficients of `t - tau` in powers of `tau`, starting with the second.
     secular: Vec<DoubleDouble>,
 }
 
@@ -64,11 +68,11 @@ impl StretchedTime {
         Self { braking, precession, modulation: 0.0, secular: Vec::new() }
     }
 
-    /// The time of a star that is braked while it precesses.
+    /// The time of a star that slows down while it precesses.
     ///
     /// # Errors
-    /// [`Error::Domain`] for a rate or an index that is not finite, a share outside 0 to 1, a torque that vanishes (`q = 1` with the magnetic axis and `n` along `L`), and one that moves the
-    /// rotation by more than a hundredth within a precession.
+    /// [`Error::Domain`] for a rate or an index that is not finite, a fraction outside 0 to 1, a torque that vanishes (`q = 1` with the magnetic axis
+    /// and `n` along `L`), and one that changes the rotation by more than a hundredth within a precession.
     pub fn new(braking: &Braking, precession: &Precession) -> Result<Self, Error> {
         let Braking { rate, index, torque_share } = *braking;
         Error::ensure(rate.is_finite(), "braking rate -F1 / F0", rate, "a finite number")?;
@@ -106,7 +110,7 @@ impl StretchedTime {
         Ok(Self { braking: *braking, precession: *precession, modulation, secular })
     }
 
-    /// How the star is braked.
+    /// The braking law.
     pub fn braking(&self) -> &Braking {
         &self.braking
     }
@@ -116,20 +120,21 @@ impl StretchedTime {
         &self.precession
     }
 
-    /// Whether both times are the same.
+    /// Whether both times are identical.
     pub(crate) fn is_uniform(&self) -> bool {
         self.secular.is_empty()
     }
 
-    /// The time at a stretched one; both as sums of two doubles.
+    /// The time at a stretched time; both are sums of two doubles.
     pub fn time_at(&self, stretched: [f64; 2]) -> [f64; 2] {
         self.time(stretched.into()).into()
     }
 
-    /// The stretched time of the sum of two doubles, in any order.
+    /// The stretched time at the sum of two doubles, in any order.
     ///
     /// # Errors
-    /// [`Error::Domain`] for times so long that the star loses or gains a tenth of its rotation, for braking indices above 3 or below 1 a tenth over `n - 2`.
+    /// [`Error::Domain`] for times so long that the star loses or gains a tenth of its rotation; for braking indices above 3 or below 1, a tenth over
+    /// `n - 2`.
     pub fn stretched_at(&self, time: [f64; 2]) -> Result<[f64; 2], Error> {
         let wanted = DoubleDouble::from(time);
         self.precession.check_time(wanted.high)?;
@@ -147,7 +152,7 @@ impl StretchedTime {
         for _ in 0..STEPS {
             let step = (wanted - self.time(tau)) * self.slowing(tau.high);
             tau += step;
-            // Newton's method squares what is left.
+            // Newton's method squares the remaining error.
             if step.high.abs() <= 1e-18 * tau.high.abs() {
                 break;
             }
@@ -163,17 +168,17 @@ impl StretchedTime {
         tau + series * tau + self.late(tau.high).into()
     }
 
-    /// By how much the varying torque makes the star late since the time zero, `Q(tau) - Q(0)`.
+    /// Timing delay due to the torque modulation since the time zero, `Q(tau) - Q(0)`.
     pub fn late(&self, tau: f64) -> f64 {
         late_by_torque(&self.braking, &self.precession, tau)
     }
 
-    /// `a = |L| / |L'| = d tau / dt` at a stretched time, by the law.
+    /// `a = |L| / |L'| = d tau / dt` at a stretched time, from the braking law.
     pub fn slowing(&self, tau: f64) -> f64 {
         slowing(&self.braking, &self.precession, tau)
     }
 
-    /// The rate of rotation's own rate, `d ln a / dt` over that of the mean torque at the time zero: `a^(n - 1) (1 + g (a_1 cos psi + a_2 cos 2 psi))`.
+    /// Spin-down rate `d ln a / dt` relative to that of the mean torque at the time zero: `a^(n - 1) (1 + g (a_1 cos psi + a_2 cos 2 psi))`.
     pub fn braking_over_mean(&self, tau: f64) -> f64 {
         let torque = TorqueHarmonics::new(self.precession.wobble_at(tau), self.precession.chi);
         let psi = self.precession.phase_at(tau);
@@ -182,8 +187,8 @@ impl StretchedTime {
         self.slowing(tau).powf(self.braking.index - 1.0) * (1.0 + varying)
     }
 
-    /// What wrong angles of the wobble and of its phase do to the lateness: three times their error, `error` at the wobble of a radian and as much over it for a smaller one, as
-    /// `a_1` goes with the first and `a_2` with the second power of the wobble.
+    /// The effect of errors in the angles of the wobble and of its phase on the timing delay: three times the relative error, which is `error` for a
+    /// wobble of a radian and inversely proportional to a smaller wobble, because `a_1` is proportional to the wobble and `a_2` to its square.
     pub(crate) fn error_by_angles(&self, error: f64) -> f64 {
         if self.precession.rate == 0.0 {
             return 0.0;
@@ -191,11 +196,12 @@ impl StretchedTime {
         3.0 * error * (self.braking.rate * self.modulation / self.precession.rate.powi(2)).abs()
     }
 
-    /// A bound on what the map leaves out at a time.
+    /// A bound on the error of the map at a time.
     ///
-    /// With `y = n - 2` and `s = 1 + y kappa tau` the law is `dt/dtau = (s + y kappa P)^(1 / y)`, and `Q` has its first two orders in `kappa P`. It leaves out, all in proportion to
-    /// `(1 - y)(1 - 2 y) kappa^3`: the third order, `P^3 / 6`; of the second, what `u` has changed since the time zero, `tau P^2 / 2`; of the first, the integral that is left after two
-    /// integrations by parts, of a sine over `w^3` times a monotonic function, below twice its largest value over `w`. With damping, what [`Precession`] leaves out.
+    /// With `y = n - 2` and `s = 1 + y kappa tau` the law is `dt/dtau = (s + y kappa P)^(1 / y)`, and `Q` contains its first two orders in `kappa P`.
+    /// It neglects three terms, all proportional to `(1 - y)(1 - 2 y) kappa^3`: the third order, `P^3 / 6`; in the second, the change of `u` since
+    /// the time zero, `tau P^2 / 2`; in the first, the integral that remains after two integrations by parts, of a sine over `w^3` times a monotonic
+    /// function, below twice its largest value over `w`. With damping, the error of [`Precession`] is added.
     pub fn truncation(&self, t: f64) -> f64 {
         let Braking { rate, index, .. } = self.braking;
         let Precession { torque, rate: w, .. } = self.precession;
@@ -205,7 +211,7 @@ impl StretchedTime {
         let (y, tau) = (index - 2.0, MOST_STRETCHED * t.abs());
         let [once, twice] = [torque.once, torque.twice].map(|harmonic| (self.modulation * harmonic / w).abs());
         let largest = once + twice / 2.0;
-        // Powers of s + y kappa P on the way.
+        // Powers of s + y kappa P along the way.
         let power = (1.0 - 2.0 * y).abs().max((1.0 - 3.0 * y).abs());
         let most = (power * MOST_STRETCHED * rate.abs() * (tau + largest)).exp();
         let left = 2.0 * (once + twice / 16.0) / w.abs().powi(3)
@@ -215,7 +221,7 @@ impl StretchedTime {
     }
 }
 
-/// `1 / u` at the stretched time with what the varying torque adds to it: `a` of [`StretchedTime`].
+/// `1 / u` at the stretched time, plus the contribution of the varying torque: `a` of [`StretchedTime`].
 pub(crate) fn slowing<S: Real>(braking: &Braking<S>, precession: &Precession<S>, tau: S) -> S {
     let Precession { torque, rate: w, .. } = *precession;
     if braking.torque_share.re() == 0.0 && !S::HAS_DERIVATIVES || w.re() == 0.0 {
@@ -239,7 +245,8 @@ fn modulation<S: Real>(share: S, torque: &TorqueHarmonics<S>) -> S {
     share / (S::one() - share + share * torque.constant)
 }
 
-/// `Q(tau) - Q(0)` of [`StretchedTime`]; from differences, so that the rounding is that of the result. At the index 3 without its derivative by the index.
+/// `Q(tau) - Q(0)` of [`StretchedTime`], from differences, so that the rounding is that of the result. At the index 3 it has no derivative with
+/// respect to the index.
 pub(crate) fn late_by_torque<S: Real>(braking: &Braking<S>, precession: &Precession<S>, tau: S) -> S {
     let Braking { rate, index, torque_share } = *braking;
     let Precession { torque, rate: w, phase, .. } = *precession;
@@ -276,7 +283,7 @@ pub(crate) fn late_by_torque<S: Real>(braking: &Braking<S>, precession: &Precess
     let first = sum(cos, cos_2, 4.0) + fallen(three_less) * sum(cos_psi, cos_2_psi, 4.0);
     let power = S::from_f64(5.0) - index * 2.0;
     let second = sum(sin, sin_2, 8.0) + fallen(power) * sum(sin_psi, sin_2_psi, 8.0);
-    // Of P^2, with the square of A sin psi + B sin 2 psi as a sum of cosines.
+    // The integral of P^2, with the square of A sin psi + B sin 2 psi as a sum of cosines.
     let [a, b] = [torque.once, torque.twice / 2.0].map(|harmonic| rate * modulation * harmonic / w);
     let [sin_3, sin_4] = [3.0, 4.0].map(|multiple| differences(multiple)[1]);
     let squares =
@@ -298,14 +305,14 @@ pub(crate) fn secular_lateness<S: Real>(braking: &Braking<S>, tau: S) -> S {
     sum
 }
 
-/// `ln u = ln(1 + y kappa tau) / y`, `y = n - 2`, by a series that holds for `y = 0` too.
+/// `ln u = ln(1 + y kappa tau) / y`, `y = n - 2`, from a series that is also valid for `y = 0`.
 fn ln_slowness<S: Real>(braking: &Braking<S>, tau: S) -> S {
     let x = braking.rate * tau;
     let small = x * (braking.index - S::from_f64(2.0));
     x * (1..=terms(small.re(), 18)).rev().fold(S::zero(), |sum, k| S::from_f64(1.0 / k as f64) - small * sum)
 }
 
-/// `exp(x) - 1`, to rounding.
+/// `exp(x) - 1`, accurate to rounding.
 pub(super) fn exp_less_one<S: Real>(x: S) -> S {
     if x.re().abs() > 0.5 {
         return x.exp() - S::one();
@@ -313,13 +320,13 @@ pub(super) fn exp_less_one<S: Real>(x: S) -> S {
     (1..=terms(x.re(), 15)).rev().fold(S::zero(), |sum, k| (S::one() + sum) * x / k as f64)
 }
 
-/// How many terms of a power series without large coefficients come to 1e-18 of the first, and one more for its derivatives: at most so many.
+/// Number of terms of a power series without large coefficients down to 1e-18 of the first, plus one for its derivatives, up to a maximum.
 fn terms(x: f64, most: usize) -> usize {
     let bits = -x.abs().log2();
     if bits > 60.0 { 2 } else { ((60.0 / bits.max(1.0)) as usize + 2).min(most) }
 }
 
-/// An angle less whole multiples of `turn` (rad).
+/// An angle minus integer multiples of `turn` (rad).
 pub(super) fn within<S: Real>(angle: S, turn: f64) -> S {
     let value = angle.re();
     angle - S::from_f64(value - value % turn)
@@ -349,7 +356,7 @@ mod tests {
         }
     }
 
-    /// By differences of the map, the law of its rate by quadrature of the torque.
+    /// Compared with differences of the map, and the law of its rate with a quadrature of the torque.
     #[test]
     fn the_slowing_is_the_rate_of_the_map() {
         for (index, share) in [(3.0, 1.0), (2.0, 0.5), (5.0, 1.0), (1.0, 0.4)] {
@@ -358,7 +365,7 @@ mod tests {
                 let h = 1e-3;
                 let rate = DoubleDouble::from(stretched.time_at([tau, h])) - stretched.time_at([tau, -h]).into();
                 let expected = 2.0 * h / stretched.slowing(tau);
-                // Terms of relative size (kappa / w)^2 of the varying part, 1e-5 of which kappa / w is.
+                // The error terms are of relative size (kappa / w)^2 of the varying part, where kappa / w is 1e-5.
                 assert!(
                     (rate.high / expected - 1.0).abs() < 3e-14 + 1e-13 * (3.0 - index).abs(),
                     "{index} {tau}: {:e}",
@@ -373,7 +380,7 @@ mod tests {
         }
     }
 
-    /// Numbers from another program, with rates of either sign.
+    /// Reference values from another program, with rates of either sign.
     #[test]
     fn what_is_left_out() {
         let star = |index: f64, wobble: f64, rate: f64, damping: f64| {
@@ -386,7 +393,7 @@ mod tests {
         close(star(2.2, 0.4, -0.013, 0.0).truncation(-2e3), 8.216483130107e-11);
         close(star(3.0, 0.4, -0.013, -2e-4).truncation(-2e3), 1.87931794971e-07);
         close(star(3.0, 0.4, -0.013, -2e-4).truncation(2e3), 2.637947462964e-07);
-        // The bound is a time squared: with all rates halved it is four times as large.
+        // The bound is proportional to a time squared: with all rates halved it is four times as large.
         for sign in [1.0, -1.0] {
             let bound = |damping: f64| {
                 Precession::new([0.4, 1.3, 0.7], 100.0 * damping, sign * damping).truncation(0.3 / damping)
@@ -399,7 +406,7 @@ mod tests {
         assert_eq!([still.truncation(1e4), still.error_by_angles(0.25)], [0.0; 2]);
     }
 
-    /// A wobble that friction raises near a right angle, where the precession becomes slow.
+    /// A wobble that friction raises close to a right angle, where the precession becomes slow.
     #[test]
     fn a_wobble_that_is_damped_in_a_few_turns_at_a_later_time_is_refused_there() {
         let precession = Precession::new([1.4, 0.2, 0.7], 0.013, -3e-4);
@@ -441,7 +448,8 @@ mod tests {
         assert!((second / 4.5e-12 - 1.0).abs() < 1e-3, "{second:e}");
     }
 
-    /// Over a small part of a slow precession the lateness is `kappa g` times half the square of time and the torque's difference from its mean, less what the rotation at the start is ahead; by the Taylor series.
+    /// Over a small part of a slow precession the timing delay is `kappa g` times half the square of time and the difference of the torque from its
+    /// mean, minus the advance of the rotation at the start; computed from the Taylor series.
     #[test]
     fn a_short_time_has_a_small_lateness() {
         let torque = TorqueHarmonics::new(0.2, 1.3);

@@ -18,7 +18,7 @@ use crate::units::si;
 /// Coefficient of Eq. (20) `[epf]` as printed, in place of [`CENTRIFUGAL_COEFFICIENT`].
 pub const PRINTED_CENTRIFUGAL_COEFFICIENT: f64 = 2.1e-3;
 
-/// Fluid oblateness `eps_f = |Omega|^2 R^3 / M`, Eq. (20) `[epf]`, first form: an estimate by order of magnitude.
+/// Fluid oblateness `eps_f = |Omega|^2 R^3 / M`, Eq. (20) `[epf]`, first form: an order-of-magnitude estimate.
 ///
 /// `omega` [rad / time], `radius` and `mass` in units with G = 1. For a uniform star of small `e` the exact oblateness is
 /// 5/4 of it.

@@ -32,7 +32,7 @@ pub struct UniformEllipsoid<S: Real> {
 }
 
 impl<S: Real> UniformEllipsoid<S> {
-    /// From the semi-axes `(a1, a2, a3)`, in any order of size, and the density.
+    /// The ellipsoid from the semi-axes `(a1, a2, a3)`, in any order of size, and the density.
     ///
     /// # Errors
     /// [`Error::Domain`] unless all are positive and finite.
@@ -57,8 +57,8 @@ impl<S: Real> UniformEllipsoid<S> {
     }
 
     /// Coefficients `A_i = a1 a2 a3 int_0^inf du / ((a_i^2 + u) Delta)` of Eq. (73), with sum 2:
-    /// `A_3 = (2/3) a1 a2 a3 R_D(a1^2, a2^2, a3^2)` and its permutations. Each to a few ulp; differences of nearly equal
-    /// ones lose what they cancel, unlike those of
+    /// `A_3 = (2/3) a1 a2 a3 R_D(a1^2, a2^2, a3^2)` and its permutations. Each is accurate to a few ulp; differences of
+    /// nearly equal ones lose digits by cancellation, unlike those of
     /// [`potential_coefficients`](crate::star::potential_coefficients::potential_coefficients).
     pub fn coefficients(&self) -> Vector3<S> {
         let [x, y, z] = self.squares();

@@ -19,13 +19,13 @@ use crate::star::AxisymmetricTensor;
 use crate::star::potential_coefficients::potential_coefficients;
 use crate::star::uniform_spheroid::UniformSpheroid;
 
-/// A uniform oblate spheroid that turns at the rate which keeps it in hydrostatic equilibrium. Units with G = 1.
+/// A uniform oblate spheroid that rotates at the rate of hydrostatic equilibrium. Units with G = 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MaclaurinSpheroid<S> {
     /// The body.
     pub spheroid: UniformSpheroid<S>,
-    /// Squared rotation rate `|Omega|^2 = 2 pi rho (A_1 - (a3^2 / a1^2) A_3)`, Eq. (77); `(8 pi / 15) rho e^2` near the sphere, with regular
-    /// derivatives there, which the rate itself, proportional to `e`, does not have.
+    /// Squared rotation rate `|Omega|^2 = 2 pi rho (A_1 - (a3^2 / a1^2) A_3)`, Eq. (77); `(8 pi / 15) rho e^2` near the sphere. Its
+    /// derivatives are regular there, whereas the rate itself, proportional to `e`, has none.
     pub rotation_rate_squared: S,
     /// Kinetic energy `T_rot = I^zz |Omega|^2 / 2`, which is `2 C`, Eq. (78) `[estc]`.
     pub rotational_energy: S,
@@ -38,7 +38,7 @@ pub struct MaclaurinSpheroid<S> {
 }
 
 impl<S: Real> MaclaurinSpheroid<S> {
-    /// From an oblate or spherical spheroid.
+    /// The Maclaurin spheroid from an oblate or spherical spheroid.
     ///
     /// # Errors
     /// [`Error::Domain`] for a prolate spheroid: by Eq. (77) it would have `|Omega|^2 < 0`.
@@ -74,7 +74,7 @@ impl<S: Real> MaclaurinSpheroid<S> {
 mod tests {
     use super::*;
 
-    /// Central in the middle, and less by the square of the distance as part of that to the surface.
+    /// Central pressure at the centre, falling with the square of the distance relative to that of the surface.
     #[test]
     fn the_pressure_falls_to_zero_at_the_surface() {
         let spheroid = UniformSpheroid::from_semi_axes(1.3, 0.8, 0.7).unwrap();
@@ -88,7 +88,7 @@ mod tests {
         }
     }
 
-    /// Of a thin disc the components along the axis are as small as it is thin, and so is what rounding leaves of their balance.
+    /// For a thin disc the components along the axis are proportional to its thickness, and so is the rounding of their balance.
     #[test]
     fn each_component_is_balanced_within_its_own_rounding() {
         for thickness in [0.7, 1e-3, 3e-7, 1e-9, 7e-10, 3e-11] {

@@ -16,7 +16,7 @@ pub mod uniform_spheroid;
 /// A symmetric tensor of an axisymmetric star in its body frame: diagonal, with `xx = yy`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisymmetricTensor<S> {
-    /// The components `xx = yy`, across the symmetry axis.
+    /// The components `xx = yy`, perpendicular to the symmetry axis.
     pub xx: S,
     /// The component `zz`, along the symmetry axis.
     pub zz: S,

@@ -1,7 +1,7 @@
 //! Coefficients of the Newtonian potential inside a uniform spheroid. Eqs. (73), (74).
 //!
-//! The closed forms of Eq. (74) lose all digits near the sphere and are 0/0 on it. Here everything comes from one positive
-//! function of the shape,
+//! The closed forms of Eq. (74) lose all digits near the sphere and are 0/0 on it. Here everything is computed from one
+//! positive function of the shape,
 //!
 //! ```text
 //! beta = (A_1 - q^2 A_3) / (q e^2) = int_0^1 v^(1/2) (1 - v) (1 - e^2 v)^(-3/2) dv = (4/15) 2F1(3/2, 3/2; 7/2; e^2)
@@ -17,7 +17,7 @@
 //! Every term is positive for every shape, so nothing cancels; every step is analytic, so derivatives are as regular as
 //! values; and a step brings the spheroid four times closer to the sphere, where a short series ends the recursion.
 //!
-//! For a needle, `q > 64`, the closed form loses nothing, and no rounding of some ten steps adds up:
+//! For a needle, `q > 64`, the closed form loses nothing, and avoids the accumulated rounding of some ten steps:
 //!
 //! ```text
 //! A_1 - q^2 A_3 = 3 (1 + u) - (2 + 3 u) p,   A_0 = 2 p,   p = sqrt(1 + u) ln(q + sqrt(q^2 - 1)),   u = 1 / (q^2 - 1)
@@ -38,7 +38,7 @@ use crate::numerics::rounding::{two_product, two_sum};
 use crate::numerics::scalar::Real;
 use crate::star::spheroid_shape::SpheroidShape;
 
-/// Below this `|e^2|` the series in `e^2` is summed: the first term left out is 2e-22 of the sum, and still 1e-16 of it
+/// For `|e^2|` below this the series in `e^2` is summed: the first neglected term is 2e-22 of the sum, and still 1e-16 of it
 /// after two differentiations.
 const SERIES_RADIUS: f64 = 1.0 / 64.0;
 const SERIES_TERMS: usize = 12;
@@ -48,7 +48,7 @@ const NEEDLE: f64 = 64.0;
 
 /// Coefficients of `Phi = -pi rho (A_0 - A_1 (x^2 + y^2) - A_3 z^2)` inside a uniform spheroid, Eq. (73).
 ///
-/// Largest errors seen against 40-digit values at 100,000 random shapes (`e` from 1e-13 to 0.999, `a3 / a1` from 1 to 10):
+/// Largest errors found against 40-digit values at 100,000 random shapes (`e` from 1e-13 to 0.999, `a3 / a1` from 1 to 10):
 /// `A_0` 3.6 ulp, `A_1` 3.1 ulp, `A_3` 3.2 ulp.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PotentialCoefficients<S> {
@@ -63,11 +63,11 @@ pub struct PotentialCoefficients<S> {
     pub difference: S,
 }
 
-/// Coefficients of Eq. (74) for any shape, with full precision and regular derivatives at the sphere.
+/// Coefficients of Eq. (74) for any shape, to full precision and with regular derivatives at the sphere.
 ///
 /// With `D = A_1 - q^2 A_3` and the sum rule `2 A_1 + A_3 = 2`, all are sums of terms of one sign:
 /// `A_1 = (2 q^2 + D) / (1 + 2 q^2)`, `A_3 = 2 (1 - D) / (1 + 2 q^2)`, `A_0 = 2 (3 q^2 + e^2 D) / (1 + 2 q^2)`. For a
-/// prolate one `A_1 = 1 - A_3 / 2`, of which the derivatives do not cancel.
+/// prolate one `A_1 = 1 - A_3 / 2`, whose derivatives do not cancel.
 pub fn potential_coefficients<S: Real>(shape: &SpheroidShape<S>) -> PotentialCoefficients<S> {
     let (q, q2, e2) = (shape.axis_ratio, shape.axis_ratio_squared, shape.eccentricity_squared);
     let sum = q2 * 2.0 + S::one();
@@ -98,7 +98,7 @@ pub fn reduced_difference<S: Real>(shape: &SpheroidShape<S>) -> S {
 }
 
 fn half_angle_step<S: Real>(q: S, q2: S, e2: S) -> S {
-    // Not a number ends here as well.
+    // NaN ends here as well.
     if e2.re().abs() < SERIES_RADIUS || e2.re().is_nan() {
         return near_sphere(e2);
     }
@@ -108,11 +108,11 @@ fn half_angle_step<S: Real>(q: S, q2: S, e2: S) -> S {
     let three = S::from_f64(3.0);
     let carried = (q2 * 2.0 + S::one()) * next / (next_q * 4.0);
     let (denominator, lost) = denominator(q);
-    // What the denominator lost is taken from the smaller term, where the correction itself rounds least.
+    // The rounding error of the denominator is applied to the smaller term, where the correction itself rounds least.
     (three + (carried - (three + carried) * (lost / denominator))) / denominator
 }
 
-/// `(2 + q) (1 + q)^2` and what its rounding lost: without the second part it would make half of the error of `C`.
+/// `(2 + q) (1 + q)^2` and its rounding error: without the second part this would make up half of the error of `C`.
 fn denominator<S: Real>(q: S) -> (S, S) {
     let (two, two_lost) = two_sum(S::from_f64(2.0), q);
     let (one, one_lost) = two_sum(S::one(), q);

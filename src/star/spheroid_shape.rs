@@ -21,20 +21,20 @@ use crate::numerics::scalar::Real;
 
 /// Shape of the spheroid `(x^2 + y^2) / a1^2 + z^2 / a3^2 = 1`, Eq. (10) `[spheroid]`: oblate, spherical or prolate.
 ///
-/// Keeps `q = a3 / a1`, `q^2` and `e^2 = 1 - q^2` together, each to about one ulp of what it was built from. None of them
-/// can stand for the others: `e^2` of 1e-24 is lost in `q`, and `q` of a thin disc is lost in `e^2`. For a prolate spheroid
-/// `e^2` is negative; all functions of the shape are analytic in it.
+/// Stores `q = a3 / a1`, `q^2` and `e^2 = 1 - q^2` together, each to about one ulp of the value it was built from. None of
+/// them can replace the others: `e^2` of 1e-24 is lost in `q`, and `q` of a thin disc is lost in `e^2`. For a prolate
+/// spheroid `e^2` is negative; all functions of the shape are analytic in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpheroidShape<S> {
     pub(crate) axis_ratio: S,
     pub(crate) axis_ratio_squared: S,
     pub(crate) eccentricity_squared: S,
-    /// What the rounding of `q^2` and of `e^2` lost, zero where it is not known.
+    /// Rounding errors of `q^2` and of `e^2`, zero if they are not known.
     pub(crate) lost: (S, S),
 }
 
 impl<S: Real> SpheroidShape<S> {
-    /// From the eccentricity `e = sqrt(1 - (a3 / a1)^2)`, Eq. (72) `[ecc]`, of an oblate spheroid.
+    /// The shape from the eccentricity `e = sqrt(1 - (a3 / a1)^2)`, Eq. (72) `[ecc]`, of an oblate spheroid.
     ///
     /// # Errors
     /// [`Error::Domain`] unless `0 <= e < 1`.
@@ -45,7 +45,8 @@ impl<S: Real> SpheroidShape<S> {
         Ok(Self { axis_ratio: q2.sqrt(), axis_ratio_squared: q2, eccentricity_squared: e2, lost: (q2_lost, e2_lost) })
     }
 
-    /// From `e^2 = 1 - (a3 / a1)^2`, Eq. (72) `[ecc]`; negative for a prolate spheroid. Regular at zero for derivatives.
+    /// The shape from `e^2 = 1 - (a3 / a1)^2`, Eq. (72) `[ecc]`; negative for a prolate spheroid. Regular at zero for
+    /// derivatives.
     ///
     /// # Errors
     /// [`Error::Domain`] unless `-1e200 <= e^2 < 1`.
@@ -55,7 +56,7 @@ impl<S: Real> SpheroidShape<S> {
         Ok(Self { axis_ratio: q2.sqrt(), axis_ratio_squared: q2, eccentricity_squared: e2, lost: (lost, S::zero()) })
     }
 
-    /// From the axis ratio `q = a3 / a1`: below one oblate, above one prolate.
+    /// The shape from the axis ratio `q = a3 / a1`: below one oblate, above one prolate.
     ///
     /// # Errors
     /// [`Error::Domain`] unless `1e-100 <= q <= 1e100`.
@@ -67,7 +68,7 @@ impl<S: Real> SpheroidShape<S> {
         Ok(Self { axis_ratio: q, axis_ratio_squared: q2, eccentricity_squared: e2, lost: (q2_lost, e2_lost) })
     }
 
-    /// From the semi-axes `a1` (equatorial) and `a3` (polar).
+    /// The shape from the semi-axes `a1` (equatorial) and `a3` (polar).
     ///
     /// # Errors
     /// [`Error::Domain`] unless both are positive and finite and their ratio is between 1e-100 and 1e100.
@@ -81,7 +82,8 @@ impl<S: Real> SpheroidShape<S> {
         Ok(Self { eccentricity_squared: e2, lost: (S::zero(), S::zero()), ..shape })
     }
 
-    /// From the oblateness `epsilon` of the uniform spheroid, the inverse of Eq. (79): `e^2 = 2 epsilon / (1 + epsilon)`.
+    /// The shape from the oblateness `epsilon` of the uniform spheroid, the inverse of Eq. (79):
+    /// `e^2 = 2 epsilon / (1 + epsilon)`.
     ///
     /// # Errors
     /// [`Error::Domain`] unless `-1 < epsilon < 1`.
@@ -112,14 +114,14 @@ impl<S: Real> SpheroidShape<S> {
     pub fn oblateness(&self) -> S {
         let sum = self.axis_ratio_squared + S::one();
         if self.eccentricity_squared.re() < -2.0 {
-            // Towards -1: the quotient has a derivative that is the difference of two terms larger by `q^2`.
+            // Towards -1: the derivative of the quotient is the difference of two terms larger by `q^2`.
             return S::from_f64(2.0) / sum - S::one();
         }
         self.eccentricity_squared / sum
     }
 }
 
-/// `1 - (x + lost)`, and what its rounding lost.
+/// `1 - (x + lost)`, and its rounding error.
 fn one_minus<S: Real>(x: S, lost: S) -> (S, S) {
     let (difference, first) = two_sum(S::one(), -x);
     two_sum(difference, first - lost)

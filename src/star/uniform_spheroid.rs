@@ -38,7 +38,7 @@ pub struct UniformSpheroid<S> {
 }
 
 impl<S: Real> UniformSpheroid<S> {
-    /// From the equatorial semi-axis `a1`, the density and the shape.
+    /// The spheroid from the equatorial semi-axis `a1`, the density and the shape.
     ///
     /// # Errors
     /// [`Error::Domain`] unless `a1` and the density are positive and finite.
@@ -48,7 +48,7 @@ impl<S: Real> UniformSpheroid<S> {
         Ok(Self { equatorial_radius, density, shape })
     }
 
-    /// From the semi-axes `a1` (equatorial) and `a3` (polar) of Eq. (10) `[spheroid]` and the density.
+    /// The spheroid from the semi-axes `a1` (equatorial) and `a3` (polar) of Eq. (10) `[spheroid]` and the density.
     ///
     /// # Errors
     /// [`Error::Domain`] unless all three are positive and finite.
@@ -56,7 +56,8 @@ impl<S: Real> UniformSpheroid<S> {
         Self::new(a1, density, SpheroidShape::from_semi_axes(a1, a3)?)
     }
 
-    /// From the mass, the mean radius `R = (a1^2 a3)^(1/3)` and the shape: `rho = 3 M / (4 pi R^3)`, `a1 = R q^(-1/3)`.
+    /// The spheroid from the mass, the mean radius `R = (a1^2 a3)^(1/3)` and the shape: `rho = 3 M / (4 pi R^3)`,
+    /// `a1 = R q^(-1/3)`.
     ///
     /// # Errors
     /// [`Error::Domain`] unless mass and radius are positive and finite.
@@ -110,10 +111,12 @@ impl<S: Real> UniformSpheroid<S> {
     /// Constant `C = (U^xx - U^zz) / 2 = (4 pi^2 / 15) rho^2 a1^2 a3 (a1^2 A_1 - a3^2 A_3)`, Eqs. (12) and (75), in units of
     /// energy: positive for an oblate spheroid, exactly zero for the sphere, negative for a prolate one.
     ///
-    /// At most 4 ulp for exact `a1` and density of one, however small `e` is (3.3 seen at 100,000 shapes, `e` from 1e-13 to 0.999 and `a3 / a1` from 1 to 10).
+    /// The error is at most 4 ulp for exact `a1` and a density of one, however small `e` is (3.3 found at 100,000 shapes, `e` from 1e-13 to 0.999 and
+    /// `a3 / a1` from 1 to 10).
     pub fn c(&self) -> S {
         let surface_density = self.density * self.equatorial_radius * self.equatorial_radius;
-        // Three products of which only the last sum is rounded: together with the factors' own errors they would pass 4 ulp.
+        // Three products of which only the last sum is rounded: with the errors of the factors themselves, more rounding
+        // would exceed 4 ulp.
         let (q2, e2) = (self.shape.axis_ratio_squared, self.shape.eccentricity_squared);
         let beta = reduced_difference(&self.shape);
         let (reduced, lost_1) = two_product(e2, beta);
@@ -154,7 +157,7 @@ fn positive(value: f64, quantity: &'static str) -> Result<(), Error> {
     Error::ensure(value > 0.0 && value.is_finite(), quantity, value, "positive and finite")
 }
 
-/// Of a number above zero. The exponential has the rounding of its argument, a hundred ulp for `x = 1e90`; Newton's step takes it away.
+/// For a positive number. The exponential has the rounding of its argument, a hundred ulp for `x = 1e90`; a Newton step removes it.
 fn cube_root<S: Real>(x: S) -> S {
     let root = (x.ln() / 3.0).exp();
     let square = root * root;

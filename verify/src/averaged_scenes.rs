@@ -1,4 +1,5 @@
-//! Random fast rotations against a weak torque, over the whole domain of the averaged motion, and the error of that motion beside its estimate.
+//! Random fast rotations with a weak torque, over the whole domain of the averaged motion, and the error of that motion compared with its
+//! estimate.
 
 use crate::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Random stars that slow down, and how the error stated of their stretched time compares with the true one.
+//! Random stars that slow down, and the stated error of their stretched time compared with the true one.
 
 use std::num::NonZeroUsize;
 

@@ -1,4 +1,4 @@
-//! A check: written once as data, run singly by `cargo test` and listed by the command `twofold verify`.
+//! A check: written once as data, run individually by `cargo test` and listed by the command `twofold verify`.
 
 use twofold::dynamics::RotationState;
 

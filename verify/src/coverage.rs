@@ -1,4 +1,4 @@
-//! Whether error bars hold: fits of many simulated measurements against what was put in.
+//! Coverage of the error bars: fits of many simulated measurements compared with the true parameters.
 
 use rayon::prelude::*;
 

@@ -1,7 +1,7 @@
-//! Double-double numbers, about 31 digits, as a scalar of the model: the oracle where 16 digits are not enough.
+//! Double-double numbers, about 31 digits, as a scalar of the model: the reference where 16 digits are not enough.
 //!
 //! The arithmetic is that of the crate `xprec` (Joldes, Muller and Popescu 2017, ACM Trans. Math. Softw. 44, 15). The type
-//! here only lends it the traits of the model.
+//! here only implements the model's traits for it.
 
 use core::fmt;
 use core::str::FromStr;

@@ -1,7 +1,7 @@
-//! Dual numbers over any [`Scalar`], exact where it is exact.
+//! Dual numbers over any [`Scalar`], exact if it is exact.
 //!
-//! The dual numbers of `num_dual` are built on floating-point primitives. These carry a prime field, and, nested,
-//! derivatives of any order.
+//! The dual numbers of `num_dual` are built on floating-point primitives. These also work over a prime field and, nested,
+//! for derivatives of any order.
 
 use crate::prelude::*;
 

@@ -1,5 +1,5 @@
-//! The table of equations: for each numbered equation its label, the functions that implement it and golden tables with numbers of it.
-//! `docs/equations.md` adds the checks; a test keeps it so.
+//! The table of equations: for each numbered equation its label, the functions that implement it and the golden tables with its
+//! numbers. `docs/equations.md` adds the checks; a test keeps it up to date.
 
 use std::fmt::Write;
 

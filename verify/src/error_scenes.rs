@@ -1,4 +1,4 @@
-//! Random scenes over the whole space of motions, and how the estimated error of each compares with its true one.
+//! Random scenes over the whole space of motions, and the estimated error of each compared with its true one.
 
 use crate::averaged_scenes::direction;
 use crate::independent_taylor::state_after;

@@ -1,4 +1,4 @@
-//! The curve of `eta` against the inclination, and the same from numerical motion.
+//! The curve of `eta` against the inclination, and the same curve from numerical motion.
 
 use crate::prelude::*;
 

@@ -1,4 +1,4 @@
-//! The operators of a number type, from its four field operations.
+//! The operators of a number type, defined from its four field operations.
 
 /// Gives a type with `Scalar::from_f64` the sum, the negative, the product and the quotient that are written for it, and what `Scalar` takes
 /// besides: differences, assigning operators, products with constants, zero and one.

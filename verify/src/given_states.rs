@@ -1,4 +1,4 @@
-//! A motion by its states alone, as a user of the library would write one.
+//! A motion defined only by its states, as a user of the library would write one.
 
 use crate::prelude::*;
 use twofold::propagation::Turning;

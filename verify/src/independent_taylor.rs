@@ -1,4 +1,5 @@
-//! A Taylor integrator of its own for true errors: no code of the model, any number type, no dense output.
+//! An independent Taylor integrator for true errors: it shares no code with the model, works for any number type and has no
+//! dense output.
 
 use crate::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Weighted averages over a span of a numerical motion: mean rates of angles and single lines, beside which the exact ones are put.
+//! Weighted averages over a span of a numerical motion: mean rates of angles and single lines, for comparison with the exact ones.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! The order of an error in a small parameter, as the figure of a check.
+//! The order of an error in a small parameter, as the measured value of a check.
 
 use crate::prelude::*;
 use twofold::numerics::straight_line::order;

@@ -1,4 +1,5 @@
-//! The names that most checks use: the parts of a problem, the kernels of many checks, and what measures a figure.
+//! The names that most checks use: the parts of a problem, the kernels of many checks, and the functions that measure their
+//! values.
 
 pub(crate) use crate::check::{
     Bound, Check, Figure, Kind, Measured, Outcome, Worst, checks, largest, largest_component, largest_difference,

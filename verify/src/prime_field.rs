@@ -1,7 +1,7 @@
 //! Exact arithmetic: the field of integers modulo the prime `2^61 - 1`.
 //!
-//! An identity between rational functions that holds at a random point of a large field holds everywhere, but for a
-//! probability of about its degree over the field's size. There is no rounding, and so no tolerance.
+//! An identity between rational functions that holds at a random point of a large field holds everywhere, except with a
+//! probability of about its degree over the size of the field. There is no rounding, and so no tolerance is needed.
 
 use core::fmt;
 

@@ -1,4 +1,4 @@
-//! Initial values that the paper prints in captions, beside what its formulas give.
+//! Initial values that the paper prints in captions, compared with the values from its formulas.
 
 use crate::prelude::*;
 

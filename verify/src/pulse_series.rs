@@ -1,4 +1,4 @@
-//! The paper's series of pulse periods and lengths, and its curves beside them. Eqs. (44), (47), (51), (52), (56).
+//! The paper's series of pulse periods and durations, compared with its curves. Eqs. (44), (47), (51), (52), (56).
 
 use crate::prelude::*;
 use twofold::observables::pulsar::Pulse;

@@ -1,4 +1,4 @@
-//! The reference motions: initial values and 34-digit states of ten scenes, and the pulses of two, carried as test data.
+//! The reference motions: initial values and 34-digit states of ten scenes, and the pulses of two, included as test data.
 
 use crate::prelude::*;
 

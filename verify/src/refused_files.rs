@@ -1,4 +1,4 @@
-//! Files of `tests/data` that are to be refused. Their first line says what the message contains.
+//! Files of `tests/data` that must be refused. Their first line states what the message contains.
 
 use std::fs;
 use std::path::Path;

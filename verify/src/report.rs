@@ -1,4 +1,4 @@
-//! Checks and what became of them, for a reader (tables) and for a program (JSON).
+//! Checks and their results, for a reader (tables) and for a program (JSON).
 
 use std::fmt::Write as _;
 

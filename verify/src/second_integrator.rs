@@ -1,4 +1,4 @@
-//! A second opinion on numerical motion: Verner's Runge-Kutta 9(8) of the crate `numeris`.
+//! An independent numerical motion: Verner's Runge-Kutta 9(8) of the crate `numeris`.
 
 use crate::prelude::*;
 use numeris::Vector;

@@ -1,4 +1,4 @@
-//! Measured series as `twofold pulses` and `twofold run` write them.
+//! Measured series in the format of `twofold pulses` and `twofold run`.
 
 use std::collections::HashMap;
 use std::fs::File;
@@ -8,23 +8,24 @@ use twofold::inference::{Datum, Noise, Observable, Place};
 
 use crate::scene_file::{LARGEST_FILE, Scene, shortened};
 
-/// Most rows of a file: a fit keeps a derivative of each datum by each unknown, and as many samples are allowed of a scene.
+/// Largest number of rows of a file: a fit stores the derivative of each datum with respect to each unknown. A scene may
+/// have as many samples.
 pub(super) const MOST_ROWS: usize = 100_000;
 
-/// Most columns that a message names.
+/// Largest number of columns named in a message.
 const MOST_NAMED: usize = 30;
 
-/// Largest whole number in size, as of a turn: every one up to it is a double.
+/// Largest integer in size, for example of a turn: every integer up to it is a double.
 const LARGEST_TURN: i64 = 1_000_000_000_000_000;
 
-/// A table of measured numbers, with the name that messages call it by.
+/// A table of measured numbers, with its name for messages.
 #[derive(Debug)]
 pub struct DataFile {
     pub(super) name: String,
     pub(super) text: String,
 }
 
-/// Every row with its line, its fields in the order wanted.
+/// Every row with its line number, with its fields in the requested order.
 type Rows = Vec<(u64, Vec<String>)>;
 
 impl DataFile {
@@ -32,7 +33,7 @@ impl DataFile {
     pub fn read(path: &str) -> Result<Self, String> {
         let mut bytes = Vec::new();
         let file = File::open(path).map_err(|error| format!("{path}: {error}"))?;
-        // Bounded while reading, so that a device or pipe cannot fill the memory.
+        // The size is bounded while reading, so that a device or pipe cannot fill the memory.
         file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(|error| format!("{path}: {error}"))?;
         if bytes.len() as u64 > LARGEST_FILE {
             return Err(format!("{path}: is longer than {} MiB, the most that is read", LARGEST_FILE >> 20));
@@ -40,7 +41,7 @@ impl DataFile {
         Self::of_bytes(path, bytes)
     }
 
-    /// A table whose bytes are known; messages call it `name`.
+    /// A table with given bytes; messages call it `name`.
     pub fn of_bytes(name: &str, bytes: Vec<u8>) -> Result<Self, String> {
         let text = String::from_utf8(bytes).map_err(|error| {
             let byte = error.utf8_error().valid_up_to() + 1;
@@ -49,7 +50,7 @@ impl DataFile {
         Ok(Self { name: name.to_owned(), text })
     }
 
-    /// Whether it is a table of pulses, by its header.
+    /// Whether it is a table of pulses, according to its header.
     pub fn is_of_pulses(&self) -> Result<bool, String> {
         Ok(self.columns()?.iter().any(|column| column == "turn"))
     }
@@ -106,7 +107,8 @@ impl DataFile {
     /// Pulses without a turn, and two of one turn, are left out.
     ///
     /// # Errors
-    /// A column that is missing, a field that is no number and more than 100,000 rows; file, line, column and field are named.
+    /// A column that is missing, a field that is not a number, or more than 100,000 rows; the error names file, line, column
+    /// and field.
     pub fn pulses(&self, scene: &Scene, noise: &[Noise]) -> Result<Vec<Datum>, String> {
         let unit = scene.units.time_name;
         let wanted = [
@@ -138,7 +140,7 @@ impl DataFile {
                     Observable::Arrivals => near,
                     Observable::Widths => field(3)? / time,
                     Observable::ClosestApproaches => (field(4)? - start) / time,
-                    // A period across turns without a pulse is none.
+                    // A period across turns without a pulse does not count.
                     Observable::Periods if !fields[5].is_empty() && single(turn - 1) => field(5)? / time,
                     _ => continue,
                 };
@@ -177,7 +179,7 @@ mod tests {
         DataFile::of_bytes("data", text.as_bytes().to_vec()).unwrap()
     }
 
-    /// Times from 10 in units of 2. A period is one where the pulse of the turn before was seen once.
+    /// Times start at 10, in units of 2. A period exists if the previous turn has exactly one pulse.
     #[test]
     fn data_are_in_units_of_the_scene_from_its_start() {
         let mut scene = Scene::named("tp-2").unwrap();

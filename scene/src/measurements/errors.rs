@@ -1,4 +1,4 @@
-//! Simulated errors of data, and starts of fits beside the truth.
+//! Simulated errors of data, and starting points of fits near the true parameters.
 
 use nalgebra::DVector;
 use rand::rngs::ChaCha8Rng;
@@ -6,20 +6,21 @@ use rand_distr::{Distribution, StandardNormal};
 use twofold::Error;
 use twofold::inference::{Datum, Fisher, Model, TimingData};
 
-/// The same data with an error each, normal with its standard deviation.
+/// The same data with a random error each, normal with its standard deviation.
 pub fn with_noise(data: &[Datum], random: &mut ChaCha8Rng) -> Vec<Datum> {
     let mut normal = || -> f64 { StandardNormal.sample(random) };
     data.iter().map(|datum| Datum { value: datum.value + datum.sigma * normal(), ..*datum }).collect()
 }
 
-/// Adds to every arrival time and width an error, normal with its standard deviation.
+/// Adds to every arrival time and width a random error, normal with its standard deviation.
 pub fn add_timing_noise(data: &mut TimingData, random: &mut ChaCha8Rng) {
     let mut normal = || -> f64 { StandardNormal.sample(random) };
     data.arrivals.iter_mut().for_each(|arrival| arrival.time[1] += arrival.sigma * normal());
     data.widths.iter_mut().for_each(|width| width.duration += width.sigma * normal());
 }
 
-/// A start for a fit: the parameters of a Fisher matrix with its unknowns moved by a draw of their normal distribution, `factor` times as wide.
+/// A starting point for a fit: the parameters of a Fisher matrix with its unknowns displaced by a draw from their normal distribution, `factor`
+/// times as wide.
 pub fn beside<M: Model>(fisher: &Fisher<M>, factor: f64, random: &mut ChaCha8Rng) -> Result<M, Error> {
     let normal = DVector::from_fn(fisher.unknowns.len(), |_, _| StandardNormal.sample(random));
     fisher.beside(&normal, factor)
@@ -32,7 +33,7 @@ mod tests {
 
     use super::*;
 
-    /// The numbers of the generator in the order of arrivals and then widths, in standard deviations of each.
+    /// The random numbers are used first for arrivals and then for widths, in standard deviations of each.
     #[test]
     fn arrivals_and_then_widths_are_off_by_normal_numbers() {
         let arrivals = [1e-3, 4.0].map(|sigma| MeasuredArrival { time: [1e9, 0.5], sigma, number: Some(7) }).to_vec();
@@ -44,7 +45,7 @@ mod tests {
         let found = [(data.arrivals[0].time[1] - 0.5) / 1e-3, (data.arrivals[1].time[1] - 0.5) / 4.0];
         let found = [found[0], found[1], (data.widths[0].duration - 2.0) / 0.25];
         for (found, normal) in found.iter().zip(normal) {
-            // A rounding of the sum over the smallest deviation.
+            // A rounding of the sum, divided by the smallest deviation.
             assert!((found - normal).abs() < 4.0 * f64::EPSILON / 1e-3, "{found} and {normal}");
         }
         assert!(data.arrivals.iter().all(|arrival| arrival.time[0] == 1e9) && data.widths[0].time == 1e9);

@@ -1,4 +1,4 @@
-//! A scene of which something is measured, and numbers of it that are not known.
+//! A scene that is measured, and its unknown parameters.
 
 use twofold::Error;
 use twofold::inference::{Datum, Event, Noise, Place, Signal, Unknown, check_span, data_of};
@@ -7,28 +7,28 @@ use twofold::parameters::{Parameter, Parameters};
 use super::{DataFile, missing_section, parameters_of, parse_noise};
 use crate::scene_file::{Scene, nearest};
 
-/// Most times of a scene at which something is measured.
+/// Largest number of times of a scene at which data are taken.
 const MOST_SAMPLES: usize = 100_000;
 
-/// A scene, what is measured of it with which errors, and what is not known.
+/// A scene, the kinds of data with their errors, and the unknown parameters.
 #[derive(Debug)]
 pub struct Measurement {
     /// The scene.
     pub scene: Scene,
     /// Its parameters.
     pub parameters: Parameters<f64>,
-    /// What is measured, with standard deviations.
+    /// The kinds of data, with standard deviations.
     pub noise: Vec<Noise>,
-    /// What is not known.
+    /// The unknown parameters.
     pub unknowns: Vec<Parameter>,
     /// End of the span in t_c since the start.
     pub end: f64,
 }
 
-/// Why something cannot be measured of a scene.
+/// Reasons why a scene cannot be measured as requested.
 #[derive(Debug)]
 pub enum MeasurementError {
-    /// What was asked for is not allowed; a sentence.
+    /// The request is not allowed; a sentence.
     Refused(String),
     /// The scene has no parameters.
     Model(Error),
@@ -44,10 +44,11 @@ impl std::fmt::Display for MeasurementError {
 }
 
 impl Measurement {
-    /// What `observe` names of a scene, as [`parse_noise`] reads it; unknown are the `parameters` of a list of names, all of them, or if none is given those that such data can determine.
+    /// The data are those named by `observe`, in the format of [`parse_noise`]. The unknowns are the `parameters` in a list of names, or all of them;
+    /// by default those that such data can determine.
     ///
     /// # Errors
-    /// Names that are none, sections that the scene lacks, a span backwards.
+    /// Unknown names, sections that the scene lacks, or a backward span.
     pub fn new(scene: Scene, observe: &str, parameters: Option<&str>) -> Result<Self, MeasurementError> {
         let refused = MeasurementError::Refused;
         let noise = parse_noise(observe, scene.units.time).map_err(|why| refused(format!("--observe: {why}")))?;
@@ -81,7 +82,7 @@ impl Measurement {
         self.noise.iter().any(|(observable, _)| observable.is_of_pulses())
     }
 
-    /// The pulses of a signal that are data: all of them, or of a long span those near the samples of the scene.
+    /// The pulses of a signal that are data: all of them, or for a long span those near the samples of the scene.
     ///
     /// # Errors
     /// As for [`Signal::events`].
@@ -95,7 +96,7 @@ impl Measurement {
         }
     }
 
-    /// The times of strains, in t_c since the start.
+    /// The times of strain data, in t_c since the start.
     pub fn samples(&self) -> Vec<f64> {
         let only_pulses = self.noise.iter().all(|(observable, _)| observable.is_of_pulses());
         if only_pulses { Vec::new() } else { self.sample_times() }
@@ -106,10 +107,10 @@ impl Measurement {
         self.scene.times.iter().map(|time| ((time - start) / unit).min(self.end)).collect()
     }
 
-    /// Refuses a scene with more samples than derivatives are kept of, where they are used for a `signal`.
+    /// Refuses a scene with too many samples for their derivatives to be stored, if they are used for a `signal`.
     ///
     /// # Errors
-    /// Too many of them.
+    /// There are too many samples.
     pub fn check_samples(&self, signal: &Signal) -> Result<(), String> {
         let used = signal.is_long() || self.noise.iter().any(|(observable, _)| !observable.is_of_pulses());
         let count = self.scene.times.count();
@@ -119,7 +120,7 @@ impl Measurement {
         Ok(())
     }
 
-    /// What a number of an unknown is multiplied by for the output, and its unit there.
+    /// Factor by which the value of an unknown is multiplied for the output, and its unit there.
     pub fn unit(&self, unknown: Parameter) -> (f64, String) {
         let units = &self.scene.units;
         match unknown {
@@ -138,7 +139,8 @@ impl Measurement {
         }
     }
 
-    /// The data of the scene itself, without errors. A pulse in the first turn may be cut in a model beside the scene.
+    /// The data of the scene itself, without errors. A pulse in the first turn is left out, because it may be cut off in a
+    /// neighbouring model.
     ///
     /// # Errors
     /// As for [`data_of`].
@@ -148,10 +150,11 @@ impl Measurement {
         data_of(signal, &events, &self.samples(), &self.noise)
     }
 
-    /// The data in tables that lie within the span of the scene, and how many of the first turn were left out: their pulse may be cut in another model.
+    /// The data in tables that lie within the span of the scene, and the number of data of the first turn that were left out: their pulse may be cut
+    /// off in another model.
     ///
     /// # Errors
-    /// A table that is none of pulses or strains, data that are there twice or not at all, and those outside the span.
+    /// A table that contains neither pulses nor strains, data that occur twice or not at all, and data outside the span.
     pub fn data_in(&self, tables: &[DataFile], signal: &Signal) -> Result<(Vec<Datum>, usize), String> {
         let mut data: Vec<Datum> = Vec::new();
         let names = || tables.iter().map(|table| table.name.as_str()).collect::<Vec<_>>().join(", ");
@@ -200,15 +203,15 @@ impl Measurement {
     }
 }
 
-/// Whether two data are one: of the same kind, number and time, to the last digit.
+/// Whether two data are identical: of the same kind, number and time, to the last digit.
 fn same(a: &Datum, b: &Datum) -> bool {
     a.observable == b.observable && a.value == b.value && a.place == b.place
 }
 
-/// The unknowns of a list of names, or all of them by the word `all`.
+/// The unknowns in a list of names, or all of them for the word `all`.
 ///
 /// # Errors
-/// A name that is none or comes twice.
+/// An unknown name, or one that occurs twice.
 pub fn named<U: Unknown>(list: &str, all: &[U]) -> Result<Vec<U>, String> {
     if list.trim() == "all" {
         return Ok(all.to_vec());
@@ -249,7 +252,7 @@ mod tests {
             ("arrivals:1,strain:1", 100_001, false),
             ("strain:1", 100_000, true),
         ] {
-            // A span of half a t_c is one.
+            // A span of half a t_c is allowed.
             let (measurement, signal) = measured(observe, 0.5, samples);
             assert_eq!(measurement.check_samples(&signal).is_ok(), is_taken, "{observe} {samples}");
         }
@@ -259,7 +262,7 @@ mod tests {
         DataFile::of_bytes("strains", format!("t [t_c],h_plus [1],h_cross [1]\n{rows}").into_bytes()).unwrap()
     }
 
-    /// The same number of the same kind at the same time is one datum; of the pulses that of the first turn is left out.
+    /// The same number of the same kind at the same time is one datum; the pulse of the first turn is left out.
     #[test]
     fn data_are_taken_once_and_none_of_those_asked_for_may_lack() {
         let pulses = |rows: &str| {

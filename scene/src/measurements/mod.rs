@@ -1,4 +1,4 @@
-//! What is measured of a scene: arguments, tables of data, simulated errors.
+//! Measurements of a scene: arguments, tables of data, simulated errors.
 
 mod data_file;
 mod errors;
@@ -16,11 +16,11 @@ use twofold::parameters::Parameters;
 
 use crate::scene_file::Scene;
 
-/// The parameters of a scene in units `I^xx = C = 1`, time in `t_c`; `Omega^z` is held when others change. A beam or an observer that the scene
-/// lacks are taken as any: nothing that needs them can be observed (see [`missing_section`]).
+/// The parameters of a scene in units `I^xx = C = 1`, time in `t_c`; `Omega^z` is held fixed when others change. A beam or an observer that the
+/// scene lacks gets placeholder values: data that need them cannot be observed (see [`missing_section`]).
 ///
 /// # Errors
-/// A scene that starts on a pole or within 1e-6 rad of it, where its angles are no parameters.
+/// A scene that starts at a pole or within 1e-6 rad of it, where its angles cannot serve as parameters.
 pub fn parameters_of(scene: &Scene) -> Result<Parameters<f64>, Error> {
     let angles = scene.initial_angles;
     let sine = angles.beta.sin();
@@ -39,7 +39,7 @@ pub fn parameters_of(scene: &Scene) -> Result<Parameters<f64>, Error> {
     Ok(parameters)
 }
 
-/// The section that a scene lacks for something to be observed.
+/// The section that the scene lacks for this kind of data, if any.
 pub fn missing_section(scene: &Scene, observable: Observable) -> Option<&'static str> {
     if scene.observer.is_none() {
         return Some("observer");
@@ -47,13 +47,13 @@ pub fn missing_section(scene: &Scene, observable: Observable) -> Option<&'static
     (observable.is_of_pulses() && scene.pulsar.is_none()).then_some("pulsar")
 }
 
-/// Standard deviations that are taken: the sums of squares of data in units of these neither overflow nor vanish.
+/// Allowed standard deviations: the sums of squares of data in units of these neither overflow nor vanish.
 const SIGMAS: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
-/// What `name:sigma,name:sigma` says, in units of the scene's output; `strain` is both polarizations.
+/// Parses `name:sigma,name:sigma`, in units of the scene's output; `strain` means both polarizations.
 ///
 /// # Errors
-/// A name that is none, twice the same, and a standard deviation that is not from 1e-100 to 1e100; the value and what is allowed are named.
+/// An unknown or repeated name, or a standard deviation that is not from 1e-100 to 1e100; the error names the value and the allowed range.
 pub fn parse_noise(text: &str, time_unit: f64) -> Result<Vec<Noise>, String> {
     let mut found: Vec<Noise> = Vec::new();
     for part in text.split(',') {
@@ -98,7 +98,7 @@ mod tests {
             scene.initial_angles.beta = beta;
             assert_eq!(parameters_of(&scene).is_ok(), is_taken, "{beta}");
         }
-        // A fluid bulge is a quarter of I^xx in units of the rotation.
+        // A fluid bulge is a quarter of 1 / I^xx in the units of the rotation.
         assert_eq!(parameters_of(&scene).unwrap().bulge, 0.25);
     }
 }

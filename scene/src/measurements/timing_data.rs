@@ -1,4 +1,4 @@
-//! Arrival times and pulse widths over decades: `.tim` files, and tables as `twofold timing` writes them.
+//! Arrival times and pulse widths over decades: `.tim` files, and tables in the format of `twofold timing`.
 
 use twofold::epoch::Epoch;
 use twofold::inference::{MeasuredArrival, MeasuredWidth, Noise, Observable, TimingData};
@@ -8,20 +8,21 @@ use super::DataFile;
 use super::data_file::MOST_ROWS;
 use crate::scene_file::shortened;
 
-/// Sites of a `.tim` that are the barycentre of the solar system.
+/// Sites of a `.tim` file that mean the solar-system barycentre.
 const BARYCENTRE: [&str; 4] = ["@", "bat", "ssb", "bary"];
 
-/// Standard deviations (s) of an arrival time that are taken.
+/// Allowed standard deviations (s) of an arrival time.
 const SIGMAS: std::ops::RangeInclusive<f64> = 1e-15..=1e6;
 
-/// Flags of a `.tim` that change a time or its phase.
+/// Flags of a `.tim` file that change a time or its phase.
 const CHANGING: [&str; 4] = ["-to", "-padd", "-addsat", "-jump"];
 
-/// The arrival times and widths of several files, as [`DataFile::add_timing`] reads each. Every file counts its pulses from one of its own: `model`
-/// tells which these are ([`TimingData::numbered`]). Without a model the numbers stay as they are, and one file alone may have some.
+/// The arrival times and widths of several files, each read as by [`DataFile::add_timing`]. Every file counts its pulses from its own origin, and
+/// `model` relates these origins ([`TimingData::numbered`]). Without a model the numbers are unchanged, and only one file may have numbers.
 ///
 /// # Errors
-/// A file that cannot be read; a second file with numbers where there is no model; a file whose first datum is in one before it.
+/// A file that cannot be read; a second file with numbers if there is no model; a file whose first datum also occurs in an
+/// earlier file.
 pub fn read_timing(
     paths: &[String],
     epoch: &Epoch,
@@ -55,11 +56,12 @@ pub fn read_timing(
 }
 
 impl DataFile {
-    /// Adds the arrival times and widths of a `.tim` (FORMAT 1, barycentred, infinite frequency), or of a table with the columns `arrival_day [MJD]`, `arrival_fraction [d]` and, for widths,
-    /// `duration [s]`; a column `pulse` numbers the pulses. `noise` has the standard deviations (s) of what a table has; a `.tim` has its own.
+    /// Adds the arrival times and widths of a `.tim` file (FORMAT 1, barycentred, infinite frequency), or of a table with the columns
+    /// `arrival_day [MJD]`, `arrival_fraction [d]` and, for widths, `duration [s]`; a column `pulse` numbers the pulses. `noise` gives the standard
+    /// deviations (s) for a table; a `.tim` file has its own.
     ///
     /// # Errors
-    /// A line, column or field that is none; file, line, field and what is allowed are named.
+    /// An invalid line, column or field; the error names file, line, field and the allowed values.
     pub fn add_timing(&self, epoch: &Epoch, noise: &[Noise], data: &mut TimingData) -> Result<(), String> {
         let is_comment = |line: &&str| line.is_empty() || line.starts_with('#') || line.starts_with("C ");
         let first = self.text.lines().map(str::trim).find(|line| !is_comment(line));
@@ -176,7 +178,8 @@ mod tests {
         file.add_timing(&Epoch::new(55000, 0.0).unwrap(), &noise, &mut data).map(|()| data)
     }
 
-    /// By its name, or by its first line that is no comment. An uncertainty is in microseconds, half a day 43,200 s.
+    /// A `.tim` file is recognised by its name, or by its first line that is not a comment. Uncertainties are in
+    /// microseconds; half a day is 43,200 s.
     #[test]
     fn arrival_times_of_timing_programs_are_told_from_tables() {
         let arrival = |number| vec![MeasuredArrival { time: [43_200.0, 0.0], sigma: 2e-6, number }];

@@ -1,4 +1,4 @@
-//! The bounds from one pulse, with uncertainties by exact gradients.
+//! The bounds from one pulse, with uncertainties from exact gradients.
 
 use nalgebra::Vector3;
 use num_dual::Dual64;
@@ -11,31 +11,31 @@ use twofold::{Error, Real};
 use super::{Inertia, Pulsar, Quantity, SpinForm};
 use crate::random::Random;
 
-/// The paper's round `I^zz / C` (s^2).
+/// The paper's rounded `I^zz / C` (s^2).
 pub const ROUND_INERTIA_OVER_C: f64 = 1e-5;
 
-/// The number that the paper takes for `eta` in its conservative bounds.
+/// The value that the paper takes for `eta` in its conservative bounds.
 pub const CONSERVATIVE_ETA: f64 = 10.0;
 
-/// What the bounds are on.
+/// The quantity that is bounded.
 pub const COMBINATION: &str = "|2 s^ZZ - s^XX - s^YY|";
 
-/// One number that follows from a pulse, linear in small changes of the input.
+/// A value that follows from a pulse, linear in small changes of the input.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// Key in the JSON output.
     pub key: &'static str,
-    /// What it is, with its unit.
+    /// Description, with the unit.
     pub label: String,
-    /// The number.
+    /// The value.
     pub value: f64,
-    /// Its standard uncertainty from the measured error of the change of width; none if that change is given as a limit.
+    /// Its standard uncertainty from the measured error of the change of width; `None` if that change is given as a limit.
     pub from_change: Option<f64>,
-    /// Its standard uncertainty from all other numbers: their last digits, or their uncertainties as given.
+    /// Its standard uncertainty from all other numbers: from their last digits, or from their stated uncertainties.
     pub from_inputs: f64,
 }
 
-/// A figure as it is computed, of any number type.
+/// A value as it is computed, in any number type.
 struct Computed<S> {
     key: &'static str,
     label: String,
@@ -43,11 +43,12 @@ struct Computed<S> {
 }
 
 impl Pulsar {
-    /// What follows for this pulse: change of `lambda`; the bounds on `|2 s^ZZ - s^XX - s^YY|` by Eq. (41), over `eta`, with `I^zz / C`
-    /// by Eq. (43) if it is so given, (a), and with that of the star's own deformation, (b); with a speed, that on `|alpha_2|`.
+    /// The results for this pulse: the change of `lambda`; the bounds on `|2 s^ZZ - s^XX - s^YY|` by Eq. (41), over `eta`, with
+    /// `I^zz / C` from Eq. (43) if it is given in that form, (a), and with that of the star's own deformation, (b); and, if a speed is
+    /// given, the bound on `|alpha_2|`.
     ///
-    /// The change of width is taken as it stands, as the paper does; what its error makes of it is a [`Limit`](super::Limit).
-    /// Uncertainties are linear, by automatic derivatives, for inputs that do not depend on each other.
+    /// The change of width is used as given, as in the paper; the effect of its error is included in a
+    /// [`Limit`](super::Limit). Uncertainties are linear, from automatic derivatives, for independent inputs.
     pub fn figures(&self) -> Result<Vec<Figure>, Error> {
         let values = computed(&self.map(|quantity| quantity.value))?;
         let measured = self.measured_change();
@@ -66,13 +67,13 @@ impl Pulsar {
         Ok(values.into_iter().enumerate().map(figure).collect())
     }
 
-    /// The figure with this key.
+    /// The value with this key.
     pub fn figure(&self, key: &str) -> Result<Figure, String> {
         let figures = self.figures()?;
         figures.into_iter().find(|figure| figure.key == key).ok_or_else(|| format!("{}: no figure {key}", self.name))
     }
 
-    /// Standard deviations of the figures, from all uncertainties.
+    /// Standard deviations of the values, from all uncertainties.
     fn deviations(&self) -> Result<Vec<f64>, Error> {
         let mut count = 0;
         self.map(|_| count += 1);
@@ -94,7 +95,7 @@ impl Pulsar {
         Ok(variances.into_iter().map(f64::sqrt).collect())
     }
 
-    /// The figures of random inputs of the given distributions, in the order of [`figures`](Self::figures).
+    /// The values for random inputs from the given distributions, in the order of [`figures`](Self::figures).
     pub fn random_figures(&self, random: &mut Random) -> Result<Vec<f64>, Error> {
         Ok(computed(&self.map(|quantity| quantity.draw(random)))?.into_iter().map(|c| c.value).collect())
     }
@@ -150,7 +151,7 @@ fn computed<S: Real>(p: &Pulsar<S>) -> Result<Vec<Computed<S>>, Error> {
     figures.push(figure("inertia_over_c_own", format!("(b) I^zz/C [s^2], {origin}"), own));
     figures.push(figure("bound_over_eta_own", "(b) bound / eta".to_owned(), over_eta));
     if let Some(speed) = p.speed {
-        // The bound depends on the length of w alone.
+        // The bound depends only on the length of w.
         let w = Vector3::new(S::zero(), S::zero(), speed * KILOMETRE);
         let alpha_2 = preferred_frame_bound(over_eta, &w)?;
         figures.push(figure("alpha_2_over_eta_own", "(b) |alpha_2| / eta".to_owned(), alpha_2));

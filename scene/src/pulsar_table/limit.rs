@@ -1,4 +1,5 @@
-//! Limits at a stated confidence: what the measured change, the other numbers and the unknown directions contribute, and all of it.
+//! Limits at a stated confidence: the contributions of the measured change, of the other numbers and of the unknown directions, and
+//! the total.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 use std::num::NonZeroUsize;
@@ -12,28 +13,28 @@ use super::{Eta, Figure, Pulsar, Quantity, Spread};
 /// Confidence of the limits.
 pub const CONFIDENCE: f64 = 0.95;
 
-/// Limits on a quantity of which Eq. (41) bounds the ratio to `eta`, at the confidence [`CONFIDENCE`].
+/// Limits on a quantity whose ratio to `eta` is bounded by Eq. (41), at the confidence [`CONFIDENCE`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limit {
-    /// Over `eta`, by the measured error of the change of width alone; none if that change is given as a limit.
+    /// Limit over `eta`, from the measured error of the change of width alone; `None` if that change is given as a limit.
     pub over_eta_by_change: Option<f64>,
-    /// Over `eta`, by the uncertainties of all other numbers alone.
+    /// Limit over `eta`, from the uncertainties of all other numbers alone.
     pub over_eta_by_inputs: f64,
-    /// `eta`: by the unknown directions alone, or as given.
+    /// Limit on `eta`: from the unknown directions alone, or as given.
     pub eta: f64,
-    /// By all of these together.
+    /// Limit from all of these together.
     pub all: f64,
 }
 
 impl Pulsar {
-    /// The change of width with its measured error; none if it is a bare number, which is taken as a limit.
+    /// The change of width with its measured error; `None` if it is given without an error and taken as a limit.
     pub fn measured_change(&self) -> Option<Quantity> {
         (self.width_change.spread == Spread::Given).then_some(self.width_change)
     }
 
-    /// The directions that are not known, for a spin axis at the angle `lambda` to the line of sight: all orientations of the axes of the
-    /// tensor, or with `beta_0` those at that inclination. The tensor is taken as symmetric about Z, which has the largest `eta` at 95 % if
-    /// nothing is known of its axes. None if `eta` is given.
+    /// The unknown directions, for a spin axis at the angle `lambda` to the line of sight: all orientations of the axes of the tensor, or,
+    /// if `beta_0` is given, those at that inclination. The tensor is assumed to be symmetric about Z; this case has the largest `eta` at
+    /// 95 % if nothing is known of its axes. `None` if `eta` is given.
     pub fn directions(&self) -> Result<Option<Directions>, Error> {
         let inclination = match self.eta {
             Eta::Given(_) => return Ok(None),
@@ -43,7 +44,7 @@ impl Pulsar {
         Ok(Some(Directions { inclination, sine: sine_of_sight(self.lambda.value * DEGREE)? }))
     }
 
-    /// Standard uncertainty of `eta`, relative to it, from the number given for it or for `beta_0`: `eta ~ 1 / (sin b0 cos b0)`.
+    /// Relative standard uncertainty of `eta`, from the number given for it or for `beta_0`: `eta ~ 1 / (sin b0 cos b0)`.
     fn relative_uncertainty_of_eta(&self) -> f64 {
         match self.eta {
             Eta::Given(eta) => eta.uncertainty / eta.value,
@@ -54,9 +55,9 @@ impl Pulsar {
 
     /// Limits on the quantity whose bound over `eta` is `figure`.
     ///
-    /// The change of `lambda` is normal about its measured value with its error, the effect of the other numbers normal to first
-    /// order, and directions, change and numbers do not depend on each other. [`Limit::all`] is what the bound times `eta` then does
-    /// not exceed with the probability [`CONFIDENCE`]: for given directions the quantile of a posterior with a flat prior.
+    /// The change of `lambda` is normal about its measured value with its error, and the effect of the other numbers is normal to
+    /// first order. Directions, change and numbers are independent. [`Limit::all`] is the value that the bound times `eta` then does
+    /// not exceed with the probability [`CONFIDENCE`]: for given directions it is the quantile of a posterior with a flat prior.
     pub fn limit(&self, figure: &Figure) -> Result<Limit, Error> {
         let inputs = figure.from_inputs.hypot(figure.value * self.relative_uncertainty_of_eta());
         let together = Normal { mean: figure.value, deviation: figure.from_change.unwrap_or(0.0).hypot(inputs) };
@@ -77,16 +78,17 @@ impl Pulsar {
         })
     }
 
-    /// The limit that a measured change of zero with the same error would give; none if the change has no error.
+    /// The limit that a measured change of zero with the same error would give; `None` if the change has no error.
     pub fn sensitivity(&self, figure: &Figure) -> Result<Option<f64>, Error> {
-        // Other uncertainties are relative to a change: to none they add nothing.
+        // Other uncertainties are relative to the change, so for a change of zero they add nothing.
         let unchanged = Figure { value: 0.0, from_inputs: 0.0, ..figure.clone() };
         figure.from_change.map(|_| Ok(self.limit(&unchanged)?.all)).transpose()
     }
 }
 
-/// The pulse of a table whose limit is recommended, and that limit: the pulse that would give the strongest one for a measured
-/// change of zero, or, where its change is given as a limit, for that. So it is chosen by errors and not by what was found.
+/// The pulse of a table whose limit is recommended, and that limit. It is the pulse that would give the strongest limit for a
+/// measured change of zero, or, if its change is given as a limit, for that limit. So the choice depends on the errors and not
+/// on the measured values.
 pub fn recommended(pulsars: &[Pulsar]) -> Result<(&Pulsar, Limit), String> {
     let mut best: Option<(f64, &Pulsar, Limit)> = None;
     for pulsar in pulsars {
@@ -100,8 +102,9 @@ pub fn recommended(pulsars: &[Pulsar]) -> Result<(&Pulsar, Limit), String> {
     best.map(|(_, pulsar, limit)| (pulsar, limit)).ok_or_else(|| "a table without pulses".to_owned())
 }
 
-/// What `|x| eta` does not exceed with the probability [`CONFIDENCE`], for a normal `x` and a spin axis at an angle (rad) to the line of sight, all directions of the axes of a symmetric tensor
-/// as likely as each other. With `x` the bound over `eta` of Eq. (41) it is the limit on `|2 s^ZZ - s^XX - s^YY|`.
+/// The value that `|x| eta` does not exceed with the probability [`CONFIDENCE`], for a normal `x` and a spin axis at an angle (rad) to the line of
+/// sight, with an isotropic prior on the direction of the axis of a symmetric tensor. With `x` the bound over `eta` of Eq. (41) it is the limit on
+/// `|2 s^ZZ - s^XX - s^YY|`.
 ///
 /// # Errors
 /// [`Error::Domain`] for a spin axis along the line of sight.
@@ -122,17 +125,18 @@ fn rule(nodes: usize) -> GaussLegendre {
     GaussLegendre::new(NonZeroUsize::new(nodes).expect("a rule with nodes"))
 }
 
-/// Directions of the axes of a symmetric tensor that are not known, seen at a known angle to the spin axis.
+/// Unknown directions of the axes of a symmetric tensor, seen at a known angle to the spin axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Directions {
-    /// Angle (rad) of the spin axis to Z; every one if none.
+    /// Angle (rad) of the spin axis to Z; `None` if it is unknown.
     inclination: Option<f64>,
     /// Sine of the angle between the spin axis and the line of sight.
     sine: f64,
 }
 
 impl Directions {
-    /// What `|x| eta` does not exceed with the probability [`CONFIDENCE`], for a normal `x` that does not depend on directions.
+    /// The value that `|x| eta` does not exceed with the probability [`CONFIDENCE`], for a normal `x` that is independent of
+    /// the directions.
     fn quantile_of_eta_times(self, x: Normal) -> f64 {
         let sizes = x.sizes();
         let rule = rule(60);
@@ -151,9 +155,9 @@ impl Directions {
         high
     }
 
-    /// Probability of `1 / eta < rate`. With the azimuth `psi` of the line of sight about the spin axis `l`, counted from the motion,
-    /// `1 / eta` is `sin(lambda) |l.Z| |(l x Z)| |cos psi|`. For an isotropic Z that is `sin(lambda)` times the product of two of its components,
-    /// `(1 - mu^2) |sin 2 phi| / 2` about the third axis: the mean over `mu` is known, and `t = 2 phi` is left.
+    /// Probability of `1 / eta < rate`. With the azimuth `psi` of the line of sight about the spin axis `l`, counted from the motion, `1 / eta`
+    /// is `sin(lambda) |l.Z| |(l x Z)| |cos psi|`. For an isotropic Z this is `sin(lambda)` times the product of two of its components,
+    /// `(1 - mu^2) |sin 2 phi| / 2` about the third axis: the mean over `mu` is known analytically, and the integral over `t = 2 phi` remains.
     fn is_slower_than(self, rate: f64, rule: &GaussLegendre) -> f64 {
         let rate = rate / self.sine;
         if let Some(beta) = self.inclination {
@@ -166,7 +170,7 @@ impl Directions {
         if first == 0.0 {
             return 0.0;
         }
-        // In `t = first cosh(y)` the root at the first is smooth.
+        // In the variable `y`, `t = first cosh(y)`, the square root at the first end is smooth.
         let faster = |y: f64| (1.0 - 2.0 * rate / (first * y.cosh()).sin()).max(0.0).sqrt() * first * y.sinh();
         1.0 - FRAC_2_PI * rule.integrate(0.0, (FRAC_PI_2 / first).acosh(), faster)
     }
@@ -180,7 +184,7 @@ struct Normal {
 }
 
 impl Normal {
-    /// Sizes `|x|` with weights that add up to one, so that the mean of a function of the size is a sum: Gauss and Legendre's rule in a
+    /// Sizes `|x|` with weights that sum to one, so that the mean of a function of the size is a sum: a Gauss-Legendre rule in a
     /// variable in which the ends are smooth, eight standard deviations to each side.
     fn sizes(self) -> Vec<(f64, f64)> {
         let Self { mean, deviation } = self;
@@ -198,7 +202,7 @@ impl Normal {
         rule(100).iter().map(size).collect()
     }
 
-    /// The number that the size `|x|` does not exceed with the given probability.
+    /// The value that the size `|x|` does not exceed with the given probability.
     fn size_quantile(self, probability: f64) -> f64 {
         let Self { mean, deviation } = self;
         if deviation == 0.0 {
@@ -236,7 +240,7 @@ mod tests {
         assert_eq!(Normal { mean: -3.0, deviation: 0.0 }.sizes(), [(3.0, 1.0)]);
     }
 
-    /// The mean square is that of the normal distribution, `mean^2 + deviation^2`, and the weights are one together: to the roundings of a hundred terms.
+    /// The mean square is that of the normal distribution, `mean^2 + deviation^2`, and the weights sum to one: to the roundings of a hundred terms.
     #[test]
     fn sizes_have_the_moments_of_their_distribution() {
         for (mean, deviation) in [(0.0, 2.0), (-1.5, 1.0), (30.0, 2.0)] {
@@ -248,8 +252,8 @@ mod tests {
         }
     }
 
-    /// The share of all directions Z of which `|l.Z| |l x Z| |cos psi|`, with `l` and the motion along two axes the product of two components of Z, is below a rate:
-    /// on a grid, whose cells at the edge are some 0.002 of all. It is never above 1/2.
+    /// The fraction of all directions Z for which `|l.Z| |l x Z| |cos psi|`, with `l` and the motion along two axes the product of two components of
+    /// Z, is below a rate. It is computed on a grid, whose cells at the edge are some 0.002 of all. The rate is never above 1/2.
     #[test]
     fn slow_motions_are_as_frequent_as_directions_of_them_on_a_grid() {
         const CELLS: u32 = 1000;
@@ -269,7 +273,8 @@ mod tests {
         }
     }
 
-    /// `eta` goes as `1 / sin(2 b0)`: half of what it changes by from one end of the error of `b0` to the other. The next term of the series is some 1e-6 of it.
+    /// `eta` is proportional to `1 / sin(2 b0)`: its uncertainty is half of its change from one end of the error of `b0` to the other. The next term
+    /// of the series is some 1e-6 of it.
     #[test]
     fn the_uncertainty_of_eta_is_that_of_the_inclination() {
         for (beta_0, error) in [(30.0, 0.05), (60.0, 0.05), (150.0, 0.05)] {
@@ -289,7 +294,8 @@ mod tests {
         assert_eq!(limit_over_directions(-0.7, 1.0, 0.5), limit_over_directions(0.7, 1.0, 0.5));
     }
 
-    /// Against adaptive quadratures of another program (`verify/oracles/second_program/bounds.py`), which random draws confirm to 1e-3.
+    /// Compared with adaptive quadratures of another program (`verify/oracles/second_program/bounds.py`), which random draws confirm to
+    /// 1e-3.
     #[test]
     fn limits_over_directions_are_the_quantiles_of_integrals_done_another_way() {
         for (lambda, inclination, mean, deviation, expected) in [

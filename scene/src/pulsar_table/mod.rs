@@ -1,4 +1,4 @@
-//! Tables of pulsars: what was observed of each, with uncertainties, and the bounds on Lorentz violation that follow.
+//! Tables of pulsars: the observations of each, with uncertainties, and the resulting bounds on Lorentz violation.
 //!
 //! The format and the method are described in `docs/bounds.md`.
 
@@ -13,13 +13,13 @@ use crate::scene_file::{FileFormat, SceneError};
 pub use figures::{COMBINATION, CONSERVATIVE_ETA, Figure, ROUND_INERTIA_OVER_C};
 pub use limit::{CONFIDENCE, Directions, Limit, limit_over_directions, recommended};
 
-/// The table that comes with the command: the two pulsars of the paper.
+/// The table included with the command: the two pulsars of the paper.
 pub const PAPER: &str = include_str!("../../pulsars/paper.toml");
 
 /// Files with a table of pulsars.
 const TABLE: FileFormat = FileFormat { name: "a table of pulsars", built_in: None };
 
-/// How an uncertainty is distributed.
+/// The distribution of an uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Spread {
     /// Uniform: the number was rounded to its last digit.
@@ -40,12 +40,12 @@ pub struct Quantity {
 }
 
 impl Quantity {
-    /// Without uncertainty.
+    /// A number without uncertainty.
     pub fn exact(value: f64) -> Self {
         Self { value, uncertainty: 0.0, spread: Spread::Given }
     }
 
-    /// A random number of its distribution.
+    /// A random number from its distribution.
     pub fn draw(&self, random: &mut Random) -> f64 {
         let deviate = match self.spread {
             Spread::Rounded => random.within(-1.0, 1.0) * 3f64.sqrt(),
@@ -58,7 +58,7 @@ impl Quantity {
     }
 }
 
-/// How the spin is given.
+/// The form in which the spin is given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SpinForm {
     /// Period (s).
@@ -67,30 +67,30 @@ pub enum SpinForm {
     Frequency,
 }
 
-/// How `I^zz / C` is given.
+/// The form in which `I^zz / C` is given.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Inertia<T> {
-    /// Itself (s^2).
+    /// Its value (s^2).
     Given(T),
-    /// By density (g/cm^3) and oblateness, Eq. (43).
+    /// Density (g/cm^3) and oblateness, Eq. (43).
     Uniform {
         /// Density.
         density: T,
         /// Oblateness.
         oblateness: T,
     },
-    /// Not: a uniform fluid star, oblate by its spin, for which it is `4 / (Omega^z)^2`.
+    /// Not given: a uniform fluid star whose oblateness is due to its spin, for which it is `4 / (Omega^z)^2`.
     Fluid,
 }
 
-/// How `eta` is given.
+/// The form in which `eta` is given.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Eta<T> {
-    /// Itself.
+    /// Its value.
     Given(T),
-    /// By the inclination (deg) of the spin axis to Z, for a tensor symmetric about Z.
+    /// The inclination (deg) of the spin axis to Z, for a tensor symmetric about Z.
     Inclination(T),
-    /// Not: nothing is known of the axes of the tensor.
+    /// Not given: nothing is known of the axes of the tensor.
     Unknown,
 }
 
@@ -99,15 +99,15 @@ pub enum Eta<T> {
 pub struct Pulsar<T = Quantity> {
     /// Its name.
     pub name: String,
-    /// Where its numbers come from.
+    /// Source of its numbers.
     pub source: Option<String>,
-    /// How [`spin`](Self::spin) is given.
+    /// The form in which [`spin`](Self::spin) is given.
     pub spin_form: SpinForm,
     /// Spin period (s) or frequency (Hz).
     pub spin: T,
     /// Pulse width `W` (deg).
     pub width: T,
-    /// Its change `Delta W` (deg) with its sign: measured, if an uncertainty is given with it, and otherwise taken as a limit.
+    /// Its change `Delta W` (deg) with its sign: measured, if an uncertainty is given with it, otherwise taken as a limit.
     pub width_change: T,
     /// `lambda` (deg) of Eq. (42), from the spin axis to the direction from the observer to the star: 180 - zeta.
     pub lambda: T,
@@ -163,11 +163,11 @@ pub fn pulsars_in_file(path: &str) -> Result<Vec<Pulsar>, SceneError> {
     pulsars(path, &TABLE.read(path)?)
 }
 
-/// The pulsars of the text of a table; `file` is how messages call it.
+/// The pulsars in the text of a table; `file` is its name in messages.
 ///
 /// # Errors
-/// A [`SceneError`] for text that is not TOML, for keys that are unknown, missing or exclude one another, for values of a
-/// wrong type or out of range, and for angles at which the width says nothing of the spin axis.
+/// A [`SceneError`] for text that is not TOML, for keys that are unknown, missing or mutually exclusive, for values of a
+/// wrong type or out of range, and for angles at which the width does not constrain the spin axis.
 pub fn pulsars(file: &str, text: &str) -> Result<Vec<Pulsar>, SceneError> {
     TABLE.parse(file, text, pulsar_file::read)
 }
@@ -178,8 +178,8 @@ mod tests {
 
     use super::*;
 
-    /// Moments of 1e4 draws. In standard deviations a number rounded is uniform up to `sqrt 3`, with the fourth moment 9/5, and one measured
-    /// normal, with 3. Bounds are five standard deviations of the means, of which the eighth moments are 9 and 105.
+    /// Moments of 1e4 draws. In standard deviations, a rounded number is uniform up to `sqrt 3`, with the fourth moment 9/5, and a measured
+    /// one is normal, with 3. Bounds are five standard deviations of the means, whose eighth moments are 9 and 105.
     #[test]
     fn draws_have_the_mean_the_deviation_and_the_shape_of_their_distribution() {
         const DRAWS: u32 = 10_000;
@@ -196,8 +196,8 @@ mod tests {
         }
     }
 
-    /// By Box and Muller two uniform numbers are a point in the plane, at `sqrt(-2 ln u)` from the origin and so many turns round: the deviate is
-    /// its projection on the first axis.
+    /// In the Box-Muller method two uniform numbers give a point in the plane, at the distance `sqrt(-2 ln u)` from the origin and at an angle of
+    /// a fraction of a turn: the deviate is its projection on the first axis.
     #[test]
     fn a_normal_draw_is_the_projection_of_a_point() {
         let (mut random, unit) =
@@ -213,7 +213,7 @@ mod tests {
         }
     }
 
-    /// Each number goes back to its place.
+    /// Each number returns to its place.
     #[test]
     fn numbers_are_replaced_where_they_are() {
         let one = Quantity::exact(1.0);

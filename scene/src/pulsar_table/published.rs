@@ -1,8 +1,8 @@
-//! What is printed of our pulsars in the paper, and limits that others have published, to stand beside ours.
+//! Values printed in the paper for our pulsars, and limits published by others, for comparison with ours.
 
 use super::{Pulsar, paper};
 
-/// What the paper prints of one pulse beside what was observed of it.
+/// Values that the paper prints for one pulse, in addition to its observations.
 #[derive(Debug, Clone, Copy)]
 pub struct PrintedBounds {
     /// Change of `lambda` (1e-3 deg).
@@ -29,23 +29,23 @@ pub fn printed_bounds() -> Vec<(Pulsar, PrintedBounds)> {
     paper().into_iter().map(printed).collect()
 }
 
-/// A published limit, as a line of `pulsars/published.tsv` has it.
+/// A published limit, as given in a line of `pulsars/published.tsv`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Published {
-    /// What is limited; components are those of the Sun-centred frame.
+    /// The quantity that is limited; components are those of the Sun-centred frame.
     pub quantity: &'static str,
     /// The limit, or half the width of the interval.
     pub limit: f64,
-    /// What the limit is.
+    /// Meaning of the limit.
     pub meaning: &'static str,
-    /// Who, when and where.
+    /// Authors, year and publication.
     pub source: &'static str,
-    /// What of it was seen here: `abstract`, the number stands in it and it was read; `second-hand`, the number is known from others, and
-    /// the publication could not be opened.
+    /// What was seen of the source here: `abstract`, the number is in the abstract, which was read; `second-hand`, the number is known
+    /// from others, and the publication could not be opened.
     pub seen: &'static str,
 }
 
-/// All of them.
+/// All published limits.
 pub fn published() -> impl Iterator<Item = Published> {
     include_str!("../../pulsars/published.tsv").lines().skip(1).map(|line| {
         let cells: Vec<_> = line.split('\t').collect();
@@ -54,7 +54,7 @@ pub fn published() -> impl Iterator<Item = Published> {
     })
 }
 
-/// The limit published in a paper that gives one, by its number at arXiv.
+/// The limit published in a paper that gives only one, by the paper's arXiv number.
 pub fn limit_of(paper: &str) -> f64 {
     published().find(|limit| limit.source.ends_with(paper)).expect("a published limit").limit
 }

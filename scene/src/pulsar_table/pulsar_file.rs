@@ -51,7 +51,8 @@ fn pulsar(section: &Section<'_>) -> Result<Pulsar, Fault> {
             .map(|w| quantity(&w, "above 0 and below 299792 [km/s]", |w| w > 0.0 && w < 299_792.0))
             .transpose()?,
     };
-    // Where the width is stationary or the axis points at the observer there is no bound: better said now, with the place.
+    // If the width is stationary or the axis points at the observer there is no bound; it is better to report this here,
+    // with the place in the file.
     let refused = |error| section.fault(format!("{}: {error}", pulsar.name));
     pulsar.figures().map_err(refused)?;
     pulsar.directions().map_err(refused)?;
@@ -115,7 +116,7 @@ fn quantity(entry: &Entry<'_>, allowed: &str, holds: impl Fn(f64) -> bool) -> Re
     quantity_within(entry, allowed, holds, f64::abs)
 }
 
-/// The same with the largest standard uncertainty allowed for a number.
+/// The same, with the largest standard uncertainty allowed for a number.
 fn quantity_within(
     entry: &Entry<'_>,
     allowed: &str,
@@ -140,7 +141,7 @@ fn quantity_within(
 mod tests {
     use crate::pulsar_table::{Inertia, pulsars};
 
-    /// A pulse with some lines in place of its own.
+    /// A pulse with some of its lines replaced.
     fn pulse(lines: &[&str]) -> String {
         let key = |line: &str| line.split(" =").next().unwrap_or("").to_owned();
         let usual =
@@ -151,7 +152,7 @@ mod tests {
         format!("[[pulsar]]\nname = \"x\"\n{}\n{}\n", kept.copied().collect::<Vec<_>>().join("\n"), lines.join("\n"))
     }
 
-    /// Of each range a number at or near its end, and one beyond.
+    /// For each range, a number at or near its end, and one beyond.
     #[test]
     fn numbers_are_taken_up_to_the_ends_of_their_ranges() {
         let (density, oblateness) = ("density = 1e15", "oblateness = 1e-3");

@@ -1,4 +1,4 @@
-//! What the residuals of a pulsar are made of: geometry, torque, Lorentz violation.
+//! Contributions to the residuals of a pulsar: geometry, torque, Lorentz violation.
 
 use nalgebra::Matrix3;
 use twofold::Error;
@@ -8,26 +8,26 @@ use twofold::propagation::PhasedMotion;
 
 use super::{PulsarScene, Timing};
 
-/// The causes of the residuals (s), each fitted as the arrival times are. They add up to the residuals but for what of the secular spin-down no fit takes, and for the rounding of arrival times,
-/// of which they have none.
+/// The contributions to the residuals (s), each fitted in the same way as the arrival times. They add up to the residuals, except for the part of the
+/// secular spin-down that no fit removes, and for the rounding of arrival times, which they do not contain.
 #[derive(Debug, Clone)]
 pub struct Causes {
-    /// Free precession turns the beam: when it points at the observer.
+    /// Free precession changes the times at which the beam points at the observer.
     pub geometry: Vec<f64>,
-    /// The torque varies over a precession. Zero where it does not go with the magnetic axis.
+    /// The torque varies over a precession. Zero if it does not depend on the magnetic axis.
     pub torque: Vec<f64>,
-    /// By how much Lorentz violation makes the pulses late directly, the torque left as it is. It changes the rate of the precession too, and with it when the torque is large: that is
-    /// in [`torque`](Self::torque), and may be the larger part.
+    /// The delay that Lorentz violation causes directly, with unchanged torque. Violation also changes the precession rate and so the phase of the
+    /// torque modulation: that effect is in [`torque`](Self::torque), and may be larger.
     pub violation: Vec<f64>,
-    /// Rate of the frequency at each pulse (Hz/s), geometry apart.
+    /// Rate of the frequency at each pulse (Hz/s), without geometry.
     pub spin_down_rate: Vec<f64>,
 }
 
 impl PulsarScene {
-    /// The causes of the residuals of arrival times.
+    /// The contributions to the residuals of arrival times.
     ///
     /// # Errors
-    /// As for [`PulsarClock::pulse_near`]; a sentence where the star without Lorentz violation has no pulse in the same turns.
+    /// As for [`PulsarClock::pulse_near`]; a sentence if the star without Lorentz violation has no pulse in the same turns.
     pub fn causes(&self, timing: &Timing) -> Result<Causes, String> {
         let time = self.clock.stretched_time();
         let free = Problem::new(*self.problem.spheroid(), Matrix3::zeros(), *self.problem.initial())?;
@@ -46,7 +46,7 @@ impl PulsarScene {
                      violation that delays the pulses by less than a turn"
                 )
             })?;
-            // Late against even turns, which the fit takes away.
+            // Delay relative to uniform turns, which the fit removes.
             let violation = (stretched[0] - without.midpoint[0]) + (stretched[1] - without.midpoint[1]);
             let even = number as f64 * period;
             let rest = (number as f64).mul_add(period, -even);
@@ -74,7 +74,8 @@ mod tests {
         Some(SpinDown { f1, index: IndexOrSecond::Index(3.0), torque_share, damping_time: None })
     }
 
-    /// To the rounding of the arrival times, 1e-16 d, and of residuals that are 1e-16 of the largest distance from the chord.
+    /// Accurate to the rounding of the arrival times, 1e-16 d, and of residuals that are 1e-16 of the largest distance from
+    /// the chord.
     #[test]
     fn without_braking_the_causes_add_up_to_the_residuals() {
         let times: Vec<_> = (0..12).map(|k| 0.9e8 / 11.0 * f64::from(k)).collect();
@@ -88,8 +89,9 @@ mod tests {
         assert!(largest(&causes.geometry) > 1e-6 && largest(&causes.violation) > 1e-6, "{causes:?}");
     }
 
-    /// With the index 3 and a constant torque `f1 (f / f0)^3 = f1 (1 - 2 t f1 / f0)^(-3/2)`. A torque in vacuum goes with the sine squared of the angle of the magnetic axis to `L` besides:
-    /// what that changes of the frequency is a part of `f1 / f0` over the rate of the precession, 2e-9.
+    /// With the index 3 and a constant torque the rate is `f1 (f / f0)^3 = f1 (1 - 2 t f1 / f0)^(-3/2)`. A torque in vacuum is also proportional to
+    /// the squared sine of the angle of the magnetic axis to `L`: the resulting change of the frequency is a fraction `f1 / f0` over the precession
+    /// rate, 2e-9.
     #[test]
     fn the_frequency_falls_by_the_law_of_braking_and_the_torque() {
         let mut scene = scene("[0.0, 0.0, 0.0]");
@@ -107,7 +109,7 @@ mod tests {
                 .zip(pulsar.causes(&timing).unwrap().spin_down_rate)
                 .map(|(torque, rate)| rate / torque)
                 .collect();
-            // The mean of the sine squared over a precession is the one number for all; a constant torque needs none.
+            // The mean of the squared sine over a precession is one number for all; a constant torque does not need it.
             let mean = if share == 0.0 { 1.0 } else { ratios[0] };
             assert!(ratios.iter().all(|ratio| (ratio / mean - 1.0).abs() < bound), "{ratios:?}");
             assert!((1.0..1.5).contains(&mean), "{mean}");

@@ -1,5 +1,5 @@
-//! A scene's pulsar over decades: arrival times at given epochs, what they are late by against a constant frequency, and the files that
-//! timing programs and readers of strain take. See `docs/pulsars.md`.
+//! A scene's pulsar over decades: arrival times at given epochs, their residuals relative to a constant frequency, and the input files
+//! of timing programs and of readers of strain. See `docs/pulsars.md`.
 
 mod causes;
 mod decimal;
@@ -31,10 +31,11 @@ pub use table::csv;
 /// Rounding of an arrival time, 1e-16 d (s).
 const ARRIVAL_ROUNDING: f64 = 1e-16 * DAY;
 
-/// A scene with all that its pulses need, in seconds.
+/// A scene with the data needed for its pulses, in seconds.
 #[derive(Debug, Clone)]
 pub struct PulsarScene {
-    /// The scene's problem with `I^xx = 1`, `C` in 1/s^2 and `L` in 1/s; the state is that at the epoch, and the bulge as in the scene.
+    /// The scene's problem with `I^xx = 1`, `C` in 1/s^2 and `L` in 1/s; the state is that at the epoch, and the bulge is that of the
+    /// scene.
     pub problem: Problem<f64>,
     /// Direction to the observer.
     pub observer: Observer<f64>,
@@ -44,12 +45,12 @@ pub struct PulsarScene {
     pub clock: PulsarClock,
     /// Modified Julian date of the state, TDB at the barycentre.
     pub epoch: Epoch,
-    /// The strain of `h = 1` in units of `I^xx / s^2`, if the scene has a distance.
+    /// The strain that corresponds to `h = 1` in units of `I^xx / s^2`, if the scene has a distance.
     pub strain_unit: Option<f64>,
 }
 
 impl PulsarScene {
-    /// Of a scene.
+    /// The pulsar of a scene.
     pub fn new(scene: &Scene) -> Result<Self, String> {
         let lacks =
             |what: &str| format!("the scene lacks {what}, without which it has no arrival times (docs/pulsars.md)");
@@ -95,20 +96,21 @@ impl PulsarScene {
         })
     }
 
-    /// Estimated error (s) of the residuals of a pulse at the time `t` (s, from the epoch) after `F0` is fitted: what the motion leaves out (the averaged one
-    /// by its order, the series on the torus by its length), the rounding of directions, and that of an arrival time to 1e-16 d.
+    /// Estimated error (s) of the residual of a pulse at the time `t` (s, from the epoch) after `F0` is fitted: the truncation error of the motion
+    /// (of the averaged one due to its order, of the series on the torus due to its length), the rounding of directions, and that of an arrival time
+    /// to 1e-16 d.
     pub fn residual_error(&self, t: f64) -> f64 {
         let motion = self.clock.motion();
         let per_radian = self.clock.period() / TAU;
-        // The rounding of rates is linear in time, but for the slow ones, whose share is 1e-15 of a residual.
+        // The rounding of rates is linear in time, except for the slow rates, whose contribution is 1e-15 of a residual.
         ARRIVAL_ROUNDING.max(self.clock.truncation(t) + motion.rounding(0.0) * per_radian)
     }
 
-    /// Estimated error (s) of an arrival time at the time `t` (s, from the epoch) for the numbers that the scene states. Beside that of a residual
-    /// it has what is linear in time: the rounding of the rotation rate, which a fitted `F0` takes up.
+    /// Estimated error (s) of an arrival time at the time `t` (s, from the epoch), for the numbers given in the scene. In addition to the error of
+    /// a residual it contains the part linear in time: the rounding of the rotation rate, which a fitted `F0` absorbs.
     ///
-    /// The initial angular momentum is held in doubles. From `spin_frequency` to `|L|` ten roundings of at most `2^-53` may add up: `2 pi`, two
-    /// products of it, four of the rate about the axis and of the axis, a sum, the moment of inertia, the unit of time.
+    /// The initial angular momentum is stored in doubles. From `spin_frequency` to `|L|` ten roundings of at most `2^-53` may add up: `2 pi`,
+    /// two products with it, four for the rate about the axis and for the axis, a sum, the moment of inertia, and the unit of time.
     pub fn arrival_error(&self, t: f64) -> f64 {
         const ROUNDINGS: f64 = 10.0;
         let per_radian = self.clock.period() / TAU;
@@ -116,16 +118,18 @@ impl PulsarScene {
         self.residual_error(t).max(of_motion) + ROUNDINGS * f64::EPSILON / 2.0 * t.abs()
     }
 
-    /// The pulses nearest to given epochs, and their fit of F0 and so many derivatives. Epochs of dark turns have none.
+    /// The pulses nearest to given epochs, and their fit of F0 and a number of derivatives. Epochs in turns without a pulse
+    /// have none.
     ///
     /// # Errors
-    /// No pulse at any epoch, with the closest approach; and as for [`PulsarClock::pulse_near`] and [`SpinFit::new`].
+    /// There is no pulse at any epoch (with the closest approach); and as for [`PulsarClock::pulse_near`] and
+    /// [`SpinFit::new`].
     pub fn timed(&self, epochs: &[Epoch], derivatives: usize) -> Result<Timing, TimingError> {
         let mut pulses = Vec::with_capacity(epochs.len());
         let (mut seen, mut dark) = (HashSet::new(), 0);
         for at in epochs {
             match self.clock.pulse_near(at.seconds_since(&self.epoch))? {
-                // Epochs nearer than a turn have one pulse between them.
+                // Epochs less than a turn apart may share one pulse.
                 Some(pulse) if seen.insert(pulse.number) => {
                     pulses.push(TimedPulse { arrival: self.epoch.after(pulse.midpoint)?, pulse });
                 }
@@ -137,7 +141,7 @@ impl PulsarScene {
             return Err(no_pulse::no_pulse(self, epochs));
         }
         let middle = epochs.iter().map(|at| at.day() as f64).sum::<f64>() / epochs.len() as f64;
-        // It may be later than a date that is written.
+        // It may be later than the latest date that can be written.
         let epoch = Epoch::new(0, 0.0)?.after([middle.round() * DAY, 0.0])?;
         let points: Vec<_> =
             pulses.iter().map(|timed| (timed.pulse.number, timed.arrival.seconds_since(&epoch))).collect();
@@ -145,7 +149,7 @@ impl PulsarScene {
     }
 }
 
-/// A pulse and when it arrives.
+/// A pulse and its arrival time.
 #[derive(Debug, Clone, Copy)]
 pub struct TimedPulse {
     /// Midpoint of the pulse, rounded to 1e-16 day.
@@ -154,16 +158,16 @@ pub struct TimedPulse {
     pub pulse: ClockPulse,
 }
 
-/// Arrival times and what they are late by.
+/// Arrival times and their residuals.
 #[derive(Debug, Clone)]
 pub struct Timing {
-    /// The pulses, in the order of the epochs asked.
+    /// The pulses, in the order of the requested epochs.
     pub pulses: Vec<TimedPulse>,
     /// Epochs without a pulse.
     pub dark: usize,
     /// Frequency (Hz), at [`epoch`](Self::epoch), and residuals (s).
     pub fit: SpinFit,
-    /// How many derivatives of the frequency are fitted.
+    /// Number of fitted derivatives of the frequency.
     pub derivatives: usize,
     /// `PEPOCH`: a whole day in the middle.
     pub epoch: Epoch,
@@ -190,7 +194,7 @@ mod tests {
         scene
     }
 
-    /// Its pulses nearest to times (s) since the epoch.
+    /// Its pulses nearest to given times (s) since the epoch.
     pub(super) fn timed(scene: &Scene, times: &[f64]) -> (PulsarScene, Timing) {
         let pulsar = PulsarScene::new(scene).unwrap();
         let epochs: Vec<_> = times.iter().map(|time| pulsar.epoch.after([*time, 0.0]).unwrap()).collect();
@@ -198,7 +202,7 @@ mod tests {
         (pulsar, timing)
     }
 
-    /// `C = I^xx / t_c^2`, and a strain in seconds is one in `t_c` by the square of it.
+    /// `C = I^xx / t_c^2`, and the strain in seconds follows from that in `t_c` with the square of it.
     #[test]
     fn a_scene_in_seconds_has_its_units() {
         let scene = scene("[0.0, 0.0, 0.0]");
@@ -208,7 +212,7 @@ mod tests {
         assert!((pulsar.strain_unit.unwrap() / strain - 1.0).abs() < 8.0 * f64::EPSILON);
     }
 
-    /// Of a span of no length, however late, the rates are good for its start alone.
+    /// For a span of zero length, however late, the rates are accurate only for its start.
     #[test]
     fn the_motion_is_good_for_the_span_of_the_scene() {
         for (start, grows) in [(1e9, true), (0.0, false)] {
@@ -219,8 +223,8 @@ mod tests {
         }
     }
 
-    /// Of a free star nothing is left out: `1e-16 * 86400 s`, and ten roundings of `2^-53` of the time, before and after. What is left out of a star that slows down is a time; where directions
-    /// are off by an angle a pulse is by that part of its turn.
+    /// A free star has no truncation error, only `1e-16 * 86400 s` and ten roundings of `2^-53` of the time, before and after. For a star that slows
+    /// down the truncation error is a time; an angle error of directions shifts a pulse by the corresponding fraction of its turn.
     #[test]
     fn an_arrival_is_off_by_its_rounding_that_of_the_rate_and_what_the_motion_leaves_out() {
         let near =
@@ -236,7 +240,7 @@ mod tests {
             (scene.times, scene.spin_down) = (Times::Listed { start: 0.0, times: vec![0.0] }, None);
             scene
         };
-        // Of a star that turns once in four months 1e-16 rad are longer than the rounding of an arrival.
+        // For a star that rotates once in four months 1e-16 rad correspond to more than the rounding of an arrival time.
         for frequency in ["frequency = 1e-7", "frequency = -1e-7"] {
             let late = PulsarScene::new(&scene(frequency, "[1e-20, 0.0, -3e-20]")).unwrap();
             let (motion, per_turn) = (late.clock.motion(), TAU / late.clock.period());
@@ -260,7 +264,7 @@ mod tests {
         assert!(left_out > 1e-6, "{left_out:e}");
     }
 
-    /// Two epochs in one turn are one pulse. The fit is about the whole day nearest to the mean of the days.
+    /// Two epochs in one turn give one pulse. The fit is about the whole day nearest to the mean of the days.
     #[test]
     fn epochs_have_their_pulses_about_the_day_in_their_middle() {
         let (_, timing) = timed(&scene("[0.0, 0.0, 0.0]"), &[0.0, 0.01, 2.0 * DAY, 5.0 * DAY]);

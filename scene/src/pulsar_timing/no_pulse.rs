@@ -1,4 +1,4 @@
-//! Why a pulsar has no arrival times.
+//! Reasons why a pulsar has no arrival times.
 
 use std::f64::consts::TAU;
 use std::fmt;
@@ -8,7 +8,7 @@ use twofold::epoch::Epoch;
 
 use super::PulsarScene;
 
-/// Why there are no arrival times.
+/// Reasons why there are no arrival times.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TimingError {
     /// No epoch has a pulse; a sentence with the closest approach.
@@ -17,13 +17,14 @@ pub enum TimingError {
     Motion(Error),
 }
 
-/// Most epochs in whose turns the angles are looked at, equally spaced.
+/// Largest number of epochs, equally spaced, in whose turns the angles are evaluated.
 const MOST: usize = 1000;
 
-/// Looks in one turn. The extrema between them are found by a step of Newton's method, to some `(2 pi / LOOKS)^4` of a radian.
+/// Evaluations in one turn. The extrema between them are found by a step of Newton's method, to some `(2 pi / LOOKS)^4` of a
+/// radian.
 const LOOKS: usize = 180;
 
-/// Why the turns of `epochs` have no pulse.
+/// The reason why the turns of `epochs` have no pulse.
 pub(super) fn no_pulse(pulsar: &PulsarScene, epochs: &[Epoch]) -> TimingError {
     let found = angles_to_line_of_sight(pulsar, epochs);
     found.map_or_else(TimingError::Motion, |[nearest, farthest]| {
@@ -31,7 +32,7 @@ pub(super) fn no_pulse(pulsar: &PulsarScene, epochs: &[Epoch]) -> TimingError {
     })
 }
 
-/// The least and the largest angle of the magnetic axis to the line of sight in these turns.
+/// The smallest and the largest angle of the magnetic axis to the line of sight in these turns.
 fn angles_to_line_of_sight(pulsar: &PulsarScene, epochs: &[Epoch]) -> Result<[f64; 2], Error> {
     let beam = &pulsar.beam;
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -83,7 +84,7 @@ impl fmt::Display for TimingError {
     }
 }
 
-/// By the least and the largest angle (rad) of the magnetic axis to the line of sight.
+/// The reason, from the smallest and the largest angle (rad) of the magnetic axis to the line of sight.
 fn sentence(nearest: f64, farthest: f64, half_opening: f64) -> String {
     if nearest >= half_opening {
         format!(
@@ -126,8 +127,8 @@ mod tests {
         (pulsar, epoch, angles)
     }
 
-    /// A magnetic axis at `chi` to `L` comes from `|i - chi|` to `i + chi` of a line of sight at `i`. Newton's step leaves less than 1e-8 rad; along the line of sight a
-    /// rounding of the cosine is some 1e-8 rad too.
+    /// A magnetic axis at `chi` to `L` has angles from `|i - chi|` to `i + chi` to a line of sight at `i`. Newton's step has an error of less than
+    /// 1e-8 rad; along the line of sight a rounding of the cosine is some 1e-8 rad too.
     #[test]
     fn a_star_without_wobble_shows_its_axis_at_the_difference_and_the_sum_of_angles() {
         for (inclination, chi) in [(60, 65), (60, 60), (75, 75), (82, 98), (35, 145), (120, 60)] {
@@ -143,7 +144,8 @@ mod tests {
         }
     }
 
-    /// A star that precesses within some turns, against 20,000 looks at the half turn before the epoch and the half after. An extremum is flat: between looks it changes by 1e-7 rad.
+    /// A star that precesses within some turns, compared with 20,000 evaluations in the half turn before the epoch and the half turn after. An
+    /// extremum is flat: between evaluations it changes by 1e-7 rad.
     #[test]
     fn the_turn_is_that_about_the_epoch() {
         let (pulsar, epoch, found) = angles(&[
@@ -158,7 +160,7 @@ mod tests {
         assert!((found[0] - least).abs() < 1e-6 && (found[1] - most).abs() < 1e-6, "{found:?}: {least} {most}");
     }
 
-    /// The beam that `a_pulse_is_not_given_where_it_lasts_over_more_turns_than_are_searched` has: it comes and goes with the wobble.
+    /// The beam of `a_pulse_is_not_given_where_it_lasts_over_more_turns_than_are_searched`: it comes and goes with the wobble.
     #[test]
     fn pulses_longer_than_a_turn_are_told_from_no_passage_and_from_no_end() {
         for (nearest, farthest, part) in [

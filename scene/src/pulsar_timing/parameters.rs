@@ -1,4 +1,4 @@
-//! The files of timing programs: a `.par` of the fit and a `.tim` of the arrival times (FORMAT 1, barycentre).
+//! The files for timing programs: a `.par` file of the fit and a `.tim` file of the arrival times (FORMAT 1, barycentre).
 
 use std::fmt::Write;
 use twofold::Error;
@@ -7,12 +7,13 @@ use super::Timing;
 use super::decimal::decimal;
 use crate::scene_file::{Catalogued, NAMELESS, Scene};
 
-/// Number of the pulse from which the numbers in the files are counted: the one nearest to `PEPOCH`, at which `TZRMJD` is.
+/// Number of the pulse from which the numbers in the files are counted: the one nearest to `PEPOCH`, whose time is `TZRMJD`.
 fn reference(timing: &Timing) -> i64 {
     timing.fit.phase[0].round() as i64
 }
 
-/// The `.par`: the fitted frequency in TDB. Nothing in it needs an ephemeris or a clock file, since the site is the barycentre.
+/// The `.par` file: the fitted frequency in TDB. Nothing in it requires an ephemeris or a clock file, since the site is the
+/// barycentre.
 pub fn par(scene: &Scene, timing: &Timing) -> Result<String, Error> {
     let at_reference = timing.epoch.after(timing.fit.time_of(reference(timing)))?;
     let mut text = String::new();
@@ -40,7 +41,8 @@ pub fn par(scene: &Scene, timing: &Timing) -> Result<String, Error> {
     Ok(text)
 }
 
-/// The `.tim`: one line for each pulse, of infinite frequency, with its number from that of `TZRMJD` and the uncertainty (s).
+/// The `.tim` file: one line for each pulse, at infinite frequency, with its number counted from that of `TZRMJD` and the
+/// uncertainty (s).
 pub fn tim(timing: &Timing, uncertainty: f64) -> String {
     let (first, microseconds) = (reference(timing), uncertainty * 1e6);
     let mut text = String::from("FORMAT 1\n");
@@ -57,7 +59,7 @@ mod tests {
     use super::super::tests::{scene, timed};
     use super::*;
 
-    /// Every line in its place. The pulse that others are counted from is within half a turn of `PEPOCH`.
+    /// Every line is in its place. The reference pulse is within half a turn of `PEPOCH`.
     #[test]
     fn the_files_have_what_was_fitted() {
         for mut scene in [scene("[0.0, 0.0, 0.0]"), Scene::named("b1828-11").unwrap()] {
@@ -84,7 +86,7 @@ mod tests {
             let (zero, period) = (value("TZRMJD").parse::<twofold::epoch::Epoch>().unwrap(), pulsar.clock.period());
             let from_middle = zero.seconds_since(&timing.epoch)[0];
             assert!(from_middle.abs() <= 0.5 * period, "{from_middle} s of {period} s");
-            // From there to each pulse it is its number of turns, but for the residual.
+            // From there to each pulse the phase is its number of turns, except for the residual.
             for (line, (timed, residual)) in
                 tim(&timing, 1e-5).lines().skip(1).zip(timing.pulses.iter().zip(&timing.fit.residuals))
             {

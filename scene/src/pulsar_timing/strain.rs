@@ -1,4 +1,4 @@
-//! The strain of a pulsar as series in equal steps, in the two columns that readers of strain take.
+//! The strain of a pulsar as equally spaced series, in the two-column format of programs that read strain.
 
 use std::fmt::Write;
 
@@ -10,19 +10,19 @@ use twofold::observables::gravitational_wave::Polarizations;
 use super::PulsarScene;
 use crate::wave::spheroid_wave;
 
-/// When a series begins, its steps and how many.
+/// The start, the sampling rate and the number of samples of a series.
 #[derive(Debug, Clone, Copy)]
 pub struct Series {
     /// Time of the first sample.
     pub start: Epoch,
-    /// Samples in a second.
+    /// Samples per second.
     pub rate: f64,
     /// Number of samples.
     pub samples: usize,
 }
 
 impl PulsarScene {
-    /// The wave at the observer, at the scene's distance, of a state.
+    /// The wave of a state at the observer, at the scene's distance.
     pub fn wave(&self, state: &AxisState<f64>) -> Option<Polarizations<f64>> {
         Some(spheroid_wave(
             self.problem.spheroid(),
@@ -34,7 +34,8 @@ impl PulsarScene {
     }
 }
 
-/// Texts of `h_+` and `h_x`: a line for each sample, seconds from the start and strain. Nothing if the scene has no distance.
+/// Texts of `h_+` and `h_x`: a line for each sample, with seconds from the start and strain. `None` if the scene has no
+/// distance.
 ///
 /// # Errors
 /// As for [`PulsarClock::near`](twofold::observables::pulsar::PulsarClock::near).
@@ -57,7 +58,7 @@ mod tests {
     use super::super::tests::{scene, timed};
     use super::*;
 
-    /// Two series of which one begins a second later have the same lines from there on.
+    /// If one of two series begins a second later, both have the same lines from there on.
     #[test]
     fn a_series_begins_at_its_start() {
         let (pulsar, _) = timed(&scene("[0.0, 0.0, 0.0]"), &[0.0, 1e5]);

@@ -26,10 +26,11 @@ const HEADER: [&str; 16] = [
     "h_cross [1]",
 ];
 
-/// Columns of the causes.
+/// Columns of the contributions to the residuals.
 const CAUSES: [&str; 4] = ["geometry [s]", "torque [s]", "violation [s]", "spin_down_rate [Hz/s]"];
 
-/// Comma-separated values with a header, a row for each pulse, the causes of its residual last if they are given. What does not exist is left empty.
+/// Comma-separated values with a header and a row for each pulse; the contributions to its residual come last, if given. Values that do not exist
+/// are left empty.
 pub fn csv(pulsar: &PulsarScene, timing: &Timing, causes: Option<&Causes>) -> String {
     let mut text = HEADER.join(",");
     if causes.is_some() {
@@ -83,7 +84,7 @@ mod tests {
     use super::super::tests::{scene, timed};
     use super::*;
 
-    /// Strains are half at twice the distance, and no columns of numbers without one; what the causes are stands in their columns.
+    /// Strains are half at twice the distance, and have no numbers without a distance; the contributions are in their columns.
     #[test]
     fn every_field_is_in_its_column() {
         let mut scene = scene("[0.0, 0.0, 0.0]");
@@ -113,7 +114,7 @@ mod tests {
                     }
                     [field, near].map(|field| field.parse().unwrap_or(0.0))
                 });
-                // The unit is rounded before it is multiplied.
+                // The unit is rounded before the multiplication.
                 assert!(
                     strains
                         .into_iter()

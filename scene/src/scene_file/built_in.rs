@@ -1,6 +1,6 @@
-//! Scenes that come with the command: the paper's four examples, six other kinds of motion, pulsars, and templates.
+//! Scenes included with the command: the paper's four examples, six other kinds of motion, pulsars, and templates.
 
-/// A scene inside the program.
+/// A scene included in the program.
 #[derive(Debug, Clone, Copy)]
 pub struct BuiltIn {
     /// Name for `twofold run`.
@@ -32,15 +32,15 @@ pub const BUILT_IN: &[BuiltIn] = built_in![
 /// Pulsars, over decades.
 pub const PULSARS: &[BuiltIn] = built_in!["b1937+21", "j1744-1134", "b1828-11", "b1642-03"];
 
-/// Stars as an astronomer knows them, to start from.
+/// Stars described as by an astronomer, as a starting point.
 pub const TEMPLATES: &[BuiltIn] = built_in!["isolated-pulsar", "millisecond-pulsar", "wave-source"];
 
-/// The built-in scene of a name.
+/// The built-in scene with a name.
 pub fn built_in(name: &str) -> Option<&'static BuiltIn> {
     all().find(|scene| scene.name == name)
 }
 
-/// The names of all of them.
+/// The names of all built-in scenes.
 pub fn names() -> Vec<&'static str> {
     all().map(|scene| scene.name).collect()
 }

@@ -1,4 +1,5 @@
-//! TOML documents of any kind, read key by key. Every refusal has its place in the file, the value as written and what is allowed.
+//! TOML documents of any kind, read key by key. Every error message gives the place in the file, the value as written and the
+//! allowed values.
 
 use std::fs::File;
 use std::io::Read;
@@ -23,7 +24,7 @@ pub(crate) struct FileFormat {
 }
 
 impl FileFormat {
-    /// The text of a file, with the size bounded while reading, so that a device or pipe cannot fill the memory.
+    /// The text of a file, with its size bounded while reading, so that a device or pipe cannot fill the memory.
     pub(crate) fn read(&self, path: &str) -> Result<String, SceneError> {
         let refuse = |message: String| SceneError::of_file(path, message);
         let name = self.name;
@@ -56,7 +57,7 @@ impl FileFormat {
         })
     }
 
-    /// What `read` makes of the document that is the text of `file`.
+    /// The result of `read` for the document with the text of `file`.
     pub(crate) fn parse<T>(
         &self,
         file: &str,
@@ -67,7 +68,7 @@ impl FileFormat {
         read(&Section::document(text, &table, self.name)).map_err(|fault| SceneError::in_text(file, text, fault))
     }
 
-    /// The document that is the text of `file`.
+    /// The document with the text of `file`.
     pub(crate) fn table<'t>(&self, file: &str, text: &'t str) -> Result<DeTable<'t>, SceneError> {
         DeTable::parse(text).map(Spanned::into_inner).map_err(|syntax| {
             let message = syntax.message().trim().replace('\n', ", ");
@@ -77,7 +78,7 @@ impl FileFormat {
     }
 }
 
-/// Numbers that stand in place of those written, each with the dotted key of one, such as `lorentz_violation.w[2]`.
+/// Numbers that replace those in the document, each with the dotted key of one, such as `lorentz_violation.w[2]`.
 #[derive(Clone, Copy)]
 pub(crate) struct Replaced<'a> {
     pub(crate) keys: &'a [String],
@@ -95,7 +96,7 @@ impl Replaced<'_> {
 pub(crate) struct Section<'a> {
     text: &'a str,
     replaced: Replaced<'a>,
-    /// What the document is: `a scene`.
+    /// Kind of the document: `a scene`.
     document: &'static str,
     /// Dotted name; empty for the document itself.
     name: String,
@@ -112,12 +113,12 @@ pub(crate) struct Entry<'a> {
 }
 
 impl<'a> Section<'a> {
-    /// The document itself, which messages call `document`.
+    /// The document itself, which error messages call `document`.
     pub(crate) fn document(text: &'a str, table: &'a DeTable<'a>, document: &'static str) -> Self {
         Self { text, replaced: Replaced::NOTHING, document, name: String::new(), span: 0..0, table }
     }
 
-    /// The same with numbers that stand in place of those written.
+    /// The same with numbers that replace those in the document.
     pub(crate) fn replacing(self, replaced: Replaced<'a>) -> Self {
         Self { replaced, ..self }
     }
@@ -175,22 +176,22 @@ impl<'a> Section<'a> {
         keys
     }
 
-    /// The value of `key`; `meaning` is said where it is missing.
+    /// The value of `key`; `meaning` is part of the message if it is missing.
     pub(crate) fn required(&self, key: &str, meaning: &str) -> Result<Entry<'a>, Fault> {
         self.optional(key).ok_or_else(|| self.missing(&format!("`{}` ({meaning})", self.dotted(key))))
     }
 
-    /// A refusal because something is missing from the section.
+    /// An error because something is missing from the section.
     pub(crate) fn missing(&self, what: &str) -> Fault {
         self.fault(format!("missing {what}"))
     }
 
-    /// A refusal of the section as a whole.
+    /// An error for the section as a whole.
     pub(crate) fn fault(&self, message: impl Into<String>) -> Fault {
         Fault { span: (!self.name.is_empty()).then(|| self.span.clone()), message: message.into() }
     }
 
-    /// Refuses the second key of a pair beside the first: they say the same thing in two ways.
+    /// Refuses the second key of a pair if the first is given too: both mean the same in two forms.
     pub(crate) fn not_both(&self, pairs: &[(&str, &str)]) -> Result<(), Fault> {
         for (first, second) in pairs {
             if let (Some(_), Some(value)) = (self.find(first), self.find(second)) {
@@ -212,14 +213,14 @@ impl<'a> Section<'a> {
         Some(Section { text, replaced, document: self.document, name, span, table })
     }
 
-    /// The table `key`, written as a section or inside braces, if it is there; `allowed` says of what.
+    /// The table `key`, written as a section or inside braces, if it is present; `allowed` describes its content.
     pub(crate) fn table(&self, key: &str, allowed: &str) -> Result<Option<Section<'a>>, Fault> {
         let Some(entry) = self.optional(key) else { return Ok(None) };
         let refusal = entry.refuse(allowed);
         self.of_table(entry).map(Some).ok_or(refusal)
     }
 
-    /// The sections `key`, each written `[[key]]`, one at least; `meaning` is said where they are missing.
+    /// The sections `key`, each written `[[key]]`, at least one; `meaning` is part of the message if they are missing.
     pub(crate) fn repeated_section(&self, key: &str, meaning: &str) -> Result<Vec<Section<'a>>, Fault> {
         let allowed = format!("sections, each written [[{key}]]");
         let missing = || self.missing(&format!("section [[{key}]] ({meaning})"));
@@ -231,7 +232,7 @@ impl<'a> Section<'a> {
         entries.into_iter().map(|entry| self.of_table(entry).ok_or_else(|| list.refuse(&allowed))).collect()
     }
 
-    /// The section `key`; `meaning` is said where it is missing.
+    /// The section `key`; `meaning` is part of the message if it is missing.
     pub(crate) fn required_section(&self, key: &str, meaning: &str) -> Result<Section<'a>, Fault> {
         self.section(key)?.ok_or_else(|| self.missing(&format!("section [{key}] ({meaning})")))
     }
@@ -242,7 +243,7 @@ impl<'a> Entry<'a> {
         self.refuse_because(&format!("allowed is {allowed}"))
     }
 
-    /// A refusal of the value for a reason that lies elsewhere in the scene.
+    /// Refuses the value for a reason elsewhere in the scene.
     pub(crate) fn refuse_because(&self, why: &str) -> Fault {
         let written = shortened(self.text.get(self.span.clone()).unwrap_or(""));
         let value = self.replaced.get(&self.key).map_or(written, |number| format!("{number:?}"));
@@ -261,7 +262,7 @@ impl<'a> Entry<'a> {
         text.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(|| self.refuse("a finite decimal number"))
     }
 
-    /// Half of the unit of the last digit written: the largest error of a number that was rounded to it.
+    /// Half of the unit of the last digit written: the largest rounding error of the number.
     pub(crate) fn rounding(&self) -> f64 {
         let text = self.text.get(self.span.clone()).unwrap_or("").replace('_', "").to_ascii_lowercase();
         let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
@@ -269,12 +270,12 @@ impl<'a> Entry<'a> {
         exponent.parse::<f64>().map_or(0.0, |exponent| 0.5 * 10f64.powf(exponent - decimals as f64))
     }
 
-    /// An angle in radians. Beyond a million, more than six digits of its place on the circle are lost.
+    /// An angle in radians. Above a million rad more than six digits of its position on the circle are lost.
     pub(crate) fn angle(&self) -> Result<f64, Fault> {
         self.angle_where("an angle of at most 1e6 in size [rad]", |x| x.abs() <= 1e6)
     }
 
-    /// An angle for which `holds`: a number of radians, or degrees in a text, `"89.0 deg"`.
+    /// An angle for which `holds` is true: a number of radians, or degrees as text, `"89.0 deg"`.
     pub(crate) fn angle_where(&self, allowed: &str, holds: impl Fn(f64) -> bool) -> Result<f64, Fault> {
         let angle = match self.value {
             DeValue::String(text) if self.replaced.get(&self.key).is_none() => {
@@ -287,7 +288,7 @@ impl<'a> Entry<'a> {
         if holds(angle) { Ok(angle) } else { Err(self.refuse(allowed)) }
     }
 
-    /// A finite number for which `holds`.
+    /// A finite number for which `holds` is true.
     pub(crate) fn number_where(&self, allowed: &str, holds: impl Fn(f64) -> bool) -> Result<f64, Fault> {
         let x = self.number()?;
         if holds(x) { Ok(x) } else { Err(self.refuse(allowed)) }
@@ -320,7 +321,7 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// Different words out of `names`, each with its entry; an empty list is allowed.
+    /// Different words from `names`, each with its entry; an empty list is allowed.
     pub(crate) fn words(&self, names: &[&str]) -> Result<Vec<(Entry<'a>, &'a str)>, Fault> {
         let allowed = format!("a list of different names out of \"{}\"", names.join("\", \""));
         let mut found: Vec<(Entry<'a>, &str)> = Vec::new();
@@ -334,7 +335,7 @@ impl<'a> Entry<'a> {
         Ok(found)
     }
 
-    /// A string out of `allowed`.
+    /// A string from `allowed`.
     pub(crate) fn word(&self, allowed: &[&str]) -> Result<&'a str, Fault> {
         let quoted = || allowed.iter().map(|w| format!("\"{w}\"")).collect::<Vec<_>>().join(", ");
         match self.value {
@@ -347,7 +348,7 @@ impl<'a> Entry<'a> {
         matches!(self.value, DeValue::Array(_))
     }
 
-    /// The entries of a list; `allowed` says of what.
+    /// The entries of a list; `allowed` describes them.
     pub(crate) fn list(&self, allowed: &str) -> Result<Vec<Entry<'a>>, Fault> {
         let DeValue::Array(array) = self.value else { return Err(self.refuse(allowed)) };
         let entry = |(i, value): (usize, &'a Spanned<DeValue<'a>>)| {
@@ -361,7 +362,7 @@ impl<'a> Entry<'a> {
         matches!(self.value, DeValue::String(_))
     }
 
-    /// Appends the dotted keys of the decimal numbers that the value is or holds.
+    /// Appends the dotted keys of the decimal numbers in the value.
     fn numbers(&self, keys: &mut Vec<String>) {
         match self.value {
             DeValue::Float(_) => keys.push(self.key.clone()),
@@ -386,7 +387,7 @@ mod tests {
 
     const SHEET: FileFormat = FileFormat { name: "a sheet", built_in: None };
 
-    /// What `read` makes of a document, or the message of its refusal.
+    /// The result of `read` for a document, or the error message.
     fn read<T>(text: &str, read: impl FnOnce(&Section<'_>) -> Result<T, Fault>) -> Result<T, String> {
         SHEET.parse("sheet.toml", text, read).map_err(String::from)
     }
@@ -402,7 +403,7 @@ mod tests {
         }
     }
 
-    /// Numbers in tables and lists have dotted keys; a hexadecimal one is no decimal number.
+    /// Numbers in tables and lists have dotted keys; a hexadecimal number is not a decimal one.
     #[test]
     fn decimal_numbers_are_found_with_their_keys() {
         let text = "a = 1\nb = [2.0, [3, 4e1]]\nc = 0x10\nd = \"5\"\n";

@@ -1,14 +1,14 @@
-//! Refusals of a file: where in its text the fault is, and how that is shown.
+//! Errors in a file: the place in its text, and how it is shown.
 
 use std::fmt;
 use std::ops::Range;
 
-/// A fault at a place of the text that is being read; becomes a [`SceneError`] with [`SceneError::in_text`].
+/// An error at a place in the text that is being read; becomes a [`SceneError`] with [`SceneError::in_text`].
 #[derive(Debug)]
 pub(crate) struct Fault {
-    /// Bytes of the text, where the fault has a place.
+    /// Byte range in the text, if the error has a place.
     pub(crate) span: Option<Range<usize>>,
-    /// Key, value and what is allowed.
+    /// Key, value and allowed values.
     pub(crate) message: String,
 }
 
@@ -18,7 +18,7 @@ impl Fault {
     }
 }
 
-/// A scene, or a table of pulsars, that cannot be used: file, place, key, value and what is allowed.
+/// A scene, or a table of pulsars, that cannot be used: file, place, key, value and allowed values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneError {
     file: String,
@@ -30,7 +30,7 @@ pub struct SceneError {
 struct Place {
     line: usize,
     column: usize,
-    /// The line as it stands in the file, shortened, and the marked characters in it.
+    /// The line of the file, shortened, and the marked characters in it.
     excerpt: Option<(String, Range<usize>)>,
 }
 
@@ -38,7 +38,7 @@ struct Place {
 const LONGEST_EXCERPT: usize = 100;
 
 impl SceneError {
-    /// A refusal of the file as a whole.
+    /// An error for the file as a whole.
     pub fn of_file(file: &str, message: impl Into<String>) -> Self {
         Self { file: file.to_owned(), place: None, message: message.into() }
     }
@@ -95,25 +95,25 @@ impl From<SceneError> for String {
 mod tests {
     use super::*;
 
-    /// The message of a refusal of the bytes `span` of a text, whose fault is `why`.
+    /// The error message for the bytes `span` of a text, with the reason `why`.
     fn message(text: &str, span: Range<usize>) -> String {
         SceneError::in_text("sheet.toml", text, Fault::at(span, "why")).to_string()
     }
 
-    /// Under the line stand as many marks as there are characters, at least one, and none beyond the end of the line.
+    /// Below the line there are as many marks as there are characters, at least one, and none beyond the end of the line.
     #[test]
     fn what_is_refused_is_marked_in_its_line() {
         assert_eq!(message("a = 1\nbc = 23\n", 11..13), "sheet.toml:2:6: why\n  |\n2 | bc = 23\n  |      ^^");
         // A value of two lines is marked in its first.
         assert_eq!(message("a = [1,\n2]\n", 4..10), "sheet.toml:1:5: why\n  |\n1 | a = [1,\n  |     ^^^");
-        // Nothing at all, as where a value lacks at the end of the line, and beyond the end of the text.
+        // An empty range, as for a missing value at the end of the line, and one beyond the end of the text.
         assert_eq!(message("a =", 3..3), "sheet.toml:1:4: why\n  |\n1 | a =\n  |    ^");
         assert_eq!(message("a =", 7..9), "sheet.toml:1:4: why\n  |\n1 | a =\n  |    ^");
         assert_eq!(message("abc", 1..2), "sheet.toml:1:2: why\n  |\n1 | abc\n  |  ^");
-        // Within a character of two bytes: at its beginning.
+        // Inside a character of two bytes: the mark is at its beginning.
         assert_eq!(message("\u{e9}\u{e9}x", 3..4), "sheet.toml:1:2: why\n  |\n1 | \u{e9}\u{e9}x\n  |  ^");
         assert_eq!(message("\u{e9}\u{e9}x", 0..1), "sheet.toml:1:1: why\n  |\n1 | \u{e9}\u{e9}x\n  | ^");
-        // Of the two characters that a mark would cover the line has one.
+        // The mark would cover two characters, of which the line has one.
         assert_eq!(message("a\r\nb", 0..2), "sheet.toml:1:1: why\n  |\n1 | a\n  | ^");
     }
 

@@ -1,7 +1,7 @@
 //! Scene files: a star, its initial motion, the coefficients for Lorentz violation and the times of the output, read from TOML and checked.
 //!
-//! The format is described in `docs/scenes.md`. Everything is checked before anything is computed; a refusal names the
-//! file, line, column and key, the value as written and what is allowed.
+//! The format is described in `docs/scenes.md`. Everything is checked before anything is computed; an error message names
+//! the file, line, column and key, the value as written and the allowed values.
 
 mod built_in;
 mod document;
@@ -33,53 +33,54 @@ pub use spin_down::{IndexOrSecond, SpinDown};
 /// Largest scene file that is read, in bytes.
 pub const LARGEST_FILE: u64 = 64 << 20;
 
-/// A checked scene. Inside it everything is in the paper's units, `I^xx = C = 1`, with time in `t_c`.
+/// A checked scene. Internally everything is in the paper's units, `I^xx = C = 1`, with time in `t_c`.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// What the scene is, one line; may be empty.
+    /// Description of the scene, one line; may be empty.
     pub about: String,
     /// The star, `s^IJ` and the state at the time `times.start()`, in the inertial frame of the output.
     pub problem: Problem<f64>,
-    /// Euler angles of that state, with their turns, and on a pole as given.
+    /// Euler angles of that state, including whole turns; at a pole as given.
     pub initial_angles: EulerAngles<f64>,
     /// Times of the output, in units of the output.
     pub times: Times,
-    /// Modified Julian date (TDB at the barycentre) of the time `times.start()`, where the file says so.
+    /// Modified Julian date (TDB at the barycentre) of the time `times.start()`, if given in the file.
     pub epoch: Option<Epoch>,
-    /// Where the numbers of the file come from.
+    /// Sources of the numbers in the file.
     pub sources: Vec<String>,
-    /// The observer, where the file has one.
+    /// The observer, if given in the file.
     pub observer: Option<Viewer>,
-    /// The beam of the pulsar, where the file has one.
+    /// The beam of the pulsar, if given in the file.
     pub pulsar: Option<Pulsar>,
-    /// Name and position of the pulsar, where the file has them.
+    /// Name and position of the pulsar, if given in the file.
     pub catalogued: Option<Catalogued>,
-    /// How the star slows down, where the file says so: for arrival times.
+    /// The spin-down of the star, if given in the file; used for arrival times.
     pub spin_down: Option<SpinDown>,
-    /// The perturbation solution of the scene's constants as printed, with time from the start in t_c, or why there is none.
+    /// The perturbation solution for the scene's constants as printed, with time from the start in t_c, or the reason why
+    /// there is none.
     pub perturbation: Result<Perturbation<f64>, &'static str>,
-    /// Groups of columns of the table, in its order.
+    /// Groups of columns of the table, in order.
     pub columns: Vec<Output>,
     /// Largest truncation error at the end of the span.
     pub tolerance: f64,
-    /// The method of the motion, where one is named.
+    /// The method of the motion, if one is named.
     pub method: Option<Method>,
     /// Units of the file and of the output.
     pub units: Units,
-    /// Sentences about what in the file is allowed but looks like a mistake.
+    /// Sentences about allowed entries of the file that look like a mistake.
     pub cautions: Vec<String>,
 }
 
-/// The columns that a scene is read for.
+/// The columns for which a scene is read.
 #[derive(Clone, Copy)]
 pub enum Columns<'a> {
-    /// Those of the file.
+    /// The columns of the file.
     OfTheFile,
-    /// Those of the file, and whether they can be computed at all is seen later, by [`Scene::check_rotation`].
+    /// The columns of the file; [`Scene::check_rotation`] decides later whether they can be computed.
     OfTheFileLater,
     /// The groups of these names.
     Named(&'a [&'a str]),
-    /// None: the file may name groups without what these need.
+    /// No columns: the file may name groups without the sections they need.
     Unused,
 }
 
@@ -89,21 +90,21 @@ impl Scene {
         Self::named_with(name_or_path, Columns::OfTheFile)
     }
 
-    /// As [`Scene::named`], for other columns than those of the file.
+    /// As [`Scene::named`], for columns other than those of the file.
     pub fn named_with(name_or_path: &str, columns: Columns<'_>) -> Result<Self, SceneError> {
         Self::from_toml_with(name_or_path, &text_of(name_or_path)?, columns)
     }
 
-    /// Reads and checks the text of a scene file; `file` is how messages call it.
+    /// Reads and checks the text of a scene file; `file` is its name in messages.
     ///
     /// # Errors
-    /// A [`SceneError`] for text that is not TOML, for keys that are unknown, missing or exclude one another, and for
-    /// values of a wrong type or out of range.
+    /// A [`SceneError`] for text that is not TOML, for keys that are unknown, missing or mutually exclusive, and for values
+    /// of a wrong type or out of range.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SceneError> {
         Self::from_toml_with(file, text, Columns::OfTheFile)
     }
 
-    /// As [`Scene::from_toml`], for other columns than those of the file.
+    /// As [`Scene::from_toml`], for columns other than those of the file.
     ///
     /// # Errors
     /// As for [`Scene::from_toml`].
@@ -111,7 +112,7 @@ impl Scene {
         SCENE.parse(file, text, |document| Self::from_document(document, columns, None))
     }
 
-    /// The scene of a document, with `times` in place of its own section `[time]` if there are any.
+    /// The scene of a document, with `times` in place of its own section `[time]`, if given.
     pub(crate) fn from_document(
         document: &Section<'_>,
         columns: Columns<'_>,
@@ -194,7 +195,7 @@ pub fn text_of(name_or_path: &str) -> Result<String, SceneError> {
     built_in(name_or_path).map_or_else(|| SCENE.read(name_or_path), |built_in| Ok(built_in.toml.to_owned()))
 }
 
-/// Why a star with a bulge has no printed perturbation solution.
+/// The reason why a star with a bulge has no printed perturbation solution.
 const OF_RIGID_STARS: &str = "the paper's solution is that of a rigid star, and this one has a bulge (`star.bulge`)";
 
 fn sources(entry: &Entry<'_>) -> Result<Vec<String>, Fault> {

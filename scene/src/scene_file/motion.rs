@@ -1,4 +1,4 @@
-//! The sections that set the motion and the units of the file: `[star]`, `[lorentz_violation]` and `[initial]`.
+//! The sections that define the motion and the units of the file: `[star]`, `[lorentz_violation]` and `[initial]`.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -19,7 +19,7 @@ use super::fault::Fault;
 use super::observation::Pulsar;
 use super::rotation::{Rotation, WobbleAngles, rotation};
 
-/// Units of a scene file and of its output: those of the paper, or seconds and cgs.
+/// Units of a scene file and of its output: those of the paper, or seconds and cgs units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Units {
     /// `t_c` in the unit of time.
@@ -46,7 +46,7 @@ impl Units {
         self.momentum * self.time * GRAM_SQUARE_CENTIMETRE
     }
 
-    /// Whether these are seconds and cgs.
+    /// Whether these are seconds and cgs units.
     pub fn are_physical(&self) -> bool {
         self.time_name == "s"
     }
@@ -62,7 +62,8 @@ pub(super) struct Star {
     pub(super) units: Units,
 }
 
-/// The star, and a sentence if it spins faster than gravity can hold it. The angles of the wobble and of the magnetic axis are needed for what is observed of it.
+/// The star, and a caution if it spins faster than gravity can hold it. The angles of the wobble and of the magnetic axis are needed for observed
+/// rates.
 pub(super) fn read_star(section: &Section<'_>, angles: &WobbleAngles) -> Result<(Star, Option<String>), Fault> {
     section
         .only("inertia_ratio spin mass radius density oblateness precession_period spin_frequency frequency bulge")?;
@@ -92,7 +93,7 @@ fn physical(section: &Section<'_>, angles: &WobbleAngles) -> Result<(Star, Optio
         .required("mass", "in solar masses; or `star.inertia_ratio` and `star.spin` for the paper's units")?
         .number_in("a mass from 1e-3 to 1e3 [solar masses]", 1e-3..=1e3)?;
     let Rotation { entry: spin_entry, frequency, oblateness } = rotation(section, angles)?;
-    // Geometrised units (G = c = 1, base second) inside, cgs outside.
+    // Geometrised units (G = c = 1, base second) internally, cgs units externally.
     let mean_radius = match (section.optional("radius"), section.optional("density")) {
         (Some(radius), _) => radius.number_in("a radius from 1 to 1e7 [km]", 1.0..=1e7)? * KILOMETRE,
         (None, Some(density)) => {
@@ -137,7 +138,7 @@ fn physical(section: &Section<'_>, angles: &WobbleAngles) -> Result<(Star, Optio
     Ok((star, caution))
 }
 
-/// That of a fluid is `1 / (4 I^xx)`: `C_f` is half of the energy of rotation.
+/// For a fluid it is `1 / (4 I^xx)`: `C_f` is half of the rotational energy.
 fn bulge(entry: &Entry<'_>) -> Result<f64, Fault> {
     let allowed = "\"fluid\", or the size of the bulge over that of a fluid, from 0 to 10";
     let size = match entry.string() {
@@ -148,8 +149,8 @@ fn bulge(entry: &Entry<'_>) -> Result<f64, Fault> {
     Ok(0.25 * size)
 }
 
-/// Rotation frequency (Hz) at which the centrifugal acceleration at the equator of a uniform spheroid, `Omega^2 a1`, is that of
-/// gravity, by Eq. (73) `2 pi rho A_1 a1`: `Omega^2 = 2 pi rho A_1`, for a sphere `M / R^3`. Newtonian.
+/// Rotation frequency (Hz) at which the centrifugal acceleration at the equator of a uniform spheroid, `Omega^2 a1`, equals
+/// that of gravity, `2 pi rho A_1 a1` by Eq. (73): `Omega^2 = 2 pi rho A_1`, for a sphere `M / R^3`. Newtonian.
 fn break_up_frequency(body: &UniformSpheroid<f64>) -> f64 {
     (TAU * body.density * potential_coefficients(&body.shape).a1).sqrt() / TAU
 }
@@ -209,7 +210,7 @@ fn tensor(entry: &Entry<'_>) -> Result<Violation, Fault> {
     Ok(Violation { tensor, coefficients: frame.coefficients, principal_from_given: frame.principal_from_given })
 }
 
-/// Eq. (5) `[replace]`. The principal axis Z is along `w`; X and Y are any two normal to it.
+/// Eq. (5) `[replace]`. The principal axis Z is along `w`; X and Y are arbitrary normals to it.
 fn preferred_frame(section: &Section<'_>) -> Result<Violation, Fault> {
     let alpha_2_entry = section.required("alpha_2", "the PPN parameter")?;
     let alpha_2 = alpha_2_entry.number()?;
@@ -244,12 +245,12 @@ fn coefficients(entry: &Entry<'_>, allowed: &str) -> Result<[f64; 3], Fault> {
 const ANGLES: [&str; 4] = ["alpha", "beta", "alpha_rate", "beta_rate"];
 const CONSTANTS: [&str; 5] = ["kind", "alpha_0", "beta_0", "amplitude", "phase"];
 
-/// The start of a motion in the paper's units.
+/// The initial conditions of a motion in the paper's units.
 pub(super) struct Initial {
     /// State in the frame of the file.
     pub(super) state: BodyState<f64>,
     pub(super) angles: EulerAngles<f64>,
-    /// The printed perturbation solution in the same frame, time from the start, or why there is none.
+    /// The printed perturbation solution in the same frame, with time from the start, or the reason why there is none.
     pub(super) perturbation: Result<Perturbation<f64>, &'static str>,
 }
 
@@ -299,15 +300,17 @@ fn from_angles(section: &Section<'_>, star: &Star) -> Result<Initial, Fault> {
     Ok(Initial { state, angles, perturbation: Err("[initial] gives angles and no constants (`initial.kind`)") })
 }
 
-/// The direction across a unit vector `l` at an azimuth about it, counted from the one nearest to X (to Y where `l` is along X).
+/// The direction perpendicular to a unit vector `l` at an azimuth about it, counted from the direction nearest to X (to Y if `l`
+/// is along X).
 pub(super) fn outwards(l: &Vector3<f64>, azimuth: f64) -> Vector3<f64> {
     let nearest = if l.x.abs() > 0.99 { Vector3::y() } else { Vector3::x() };
     let x = (nearest - l * l.dot(&nearest)).normalize();
     x * azimuth.cos() + l.cross(&x) * azimuth.sin()
 }
 
-/// The state by the angle of the wobble. With `l` along `L` (along `-L` for a negative spin), `x` the direction across it nearest to X (to Y where `l` is along X) and `phi` the azimuth,
-/// `n = l cos theta + (x cos phi + l x x sin phi) sin theta`, and the part of the magnetic axis (of `e_x` without a pulsar) across `n` is turned back about `n` by the phase from that of `l`.
+/// The state from the wobble angle. With `l` along `L` (along `-L` for a negative spin), `x` the direction perpendicular to it nearest to X (to Y if
+/// `l` is along X) and `phi` the azimuth, `n = l cos theta + (x cos phi + l x x sin phi) sin theta`. The projection of the magnetic axis (of `e_x`
+/// without a pulsar) onto the plane normal to `n` is rotated backwards about `n` by the phase, starting from the projection of `l`.
 fn from_wobble(section: &Section<'_>, star: &Star, beam: Option<&Pulsar>) -> Result<Initial, Fault> {
     let wobble = section.required("wobble", "angle of the symmetry axis to L [rad]")?;
     let theta = wobble.angle_where("an angle from 0 to below pi/2 [rad]", |x| (0.0..FRAC_PI_2).contains(&x))?;
@@ -323,13 +326,13 @@ fn from_wobble(section: &Section<'_>, star: &Star, beam: Option<&Pulsar>) -> Res
             (given / largest).normalize()
         }
     };
-    // A star of negative spin turns about -L.
+    // A star of negative spin rotates about -L.
     let l = if star.spin < 0.0 { -l } else { l };
     let angle = |key: &str| section.optional(key).map_or(Ok(0.0), |entry| entry.angle());
     let (azimuth, phase) = (angle("azimuth")?, angle("precession_phase")?);
     let outwards = outwards(&l, azimuth);
     let axis = l * theta.cos() + outwards * theta.sin();
-    // The part of l across n, as a direction: also where there is no wobble.
+    // The projection of l onto the plane normal to n, as a direction that also exists without a wobble.
     let of_momentum = l * theta.sin() - outwards * theta.cos();
     let delta = beam.map_or(0.0, |beam| beam.delta);
     let (sin, cos) = (phase + delta).sin_cos();
@@ -390,7 +393,7 @@ fn from_constants(section: &Section<'_>, star: &Star, violation: &Violation) -> 
     Ok(Initial { state, angles, perturbation })
 }
 
-/// Euler angles of a state. On a pole only `alpha + gamma` or its difference has a meaning; both are taken as zero.
+/// Euler angles of a state. At a pole only `alpha + gamma` or its difference is defined; both angles are set to zero.
 fn angles_of(state: &BodyState<f64>) -> EulerAngles<f64> {
     state.angles().unwrap_or(EulerAngles { alpha: 0.0, beta: state.axis.z.acos(), gamma: 0.0 })
 }
@@ -415,8 +418,8 @@ fn refuse_overflow(section: &Section<'_>, state: &BodyState<f64>) -> Result<(), 
 mod tests {
     use super::*;
 
-    /// For a sphere of 1.4 solar masses and 12 km, sqrt(G M / R^3) / (2 pi) with SI values; a flatter star of the same mean radius has
-    /// its equator farther out, and is held less.
+    /// For a sphere of 1.4 solar masses and 12 km, sqrt(G M / R^3) / (2 pi) with SI values. A flatter star of the same mean radius has
+    /// its equator farther out, where gravity holds it less.
     #[test]
     fn the_break_up_frequency_is_that_of_an_orbit_at_the_equator() {
         let of = |oblateness: f64| {

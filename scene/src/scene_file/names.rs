@@ -1,4 +1,4 @@
-//! Names in messages: lists of them, and the one that was probably meant.
+//! Names in messages: lists of them, and the name that was probably intended.
 
 /// `` `a`, `b` and `c` ``.
 pub fn listed(names: &[&str]) -> String {
@@ -9,18 +9,18 @@ pub fn listed(names: &[&str]) -> String {
     }
 }
 
-/// The text on one line, without control characters, cut after 40 characters.
+/// The text on one line, without control characters, truncated after 40 characters.
 pub fn shortened(text: &str) -> String {
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ").replace(char::is_control, "\u{fffd}");
     if line.chars().count() <= 40 { line } else { line.chars().take(37).chain("...".chars()).collect() }
 }
 
-/// `` Did you mean `name`?`` with the name that is most probably meant, after a space; nothing where none is near.
+/// `` Did you mean `name`?`` with the name that was most probably intended, after a space; empty if none is close.
 pub fn did_you_mean(word: &str, names: &[&str]) -> String {
     nearest(word, names).map(|name| format!(" Did you mean `{name}`?")).unwrap_or_default()
 }
 
-/// The name that is most probably meant: at most two letters wrong, or the beginning of a name, in capitals or not.
+/// The name that was most probably intended: with at most two wrong letters, or beginning with the word, ignoring case.
 pub fn nearest<'n>(word: &str, names: &[&'n str]) -> Option<&'n str> {
     if let Some(name) = names.iter().find(|name| name.eq_ignore_ascii_case(word)) {
         return Some(name);
@@ -41,14 +41,14 @@ mod tests {
         assert_eq!(shortened(" a\n\t b\u{7} "), "a b\u{fffd}");
     }
 
-    /// Two letters may be wrong, and of a short name no more than half.
+    /// Two letters may be wrong, and in a short name no more than half of them.
     #[test]
     fn a_name_is_guessed_from_one_with_two_letters_wrong() {
         let near = |word| nearest(word, &["momentum", "spin", "rho", "w"]);
         assert_eq!(near("momemtun"), Some("momentum"));
         assert_eq!([near("nomemtun"), near("sxxn"), near("sxxx")], [None, Some("spin"), None]);
         assert_eq!([near("who"), near("wha"), near("r")], [Some("rho"), None, None]);
-        // The beginning of a name, of three letters at least, and capitals.
+        // The beginning of a name, with at least three letters, and capitals.
         assert_eq!([near("mom"), near("mo"), near("RHO")], [Some("momentum"), None, Some("rho")]);
     }
 }

@@ -1,4 +1,4 @@
-//! The sections that say what is observed: `[observer]`, `[pulsar]`, `[time]` and `[output]`.
+//! The sections that define the observation: `[observer]`, `[pulsar]`, `[time]` and `[output]`.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -23,7 +23,7 @@ pub struct Viewer {
     pub theta_o: f64,
     /// Azimuth `phi_o` (rad).
     pub phi_o: f64,
-    /// Distance of a physical star in m, where given.
+    /// Distance of a physical star in m, if given.
     pub distance: Option<f64>,
 }
 
@@ -43,7 +43,7 @@ pub struct Pulsar {
     pub delta: f64,
     /// Semi-open angle `rho` of the beam (rad).
     pub rho: f64,
-    /// Whether the pulses of the opposite beam are wanted too.
+    /// Whether the pulses of the opposite beam are requested too.
     pub second_beam: bool,
 }
 
@@ -54,7 +54,7 @@ impl Pulsar {
     }
 }
 
-/// A pulsar in the catalogues.
+/// A catalogued pulsar.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Catalogued {
     /// Name.
@@ -63,7 +63,7 @@ pub struct Catalogued {
     pub position: Option<(Sexagesimal, Sexagesimal)>,
 }
 
-/// An angle as catalogues write it.
+/// An angle in the notation of catalogues.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sexagesimal {
     /// As written.
@@ -73,7 +73,7 @@ pub struct Sexagesimal {
 }
 
 impl Sexagesimal {
-    /// Of a whole number, minutes and decimal seconds, in all at most `most` units of so many degrees.
+    /// From an integer, minutes and decimal seconds, in total at most `most` units of `degrees` degrees each.
     fn read(text: &str, most: f64, degrees: f64) -> Option<Self> {
         let above = text.strip_prefix('+').unwrap_or(text);
         let (sign, size) = text.strip_prefix('-').map_or((1.0, above), |below| (-1.0, below));
@@ -89,7 +89,7 @@ impl Sexagesimal {
     }
 }
 
-/// The observer of a star with the angular momentum along `l` (a unit vector), or anywhere if it has none.
+/// The observer of a star with the angular momentum along `l` (a unit vector); `l` is arbitrary if the star has none.
 pub(super) fn read_observer(
     section: &Section<'_>,
     units: &Units,
@@ -154,7 +154,7 @@ pub(super) fn read_pulsar(section: &Section<'_>) -> Result<Pulsar, Fault> {
     })
 }
 
-/// The name of a pulsar that has none, in files for timing programs.
+/// The name in files for timing programs of a pulsar without a name.
 pub(crate) const NAMELESS: &str = "PULSAR";
 
 pub(super) fn read_catalogued(section: &Section<'_>) -> Result<Option<Catalogued>, Fault> {
@@ -194,11 +194,11 @@ pub enum Times {
         /// Number of times, at least two.
         samples: usize,
     },
-    /// As listed.
+    /// As given in a list.
     Listed {
         /// Time at which the initial values hold.
         start: f64,
-        /// Times, leading away from `start`.
+        /// Times, in order away from `start`.
         times: Vec<f64>,
     },
 }
@@ -219,7 +219,7 @@ impl Times {
         }
     }
 
-    /// How many there are.
+    /// Number of times.
     pub fn count(&self) -> usize {
         match self {
             Times::Even { samples, .. } => *samples,
@@ -242,7 +242,7 @@ impl Times {
     }
 }
 
-/// Reads the section `[time]` of a scene: it may have an epoch and, for a physical star, a span in years.
+/// Reads the section `[time]` of a scene: it may contain an epoch and, for a physical star, a span in years.
 pub(super) fn read_time(section: &Section<'_>, units: &Units) -> Result<Times, Fault> {
     section.only("epoch start years span end samples times")?;
     let Some(years) = section.optional("years") else { return read_times(section) };
@@ -256,7 +256,7 @@ pub(super) fn read_time(section: &Section<'_>, units: &Units) -> Result<Times, F
     Ok(Times::Even { start, end: start + span * JULIAN_YEAR, samples: samples(section)? })
 }
 
-/// The epoch of the start, a modified Julian date; and a sentence if it looks like another kind of date.
+/// The epoch of the start, a modified Julian date; and a caution if it looks like another kind of date.
 pub(super) fn read_epoch(
     section: &Section<'_>,
     units: &Units,
@@ -280,7 +280,7 @@ pub(super) fn read_epoch(
     Ok(Some((epoch, caution)))
 }
 
-/// A sentence about an epoch that is a date of our time if it is meant as a Julian date.
+/// A caution for an epoch that would be a contemporary date if it were meant as a Julian date.
 pub fn like_julian_date(epoch: &Epoch) -> Option<String> {
     // The years 1858 to 2132.
     if !(2_400_000..2_500_000).contains(&epoch.day()) {
@@ -302,7 +302,7 @@ pub(crate) fn read_times(section: &Section<'_>) -> Result<Times, Fault> {
     if section.has("times") { listed_times(section, start) } else { even_times(section, start) }
 }
 
-/// The end of the span, with the entry that gives it.
+/// The end of the span, with the entry that defines it.
 pub(crate) fn read_end<'a>(section: &Section<'a>, start: f64) -> Result<(f64, Entry<'a>), Fault> {
     match (section.optional("span"), section.optional("end")) {
         (Some(span), _) => Ok((start + span.number_where("any number except zero", |x| x != 0.0)?, span)),
@@ -318,7 +318,7 @@ fn samples(section: &Section<'_>) -> Result<usize, Fault> {
 fn even_times(section: &Section<'_>, start: f64) -> Result<Times, Fault> {
     let (end, entry) = read_end(section, start)?;
     let samples = samples(section)?;
-    // Rows must differ in time: a span that is lost in the rounding of its ends, which are then near each other, has no even spacing.
+    // Rows must differ in time: a span that is lost in the rounding of its ends has no even spacing.
     let spacing = (end - start).abs() / (samples - 1) as f64;
     if !(spacing.is_finite() && spacing > 4.0 * f64::EPSILON * start.abs()) {
         return Err(entry.refuse("a span whose samples differ from one another in double precision"));
@@ -348,7 +348,7 @@ fn listed_times(section: &Section<'_>, start: f64) -> Result<Times, Fault> {
 
 pub(super) const DEFAULT_TOLERANCE: f64 = 1e-13;
 
-/// The groups of columns of a table, in its order, by their names in a scene file. Every scene has the first six, those of the motion.
+/// The groups of columns of a table, in order, with their names in a scene file. Every scene has the first six, those of the motion.
 pub const COLUMN_GROUPS: [(&str, Output); 12] = [
     ("angles", Output::EulerAngles),
     ("rates", Output::EulerRates),
@@ -378,7 +378,7 @@ pub(crate) fn in_table_order(wanted: &[Output]) -> Vec<Output> {
     COLUMN_GROUPS.iter().map(|(_, output)| *output).filter(|output| wanted.contains(output)).collect()
 }
 
-/// Reads columns and tolerance into a scene that is complete otherwise. It keeps its columns where those of the file are not `used`.
+/// Reads columns and tolerance into an otherwise complete scene. The scene keeps its columns if those of the file are not `used`.
 pub(super) fn read_output(section: &Section<'_>, scene: &mut Scene, used: bool) -> Result<(), Fault> {
     section.only("columns tolerance method")?;
     read_tolerance_and_method(section, scene)?;
@@ -394,7 +394,7 @@ pub(super) fn read_output(section: &Section<'_>, scene: &mut Scene, used: bool) 
     Ok(())
 }
 
-/// The groups of columns among the words of a list, if the scene has what they are computed from.
+/// The groups of columns among the words of a list, if the scene has the sections from which they are computed.
 pub(crate) fn columns_in(words: &[(Entry<'_>, &str)], scene: &Scene) -> Result<Vec<Output>, Fault> {
     let mut wanted = Vec::new();
     for (entry, name) in words {
@@ -406,7 +406,7 @@ pub(crate) fn columns_in(words: &[(Entry<'_>, &str)], scene: &Scene) -> Result<V
     Ok(in_table_order(&wanted))
 }
 
-/// Reads the keys `tolerance` and `method` into a scene, which keeps what it has where they are not given.
+/// Reads the keys `tolerance` and `method` into a scene, which keeps its values if they are not given.
 pub(crate) fn read_tolerance_and_method(section: &Section<'_>, scene: &mut Scene) -> Result<(), Fault> {
     if let Some(entry) = section.optional("tolerance") {
         scene.tolerance = entry.number_in("a number from 1e-14 to 1e-2", 1e-14..=1e-2)?;
@@ -419,7 +419,7 @@ pub(crate) fn read_tolerance_and_method(section: &Section<'_>, scene: &mut Scene
 }
 
 impl Scene {
-    /// Forces the method called `name`, in place of the cheapest one.
+    /// Forces the method called `name` instead of the cheapest one.
     pub fn choose_method(&mut self, name: &str) -> Result<(), String> {
         self.method = Some(Method::named(name).ok_or_else(|| unknown(name, "method", &Method::ALL.map(Method::name)))?);
         self.plan(&[Output::EquatorialAxis])
@@ -446,7 +446,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Whether the scene has the sections that an output is computed from.
+    /// Whether the scene has the sections from which an output is computed.
     pub fn has_what_is_needed_for(&self, output: Output) -> Result<(), String> {
         let no_observer = self.observer.is_none().then(|| "the section [observer]".to_owned());
         let no_pulsar = self.pulsar.is_none().then(|| "the section [pulsar]".to_owned());

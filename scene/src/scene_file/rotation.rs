@@ -1,4 +1,4 @@
-//! Oblateness and rotation of a physical star, as such or by what is observed of a pulsar.
+//! Oblateness and rotation of a physical star, given directly or through the observed rates of a pulsar.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -7,7 +7,7 @@ use twofold::epoch::DAY;
 use super::document::{Entry, Section};
 use super::fault::Fault;
 
-/// Angles of a wobbling pulsar, where the scene has them: of the symmetry axis to `L`, and of the magnetic axis to the symmetry axis (rad).
+/// Angles of a wobbling pulsar, if given in the scene: of the symmetry axis to `L`, and of the magnetic axis to the symmetry axis (rad).
 pub(super) struct WobbleAngles {
     wobble: Option<f64>,
     chi: Option<f64>,
@@ -24,24 +24,25 @@ impl WobbleAngles {
     }
 }
 
-/// Oblateness, and `Omega^z / (2 pi)` (Hz) with the entry that it is from.
+/// Oblateness, and `Omega^z / (2 pi)` (Hz) with the entry that defines it.
 pub(super) struct Rotation<'a> {
     pub(super) entry: Entry<'a>,
     pub(super) frequency: f64,
     pub(super) oblateness: f64,
 }
 
-/// What says how oblate the star is.
+/// The form in which the oblateness is given.
 enum Flattening<'a> {
-    /// The rate of its precession in the body over `2 pi` (Hz), with the entry that it is from.
+    /// The precession rate in the body over `2 pi` (Hz), with the entry that defines it.
     Precession(f64, Entry<'a>),
     Oblateness(f64),
 }
 
-/// From `oblateness` or `precession_period`, and `spin_frequency` or `frequency`.
+/// The rotation from `oblateness` or `precession_period`, and `spin_frequency` or `frequency`.
 ///
-/// With the wobble `theta` and the oblateness `epsilon` the body precesses at the rate `epsilon Omega^z`, its axis goes round `L` at `(1 + epsilon) Omega^z / cos theta`, and pulses come
-/// at the rate of the magnetic axis about `L`: that of the symmetry axis, less that of the precession where `theta < chi < pi - theta`.
+/// With the wobble `theta` and the oblateness `epsilon` the body precesses at the rate `epsilon Omega^z`, its axis circles `L` at
+/// `(1 + epsilon) Omega^z / cos theta`, and pulses arrive at the rate of the magnetic axis about `L`: that of the symmetry axis, minus that of the
+/// precession if `theta < chi < pi - theta`.
 pub(super) fn rotation<'a>(section: &Section<'a>, angles: &WobbleAngles) -> Result<Rotation<'a>, Fault> {
     const OBLATENESS: &str = "from 1e-15 to 0.99: an oblate star, for which C is above zero";
     let in_range = |oblateness: &f64| (1e-15..=0.99).contains(oblateness);

@@ -7,16 +7,16 @@ use super::Units;
 use super::document::Section;
 use super::fault::Fault;
 
-/// How a star slows down, by the derivatives of its frequency.
+/// The spin-down of a star, in terms of the derivatives of its frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpinDown {
     /// `F1` at the epoch (Hz/s).
     pub f1: f64,
-    /// The braking index, or `F2` (Hz/s^2) that it follows from.
+    /// The braking index, or the `F2` (Hz/s^2) from which it follows.
     pub index: IndexOrSecond,
-    /// Share of the torque that goes with the magnetic axis.
+    /// Fraction of the torque that depends on the magnetic axis.
     pub torque_share: f64,
-    /// Time (s) in which friction takes the tangent of the wobble down by a factor e.
+    /// Time (s) in which friction reduces the tangent of the wobble by a factor e.
     pub damping_time: Option<f64>,
 }
 
@@ -30,10 +30,10 @@ pub enum IndexOrSecond {
 }
 
 impl SpinDown {
-    /// The law of braking of a star with the frequency `F0` (Hz).
+    /// The braking law of a star with the frequency `F0` (Hz).
     ///
     /// # Errors
-    /// A sentence for an `F2` that makes the braking index larger than 30 in size.
+    /// A sentence for an `F2` for which the braking index is above 30 in size.
     pub fn braking(&self, frequency: f64) -> Result<Braking, String> {
         let index = match self.index {
             IndexOrSecond::Index(index) => index,
@@ -49,7 +49,7 @@ impl SpinDown {
     }
 }
 
-/// Named torques, with the share that goes with the magnetic axis.
+/// Named torques, with the fraction that depends on the magnetic axis.
 const TORQUES: [(&str, f64); 3] = [("constant", 0.0), ("plasma", 0.5), ("vacuum", 1.0)];
 
 pub(super) fn read(section: &Section<'_>, units: &Units) -> Result<SpinDown, Fault> {

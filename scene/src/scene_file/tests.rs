@@ -1,4 +1,4 @@
-//! Numbers of scene files: the ends of what is allowed, and what is read.
+//! Numbers in scene files: the ends of their allowed ranges, and the values read.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -17,7 +17,7 @@ const PAPER: &str = "star.inertia_ratio = 1.1
     initial.alpha_rate = 1.0
     initial.beta_rate = 0.0";
 
-/// A neutron star with a wobble that turns once in a second.
+/// A neutron star with a wobble that rotates once per second.
 const PHYSICAL: &str = "star.mass = 1.4
     star.radius = 12.0
     star.oblateness = 1e-6
@@ -26,7 +26,7 @@ const PHYSICAL: &str = "star.mass = 1.4
     lorentz_violation.w = [1e-3, 0.0, 1e-3]
     initial.wobble = 0.1";
 
-/// When, and what is seen of them.
+/// The times, and the observed quantities.
 const SEEN: &str = "time.end = 10.0
     time.samples = 3
     output.columns = ['e_z']
@@ -35,10 +35,10 @@ const SEEN: &str = "time.end = 10.0
     pulsar.chi = 0.5
     pulsar.rho = 0.1";
 
-/// Takes the angles away that a start by a wobble or by constants does not have.
+/// Removes the angles, which a start from a wobble or from constants does not have.
 const NO_ANGLES: [&str; 4] = ["initial.alpha =", "initial.beta =", "initial.alpha_rate =", "initial.beta_rate ="];
 
-/// The scene with other lines, of which those without a value take a key away.
+/// The scene with other lines; lines without a value remove a key.
 fn with(base: &str, lines: &[impl AsRef<str>]) -> Result<Scene, String> {
     let mut values = BTreeMap::new();
     for line in base.lines().chain(SEEN.lines()).chain(lines.iter().map(AsRef::as_ref)) {
@@ -61,7 +61,7 @@ fn assert_refused(base: &str, lines: &[&str], why: &str) {
     }
 }
 
-/// Both ends are taken; the numbers beyond, which follow them, are refused.
+/// Both ends are accepted; the numbers beyond, which follow them, are refused.
 fn assert_range(base: &str, others: &[&str], key: &str, ends: [&str; 2], beyond: [&str; 2]) {
     let line = |value| format!("{key} = {value}");
     for end in ends.map(line) {
@@ -85,7 +85,7 @@ fn numbers_of_a_star_are_taken_up_to_the_ends_of_their_ranges() {
     assert_range(PHYSICAL, &[], "star.oblateness", ["1e-15", "0.99"], ["9.9e-16", "0.991"]);
     assert_range(PHYSICAL, &[], "star.spin_frequency", ["-1e5", "1e5"], ["-1.001e5", "1.001e5"]);
     assert_range(PHYSICAL, &["star.spin_frequency ="], "star.frequency", ["-1e5", "1e5"], ["-1.001e5", "1.001e5"]);
-    // In days; the oblateness is that of the frequency of the precession to that of the spin.
+    // In days; the oblateness is the ratio of the precession frequency to the spin frequency.
     let by_period = |days: &str, frequency: f64| {
         let lines = [format!("star.precession_period = {days}"), format!("star.spin_frequency = {frequency:e}")];
         with(PHYSICAL, &["star.oblateness =", &lines[0], &lines[1]])
@@ -100,8 +100,8 @@ fn numbers_of_a_star_are_taken_up_to_the_ends_of_their_ranges() {
     }
 }
 
-/// A free body goes round `L` at `|L| / I^xx` and turns back in it at `epsilon Omega^z`: the magnetic axis does both where it is farther from the
-/// symmetry axis than that from `L`, and stays with the symmetry axis where it is nearer.
+/// A free body circles `L` at `|L| / I^xx` and rotates backwards relative to it at `epsilon Omega^z`. The magnetic axis takes part in both if it
+/// is farther from the symmetry axis than the symmetry axis is from `L`, and stays with the symmetry axis if it is nearer.
 #[test]
 fn pulses_come_as_the_magnetic_axis_goes_round() {
     for (oblateness, frequency) in [(0.3, 2.0), (0.3, -2.0), (1e-3, 0.1)] {
@@ -170,7 +170,7 @@ fn coefficients_are_at_most_one() {
     }
 }
 
-/// `L` is along the given direction, however long it is written, and the axis on the other side where the spin is negative.
+/// `L` is along the given direction, whatever its length, and the axis is on the other side if the spin is negative.
 #[test]
 fn a_wobble_is_about_the_given_direction() {
     let started = |lines: &[&str]| {
@@ -185,22 +185,23 @@ fn a_wobble_is_about_the_given_direction() {
         assert_relative_eq!(state.momentum, momentum, max_relative = 1e-15);
         assert_relative_eq!(state.axis.dot(&state.momentum), 1.1 * spin, max_relative = 1e-15);
     }
-    // The part of e_x across n is along that of L at phase zero, and a right angle before it at a quarter of a turn.
+    // The projections of e_x and of L onto the plane normal to n are parallel at phase zero; at a quarter of a turn e_x is a
+    // right angle before L.
     let state = started(&[]);
     let of_momentum = (Vector3::z() - state.axis * state.axis.z).normalize();
     assert_relative_eq!(state.equatorial_axis, of_momentum, max_relative = 1e-15);
     let state = started(&["initial.precession_phase = '90 deg'"]);
     assert_relative_eq!(state.equatorial_axis, of_momentum.cross(&state.axis), epsilon = 1e-15);
-    // With a pulsar it is the magnetic axis that lies there.
+    // With a pulsar this holds for the magnetic axis.
     let state = started(&["pulsar.delta = 0.3"]);
     let magnetic = state.equatorial_axis * 0.3_f64.cos() + state.axis.cross(&state.equatorial_axis) * 0.3_f64.sin();
     assert_relative_eq!(magnetic, of_momentum, epsilon = 1e-15);
-    // Without one it is e_x.
+    // Without one it holds for e_x.
     let state = started(&["pulsar.chi =", "pulsar.rho ="]);
     assert_relative_eq!(state.equatorial_axis, of_momentum, max_relative = 1e-15);
 }
 
-/// The axis starts on a pole: the angles are zero and the inclination, which alone has a meaning.
+/// The axis starts at a pole: the angles are zero, except for the inclination, which alone is defined.
 #[test]
 fn a_start_on_a_pole_has_an_inclination() {
     for (momentum, beta) in [("[0, 0, 1]", 0.0), ("[0, 0, -1]", PI)] {
@@ -250,7 +251,7 @@ fn what_is_observed_is_taken_up_to_the_ends_of_its_ranges() {
     assert_refused(PHYSICAL, &["time.end =", "time.years = 0.0"], "not zero");
 }
 
-/// Samples are more than four roundings of their times apart: of 2^-52 from one on.
+/// Samples are more than four roundings of their times apart: of 2^-52 for times from one on.
 #[test]
 fn samples_differ_in_double_precision() {
     for (start, roundings, taken) in [
@@ -286,7 +287,7 @@ fn years_are_counted_from_the_start() {
     }
 }
 
-/// A billion days before and after the epoch, from the start on.
+/// A billion days before and after the epoch, counted from the start.
 #[test]
 fn an_epoch_is_within_a_billion_days_of_the_end() {
     for (span, taken) in [(8.64e13, true), (-8.64e13, true), (8.640001e13, false), (-8.640001e13, false)] {
@@ -304,7 +305,8 @@ fn an_epoch_is_within_a_billion_days_of_the_end() {
     assert_refused(PHYSICAL, &["time.epoch = 5e4", "time.end = 8.64e14"], "ends 1.000e10 days from its epoch");
 }
 
-/// The observer is on the other side: at the longitude of 19 h 39 m less 12 h and the colatitude of 90 deg more the declination.
+/// The observer is in the opposite direction: at the longitude of 19 h 39 m minus 12 h and the colatitude of 90 deg plus the
+/// declination.
 #[test]
 fn positions_are_those_of_the_sky() {
     let at = |ascension: &str, declination: &str| {

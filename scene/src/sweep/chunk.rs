@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::Sweep;
 
-/// The rows of a chunk as they stand in the tables.
+/// The rows of a chunk as written in the tables.
 #[derive(Debug, Default)]
 pub(super) struct ChunkText {
     pub(super) rows: Vec<u8>,
@@ -13,7 +13,8 @@ pub(super) struct ChunkText {
     pub(super) failed: u64,
 }
 
-/// What `compute` gives. A defect that panics costs its own row, not the sweep, which would meet it again at every restart.
+/// The result of `compute`. A defect that panics costs its own row, but not the sweep, which would otherwise panic again at
+/// every restart.
 pub(super) fn guarded<T>(compute: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(compute)).unwrap_or_else(|panic| {
         let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
@@ -21,7 +22,7 @@ pub(super) fn guarded<T>(compute: impl FnOnce() -> Result<T, String>) -> Result<
     })
 }
 
-/// Computes the scenes `numbers` and writes their rows. A scene that cannot be computed is a row too.
+/// Computes the scenes `numbers` and writes their rows. A scene that cannot be computed also gets a row.
 pub(super) fn chunk_text(sweep: &Sweep<'_>, numbers: Range<u64>) -> Result<ChunkText, csv::Error> {
     let columns = sweep.outputs.header(&sweep.units).len();
     let (mut rows, mut errors) = (csv::Writer::from_writer(Vec::new()), csv::Writer::from_writer(Vec::new()));
@@ -31,7 +32,7 @@ pub(super) fn chunk_text(sweep: &Sweep<'_>, numbers: Range<u64>) -> Result<Chunk
     let scenes: Vec<_> = made.iter().filter_map(|scene| scene.as_ref().ok()).collect();
     let mut values = sweep.outputs.values(&scenes).into_iter();
     for ((number, parameters), scene) in numbers.zip(&parameters).zip(&made) {
-        // The numbers of the outputs, not a number where one does not exist, or why there are none.
+        // The numbers of the outputs, NaN for one that does not exist, or the reason why there are none.
         let outcome = match scene {
             Ok(_) => values.next().expect("as many results as scenes"),
             Err(why) => Err(why.clone()),

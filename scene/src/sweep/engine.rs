@@ -1,4 +1,4 @@
-//! The chunks of a sweep on all cores, written in order.
+//! Computes the chunks of a sweep on all cores, written in order.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -10,26 +10,28 @@ use super::Sweep;
 use super::chunk::{ChunkText, chunk_text};
 use super::spool::{Spool, SpoolError};
 
-/// Time between two marks in the journal: what an interruption costs at most, besides the chunks in work.
+/// Time between two marks in the journal: the largest loss by an interruption, in addition to the chunks in progress.
 const BETWEEN_MARKS: Duration = Duration::from_millis(250);
 
-/// Bytes between two marks at most, whatever the clock says: one that stands still would leave a sweep without any.
+/// Largest number of bytes between two marks, independent of the clock: if the clock stood still, a sweep would otherwise
+/// have no marks.
 const BYTES_BETWEEN_MARKS: usize = 16 << 20;
 
-/// Chunks in work or waiting for their turn to be written, per thread; it bounds the memory.
+/// Chunks in progress or waiting to be written, per thread; this bounds the memory.
 const CHUNKS_PER_THREAD: usize = 8;
 
-/// How a computation ended.
+/// The outcome of a computation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Done {
     /// All scenes are in the table.
     All,
-    /// It was stopped, and the table holds a part.
+    /// It was stopped, and the table is incomplete.
     Stopped,
 }
 
-/// Computes the scenes up to `end` that the table does not hold and appends them, in order, until all are there or `stop` is
-/// set; chunks that a thread is at are then finished, those that wait for one are not. `progress` is told the first scene that is not written.
+/// Computes the scenes up to `end` that the table does not contain and appends them, in order, until the table is complete or `stop` is set;
+/// the chunks in progress are then finished, those waiting for a thread are not. `progress` receives the first scene that has not been
+/// written.
 pub fn compute(
     sweep: &Sweep<'_>,
     spool: &mut Spool,
@@ -52,7 +54,7 @@ pub fn compute(
                 dispatched = chunk.end;
                 in_work += 1;
                 let results = results.clone();
-                // The receiver lives as long as the scope, unless writing has failed: then nobody waits.
+                // The receiver lives as long as the scope, unless writing has failed, in which case nobody waits for it.
                 scope.spawn(move |_| {
                     let text = (!stop.load(Ordering::Relaxed)).then(|| chunk_text(sweep, chunk.clone()));
                     drop(results.send((chunk, text)));

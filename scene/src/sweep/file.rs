@@ -1,4 +1,4 @@
-//! Sweep files: a scene, what is varied in it, the times and the columns, read from TOML and checked.
+//! Sweep files: a scene, the parameters that are varied in it, the times and the columns, read from TOML and checked.
 
 use std::path::Path;
 
@@ -19,24 +19,24 @@ const SWEEP: FileFormat = FileFormat { name: "a sweep", built_in: None };
 /// Sections of a scene that can be varied.
 const VARIED_SECTIONS: [&str; 5] = ["star", "lorentz_violation", "initial", "observer", "pulsar"];
 
-/// The text of a sweep file and of the scene that it names.
+/// The text of a sweep file and of its scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepText {
     /// Path, as in messages.
     pub file: String,
     /// Text of the file.
     pub text: String,
-    /// Name and text of the scene, where it is not in the file itself.
+    /// Name and text of the scene, if it is not in the file itself.
     pub scene: Option<(String, String)>,
 }
 
 impl SweepText {
-    /// Reads the sweep file at `path`, and the scene that it names: a built-in one, or a file beside it.
+    /// Reads the sweep file at `path` and its scene: a built-in one, or a file in the same folder.
     pub fn read(path: &str) -> Result<Self, SceneError> {
         Self::of(path, SWEEP.read(path)?)
     }
 
-    /// A sweep file at `path` whose text is known, and the scene that it names.
+    /// A sweep file at `path` with a given text, and its scene.
     pub fn of(path: &str, text: String) -> Result<Self, SceneError> {
         Self::with(path, text, |name| match built_in(name) {
             Some(built_in) => Ok((name.to_owned(), built_in.toml.to_owned())),
@@ -49,7 +49,7 @@ impl SweepText {
         })
     }
 
-    /// A sweep file whose text is known, and what `find` has under the name of its scene, a name for messages and a text.
+    /// A sweep file with a given text; `find` returns the scene for its name: a name for messages and a text.
     pub fn with(
         path: &str,
         text: String,
@@ -72,7 +72,7 @@ impl SweepText {
 pub(super) struct Base<'t> {
     text: &'t str,
     table: DeTable<'t>,
-    /// Whether the table is that of the sweep file, with the scene in its section `scene`.
+    /// Whether the table is the sweep file, with the scene in its section `scene`.
     inside: bool,
 }
 
@@ -86,7 +86,7 @@ impl Base<'_> {
         Section::document(self.text, table, "a scene")
     }
 
-    /// The scene with `numbers` in place of those under `keys`, and the times of the sweep in place of its own.
+    /// The scene with `numbers` replacing those under `keys`, and the times of the sweep replacing its own.
     pub(super) fn scene(&self, keys: &[String], numbers: &[f64], times: &Times) -> Result<Scene, String> {
         let document = self.document().replacing(Replaced { keys, numbers });
         Scene::from_document(&document, Columns::Unused, Some(times)).map_err(|fault| fault.message)
@@ -97,8 +97,8 @@ impl<'t> Sweep<'t> {
     /// Reads and checks a sweep.
     ///
     /// # Errors
-    /// A [`SceneError`] for text that is not TOML, for keys that are unknown, missing or exclude one another, for values of a
-    /// wrong type or out of range, and for a scene that is not usable as it stands.
+    /// A [`SceneError`] for text that is not TOML, for keys that are unknown, missing or mutually exclusive, for values of a
+    /// wrong type or out of range, and for a scene that is not usable as written.
     pub fn new(text: &'t SweepText) -> Result<Self, SceneError> {
         let document = SWEEP.table(&text.file, &text.text)?;
         let section = Section::document(&text.text, &document, SWEEP.name);
@@ -121,7 +121,7 @@ impl<'t> Sweep<'t> {
                 entry.refuse_because("a sweep is for rigid stars only: allowed is a scene without it"),
             ));
         }
-        // The scene's own times, if it has any, are not used; they are checked all the same.
+        // The scene's own times, if it has any, are checked although they are not used.
         let own = scene.has("time").then(|| with(None)).transpose()?;
         let mut scene = with(Some(&times))?;
         let cautions = own.map_or_else(|| scene.cautions.clone(), |own| own.cautions);
@@ -129,7 +129,7 @@ impl<'t> Sweep<'t> {
         let known: Vec<_> = varied.flat_map(|section| section.numbers()).collect();
         let parameters = parameters(&section, &known).map_err(in_sweep)?;
         let outputs = outputs(&section, &mut scene, times).map_err(in_sweep)?;
-        // Means over the span and pulses go through every turn.
+        // Means over the span and pulses follow every turn.
         let mut needed = outputs.outputs();
         if outputs.summaries.iter().any(|summary| matches!(summary, Summary::Lambda | Summary::Pulses)) {
             needed.push(Output::Pulses);
@@ -151,7 +151,7 @@ impl<'t> Sweep<'t> {
     }
 }
 
-/// Checks the keys of the document; says what the sweep is about.
+/// Checks the keys of the document; returns the description of the sweep.
 fn check_keys(document: &Section<'_>) -> Result<String, Fault> {
     document.only("about scene seed draws vary time output")?;
     let about = document.optional_string("about")?.unwrap_or("");
@@ -162,7 +162,7 @@ fn check_keys(document: &Section<'_>) -> Result<String, Fault> {
     Ok(about.to_owned())
 }
 
-/// The times of the columns: those of a scene's section, or the end of the span alone.
+/// The times of the columns: those in a section like that of a scene, or only the end of the span.
 fn times(document: &Section<'_>) -> Result<Times, Fault> {
     let section = document.required_section("time", "the times of the columns")?;
     section.only("start span end samples times")?;
@@ -232,7 +232,7 @@ fn random_axis(document: &Section<'_>, is_random: bool, found: &mut Parameters) 
     Ok(())
 }
 
-/// The key that an entry names, if the scene has a number there and it is not varied already.
+/// The key named by an entry, if the scene has a number there and it is not already varied.
 fn parameter_key(entry: &Entry<'_>, known: &[String], taken: &[String]) -> Result<String, Fault> {
     let key = entry.string()?;
     if taken.iter().any(|taken| taken == key) {
@@ -246,7 +246,7 @@ fn parameter_key(entry: &Entry<'_>, known: &[String], taken: &[String]) -> Resul
     Err(entry.refuse_because(&format!("allowed is a number of the scene file: {}.{guess}", listed(&known))))
 }
 
-/// Where the numbers come from, and how many there are; none where they are drawn.
+/// The source of the numbers and their count; `None` if they are drawn at random.
 fn source(section: &Section<'_>, stream: u64) -> Result<(Option<u64>, Source), Fault> {
     const LISTS: &str = "a list of one number or more";
     if let Some(entry) = section.optional("values") {
@@ -290,7 +290,7 @@ fn law(section: &Section<'_>) -> Result<Law, Fault> {
     Ok(if name == "uniform" { Law::Uniform { from, to } } else { Law::LogUniform { from, to } })
 }
 
-/// The two ends of an interval, different, and of one sign where it is divided by ratios.
+/// The two ends of an interval: different, and of the same sign if it is divided in equal ratios.
 fn ends(section: &Section<'_>, by_ratios: bool) -> Result<(f64, f64), Fault> {
     let from_entry = section.required("from", "first end")?;
     let from = if by_ratios {

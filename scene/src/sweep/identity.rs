@@ -1,4 +1,4 @@
-//! What a sweep's table follows from, to tell whether a part of one can be continued.
+//! The input of a sweep's table, which determines whether a partial table can be continued.
 
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ pub struct Identity {
 }
 
 impl Identity {
-    /// Of the scenes `scenes` of a sweep, computed by this program.
+    /// The identity of the scenes `scenes` of a sweep, computed by this program.
     pub fn new(text: &SweepText, scenes: &Range<u64>) -> Self {
         let facts = json!({
             "journal": 1,
@@ -30,7 +30,7 @@ impl Identity {
         &self.facts
     }
 
-    /// The difference of a journal's sweep from this one, in words, if there is any.
+    /// The difference between a journal's sweep and this one, in words, if there is any.
     pub(super) fn difference_from(&self, journal: &Value) -> Option<String> {
         if *journal == self.facts {
             return None;
@@ -60,7 +60,8 @@ fn changed_line(what: &str, then: &Value, now: &Value) -> String {
 mod tests {
     use super::*;
 
-    /// Anything that the bytes follow from, named with the line where it can be; the name of a scene alone does not tell.
+    /// All inputs that determine the bytes are compared, and named with the line if possible; the name of a scene alone does
+    /// not count.
     #[test]
     fn a_table_is_continued_with_the_same_texts_alone() {
         let of = |sweep: &str, scene: Option<&str>, scenes: Range<u64>| {

@@ -1,38 +1,38 @@
-//! The journal of a table that grows: which of its bytes are known to be on the disk. A line is a checksum and a JSON value; a
-//! line that is torn ends what counts.
+//! The journal of a growing table: which of its bytes are known to be on the disk. A line is a checksum and a JSON value; a
+//! torn line and everything after it are ignored.
 
 use std::io::Read;
 use std::ops::Range;
 
 use serde_json::{Value, json};
 
-/// The table up to some scene.
+/// The state of the table up to some scene.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Mark {
     /// First scene that is not in the table.
     pub(super) next: u64,
-    /// Rows that say that their scene failed.
+    /// Number of rows whose scene failed.
     pub(super) failed: u64,
     pub(super) rows: Prefix,
     pub(super) errors: Prefix,
 }
 
-/// A file up to some byte.
+/// The beginning of a file up to some byte.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Prefix {
     pub(super) length: u64,
-    /// CRC-32 of the bytes since the mark before.
+    /// CRC-32 of the bytes since the previous mark.
     pub(super) checksum: u32,
 }
 
-/// A journal as far as it can be read.
+/// The readable part of a journal.
 #[derive(Debug, Default)]
 pub(super) struct Journal {
-    /// What the table follows from.
+    /// The input of the table.
     pub(super) identity: Option<Value>,
     /// Marks in order, each with the length of the journal up to it.
     pub(super) marks: Vec<(Mark, u64)>,
-    /// Whether the table was complete and about to get its name.
+    /// Whether the table was complete and about to be renamed.
     pub(super) complete: bool,
 }
 
@@ -61,7 +61,7 @@ impl Mark {
         })
     }
 
-    /// Whether a table of `scenes` can be at this mark.
+    /// Whether this mark is possible for a table of `scenes`.
     pub(super) fn is_of(&self, scenes: &Range<u64>) -> bool {
         scenes.start <= self.next && self.next <= scenes.end && self.failed <= self.next - scenes.start
     }
@@ -80,7 +80,7 @@ impl Mark {
     }
 }
 
-/// The journal `bytes` with the digits of a number of a line replaced and the line signed anew, for fuzzing.
+/// The journal `bytes` with the digits of a number in a line replaced and the checksum of the line recomputed, for fuzzing.
 pub fn signed_again(bytes: &[u8], line: usize, number: usize, digits: &[u8]) -> Vec<u8> {
     let mut lines: Vec<Vec<u8>> = bytes.split_inclusive(|byte| *byte == b'\n').map(<[u8]>::to_vec).collect();
     let Some(place) = lines.get_mut(line).filter(|line| line.len() > 9) else { return bytes.to_vec() };
@@ -101,7 +101,7 @@ impl Journal {
         file.read_to_end(&mut bytes)?;
         let mut journal = Self::default();
         let mut length = 0;
-        // What follows the last end of a line is torn.
+        // Bytes after the last line end are torn.
         for line in bytes.split_inclusive(|byte| *byte == b'\n').filter(|line| line.ends_with(b"\n")) {
             let Some(value) = value(&line[..line.len() - 1]) else { break };
             length += line.len() as u64;
@@ -152,7 +152,7 @@ mod tests {
         }
     }
 
-    /// A mark lies within the scenes, and no more have failed than are done.
+    /// A mark lies within the scenes, and the failed scenes are not more than those done.
     #[test]
     fn a_mark_is_of_the_scenes_it_counts() {
         let is_of = |next, failed| Mark { next, failed, ..Mark::default() }.is_of(&(3..9));
@@ -160,7 +160,8 @@ mod tests {
         assert_eq!([(5, 2), (5, 3), (3, 1)].map(|(next, failed)| is_of(next, failed)), [true, false, false]);
     }
 
-    /// The numbers of a line are counted from zero on, behind its checksum; what is no line or no number, or is no JSON then, stays.
+    /// The numbers of a line are counted from zero, after its checksum. Lines or numbers that do not exist, and replacements that
+    /// are not JSON, change nothing.
     #[test]
     fn a_number_is_replaced_under_a_new_signature() {
         let (first, second) = (line(&json!({ "a": 12, "b": [3] })), line(&json!(45)));
@@ -173,7 +174,7 @@ mod tests {
             assert_eq!(forged(line, number, digits), journal, "{line} {number}");
         }
         assert_eq!(signed_again(b"01234567 5", 0, 0, b"7"), line(&json!(7)));
-        // Whole: a line of nine bytes is a checksum and nothing.
+        // A complete line: its nine bytes are a checksum and nothing else.
         assert_eq!(signed_again(b"01234567 ", 0, 0, b"7"), b"01234567 ");
     }
 

@@ -1,10 +1,10 @@
-//! The tables of all shards as one.
+//! Merges the tables of all shards into one.
 
 use std::io::{self, BufRead, Write};
 
 use super::Sweep;
 
-/// Writes the rows of `parts`, named tables, under one header; they must be all scenes of the sweep, in order.
+/// Writes the rows of `parts`, named tables, under one header; together they must be all scenes of the sweep, in order.
 pub fn merge(
     sweep: &Sweep<'_>,
     parts: &mut [(String, Box<dyn BufRead>)],

@@ -1,8 +1,8 @@
-//! Many scenes: grids, lists and random draws over the parameters of one, computed on all cores, with tables that grow in
-//! order, survive any interruption and are the same to the byte whoever computed which part when.
+//! Many scenes: grids, lists and random draws over the parameters of one scene, computed on all cores. The tables grow in
+//! order, survive any interruption and are the same to the byte whichever process computed which part and when.
 //!
 //! A scene's parameters are a function of its number alone, and a row of the table is a function of its scene alone: neither
-//! knows of chunks, threads or shards. The format of a sweep file is described in `docs/sweep.md`.
+//! depends on chunks, threads or shards. The format of a sweep file is described in `docs/sweep.md`.
 
 mod chunk;
 mod engine;
@@ -34,38 +34,38 @@ use crate::scene_file::{BuiltIn, Scene, Units};
 use outputs::Outputs;
 use parameters::Parameters;
 
-/// Most scenes of a sweep: their numbers are exact as doubles.
+/// Largest number of scenes of a sweep: their numbers are exact as doubles.
 pub const MOST_SCENES: u64 = 1_000_000_000_000_000;
 
-/// Most columns of its table.
+/// Largest number of columns of its table.
 const MOST_COLUMNS: usize = 10_000;
 
 /// Name of the first column: the number of the scene, from zero.
 const NUMBER: &str = "scene";
 
-/// Name of the column that says whether the scene could be computed.
+/// Name of the column that states whether the scene could be computed.
 const STATUS: &str = "status";
 
-/// Sweeps that come with the command, as files to start from.
+/// Sweeps included with the command, as files to start from.
 pub const SWEEPS: &[BuiltIn] = &[BuiltIn { name: "grid", toml: include_str!("../../sweeps/grid.toml") }];
 
 /// A checked sweep.
 #[derive(Debug)]
 pub struct Sweep<'t> {
-    /// What the sweep is, one line; may be empty.
+    /// Description of the sweep, one line; may be empty.
     pub about: String,
     base: file::Base<'t>,
     parameters: Parameters,
     outputs: Outputs,
     /// Number of scenes.
     pub scenes: u64,
-    /// What in the scene as it stands looks like a mistake, a sentence each.
+    /// Entries of the scene that look like a mistake, a sentence each.
     pub cautions: Vec<String>,
     tolerance: f64,
-    /// The method of every row, where one is named.
+    /// The method of every row, if one is named.
     method: Option<Method>,
     units: Units,
-    /// Upper estimate of the rotation of the scene as it stands, over its span.
+    /// Upper estimate of the rotation of the unmodified scene over its span.
     rotation: f64,
 }
 
@@ -93,7 +93,7 @@ impl Sweep<'_> {
         Ok(Scene { tolerance: self.tolerance, method: self.method, ..scene })
     }
 
-    /// The lines of the table and of that of errors for one scene, if it cannot be read or is `wanted`.
+    /// The lines of the table and of the table of errors for one scene, if it cannot be read or is `wanted`.
     pub fn row_if(&self, number: u64, wanted: fn(&Scene) -> bool) -> Option<[Vec<u8>; 2]> {
         let scene = self.scene(&self.parameters.of_scene(number));
         if scene.is_ok_and(|scene| !wanted(&scene)) {
@@ -102,17 +102,19 @@ impl Sweep<'_> {
         self.rows(number..number + 1).ok().map(|(texts, _)| texts)
     }
 
-    /// The lines of the table and of that of errors for some scenes, by one thread, and how many of them failed.
+    /// The lines of the table and of the table of errors for some scenes, computed by one thread, and how many of them
+    /// failed.
     ///
     /// # Errors
-    /// None that memory does not make.
+    /// None, except for lack of memory.
     pub fn rows(&self, scenes: std::ops::Range<u64>) -> Result<([Vec<u8>; 2], u64), String> {
         let chunk::ChunkText { rows, errors, failed } =
             chunk::chunk_text(self, scenes).map_err(|error| error.to_string())?;
         Ok(([rows, errors], failed))
     }
 
-    /// Scenes that are computed together: about a quarter of a second's work and a few megabytes. Results do not depend on it.
+    /// Number of scenes that are computed together: about a quarter of a second's work and a few megabytes. Results do not
+    /// depend on it.
     fn chunk_length(&self) -> u64 {
         let by_time = (5e4 / self.rotation.max(1.0)) as usize;
         let by_memory = 65_536 / self.header().len();

@@ -1,4 +1,4 @@
-//! What a sweep writes of each scene: columns at its times, and summaries of its whole span.
+//! The output of a sweep for each scene: columns at its times, and summaries of its whole span.
 
 use twofold::Error;
 use twofold::dynamics::AxisState;
@@ -21,19 +21,19 @@ use crate::trajectory::write_pulses;
 /// Name of the group of errors.
 pub(super) const ERRORS: &str = "errors";
 
-/// What is written of each scene.
+/// The values that are written for each scene.
 #[derive(Debug)]
 pub(super) struct Outputs {
     pub(super) times: Times,
     pub(super) groups: Vec<Output>,
-    /// Whether the errors of the motion at each of the times are.
+    /// Whether the errors of the motion at each of the times are written.
     pub(super) errors: bool,
     pub(super) summaries: Vec<Summary>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Summary {
-    /// Least, largest and mean angle between the spin axis and the direction to the observer.
+    /// Smallest, largest and mean angle between the spin axis and the direction to the observer.
     Lambda,
     Pulses,
     /// Axis and rate of the slow precession to first order.
@@ -41,11 +41,11 @@ pub(super) enum Summary {
 }
 
 impl Summary {
-    /// All, by their names in a sweep file.
+    /// All summaries, with their names in a sweep file.
     pub(super) const ALL: [(&'static str, Self); 3] =
         [("lambda", Self::Lambda), ("pulses", Self::Pulses), ("slow_precession", Self::SlowPrecession)];
 
-    /// What it is computed from beside the initial values.
+    /// The output from which it is computed, in addition to the initial values.
     pub(super) fn output(self) -> Option<Output> {
         match self {
             Self::Lambda => Some(Output::SpinAxisAngle),
@@ -83,14 +83,14 @@ impl Outputs {
         names
     }
 
-    /// The numbers of each scene, as many as the header has names; not a number where one does not exist.
+    /// The numbers of each scene, as many as the header has names; NaN for one that does not exist.
     pub(super) fn values(&self, scenes: &[&Scene]) -> Vec<Result<Vec<f64>, String>> {
         let together = self.samples_of_many(scenes);
         scenes.iter().zip(together).map(|(scene, samples)| guarded(|| self.values_of(scene, samples))).collect()
     }
 
-    /// The samples of those of the `scenes` that need `n` and `L` by numerical motion and nothing else, and name no method: many at
-    /// once, each by splitting or by the series as suits its times. None for the others.
+    /// The samples of those of the `scenes` that need only `n` and `L` by numerical motion, and name no method: computed many at
+    /// once, each by splitting or by the series as suits its times. `None` for the others.
     fn samples_of_many(&self, scenes: &[&Scene]) -> Vec<Option<Result<Vec<Sample>, Error>>> {
         let mut found: Vec<_> = scenes.iter().map(|_| None).collect();
         if self.errors || self.summaries.contains(&Summary::Lambda) {
@@ -117,7 +117,7 @@ impl Outputs {
         found
     }
 
-    /// The samples of one scene, by the method of its plan. `angle` is given the whole motion.
+    /// The samples of one scene, by the method of its plan. `angle` receives the whole motion.
     fn samples_of(&self, scene: &Scene, mut angle: Option<&mut SpinAxisAngle>) -> Result<Vec<Sample>, Error> {
         let mut samples = Vec::new();
         let estimates = if self.errors { ErrorEstimates::OfEachSample } else { ErrorEstimates::None };
@@ -153,7 +153,7 @@ impl Outputs {
         Ok(values)
     }
 
-    /// The outputs of a plan that the columns at the samples and the summary of `lambda` are computed from.
+    /// The outputs of a plan from which the columns at the samples and the summary of `lambda` are computed.
     pub(super) fn outputs(&self) -> Vec<Output> {
         let of_errors = self.errors.then_some(Output::FirstIntegrals);
         let of_summary = self.summaries.contains(&Summary::Lambda).then_some(Output::SpinAxisAngle);
@@ -194,7 +194,7 @@ fn errors_header(units: &Units) -> Vec<String> {
     ]
 }
 
-/// The estimated error of the state, and by how much what is constant has changed since the start.
+/// The estimated error of the state, and the changes of the constants of motion since the start.
 fn errors(scene: &Scene, sample: &Sample) -> [f64; 5] {
     let initial = scene.problem.initial();
     let state = match sample.state {
@@ -202,7 +202,7 @@ fn errors(scene: &Scene, sample: &Sample) -> [f64; 5] {
         SampledState::Orientation(state) => state,
         SampledState::Nothing => *initial,
     };
-    // The integrals are functions of n and L alone.
+    // The integrals depend only on n and L.
     let integrals = |state| first_integrals(scene.problem.spheroid(), scene.problem.coefficients(), state);
     let (now, start) = (integrals(&state), integrals(initial));
     let units = &scene.units;
@@ -220,8 +220,8 @@ fn count_pulses(scene: &Scene) -> Result<f64, String> {
     Ok(found.pulses.iter().sum::<usize>() as f64)
 }
 
-/// Number of the principal axis that L goes round, one for that of the largest eigenvalue and three for that of the smallest, and
-/// the rate about the end at which L is; none on a separatrix.
+/// Number of the principal axis that L circles, one for that of the largest eigenvalue and three for that of the smallest, and
+/// the rate about the end at which L is; NaN on a separatrix.
 fn slow_precession_of(scene: &Scene) -> [f64; 2] {
     let problem = &scene.problem;
     let found = principal_frame(problem.coefficients()).and_then(|frame| {

@@ -1,16 +1,16 @@
-//! The numbers that a sweep varies, as pure functions of the scene's number.
+//! The numbers varied by a sweep, as pure functions of the scene's number.
 
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, Normal, StandardUniform};
 
-/// All numbers that are varied. Scene `k` has, of each axis, the point that a count through all combinations gives, the last
+/// All varied numbers. Scene `k` takes, on each axis, the point given by counting through all combinations, with the last
 /// axis fastest; a random axis has as many points as there are draws and comes last.
 #[derive(Debug)]
 pub(super) struct Parameters {
     /// Dotted keys in the scene, in the order of the sweep file.
     pub(super) keys: Vec<String>,
-    /// Of each key, its axis and its numbers.
+    /// The axis and the numbers of each key.
     pub(super) sources: Vec<(usize, Source)>,
     /// Number of points of each axis.
     pub(super) lengths: Vec<u64>,
@@ -25,12 +25,12 @@ pub(super) enum Source {
     Grid {
         from: f64,
         to: f64,
-        /// Whether ratios of neighbours are equal, rather than differences.
+        /// Whether the ratios of neighbours are equal, rather than their differences.
         logarithmic: bool,
     },
-    /// Drawn anew for each scene.
+    /// Drawn independently for each scene.
     Random {
-        /// Stream of random numbers, one for each such parameter.
+        /// Stream of random numbers, separate for each such parameter.
         stream: u64,
         law: Law,
     },
@@ -39,12 +39,12 @@ pub(super) enum Source {
 /// A distribution of random numbers.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Law {
-    /// Of the number itself, `from` included.
+    /// Uniform distribution of the number itself, `from` included.
     Uniform {
         from: f64,
         to: f64,
     },
-    /// Of its logarithm.
+    /// Uniform distribution of its logarithm.
     LogUniform {
         from: f64,
         to: f64,
@@ -52,7 +52,7 @@ pub(super) enum Law {
     Normal(Normal<f64>),
 }
 
-/// Words of a stream that are set aside for each draw: a normal one takes two, and two more in one of 80 cases.
+/// Words of a stream reserved for each draw: a normal one takes two, and two more in one of 80 cases.
 const WORDS_PER_DRAW: u128 = 64;
 
 impl Parameters {
@@ -90,7 +90,7 @@ fn grid_point(from: f64, to: f64, logarithmic: bool, i: u64, last: u64) -> f64 {
 }
 
 impl Law {
-    /// A function of its arguments alone: the keystream is entered at the place of the scene.
+    /// A function of its arguments alone: the keystream is read from the position of the scene.
     fn draw(self, seed: u64, stream: u64, scene: u64) -> f64 {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&seed.to_le_bytes());
@@ -132,7 +132,7 @@ mod tests {
         assert_eq!(parameters(vec![], vec![u64::MAX, 2]).count(), None);
     }
 
-    /// Moments of 40,000 draws within five standard errors, and literal numbers: a sweep's rows are the same for ever.
+    /// Moments of 40,000 draws within five standard errors, and literal numbers: a sweep's rows never change.
     #[test]
     fn draws_have_their_distributions_and_never_change() {
         let laws = [

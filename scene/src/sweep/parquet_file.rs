@@ -1,5 +1,5 @@
-//! A finished table as a Parquet file: `scene` an integer, `status` a text, every other column doubles that may be missing,
-//! stored as split streams of bytes under zstd.
+//! A finished table as a Parquet file: `scene` is an integer, `status` a text, and every other column has doubles that may
+//! be missing, stored as split byte streams under zstd.
 
 use std::fmt;
 use std::fs::File;
@@ -15,15 +15,15 @@ use parquet::schema::types::{ColumnPath, Type};
 
 use super::{NUMBER, STATUS};
 
-/// Numbers in a row group: 32 MB before they are compressed.
+/// Numbers per row group: 32 MB before compression.
 const NUMBERS_PER_GROUP: usize = 4 << 20;
 
-/// Why a table could not be written as Parquet.
+/// Reasons why a table could not be written as Parquet.
 #[derive(Debug)]
 pub enum ConversionError {
     /// The table cannot be read.
     Table(csv::Error),
-    /// A field that is not what its column holds.
+    /// A field that does not have the type of its column.
     Field(u64, String),
     /// The file cannot be written.
     Parquet(ParquetError),
@@ -32,7 +32,7 @@ pub enum ConversionError {
 struct Group {
     numbers: Vec<i64>,
     statuses: Vec<ByteArray>,
-    /// Of each other column its values and, for each row, whether there is one.
+    /// For each other column its values and, for each row, whether there is one.
     columns: Vec<(Vec<f64>, Vec<i16>)>,
 }
 
@@ -89,7 +89,7 @@ impl Group {
         Self { numbers: Vec::new(), statuses: Vec::new(), columns }
     }
 
-    /// Takes a row, or names the column that does not hold what it should.
+    /// Adds a row, or names the column whose field has the wrong type.
     fn take(&mut self, record: &csv::StringRecord, header: &[String]) -> Result<(), String> {
         let mut columns = self.columns.iter_mut();
         for (name, text) in header.iter().zip(record) {
@@ -163,7 +163,7 @@ mod tests {
 
     use super::*;
 
-    /// The file of a table, `numbers` to a group.
+    /// The file of a table, with `numbers` per group.
     fn read(table: &str, numbers: usize) -> Result<SerializedFileReader<File>, ConversionError> {
         let file = tempfile::tempfile().expect("a file");
         write_in_groups(table.as_bytes(), &file, numbers)?;
@@ -179,7 +179,7 @@ mod tests {
             (1, 1e22, "failed", Field::Null),
             (2, -0.0, "ok", Field::Double(0.30000000000000004)),
         ];
-        // All rows in a group; two and one; a row in each, also where it has more numbers than a group should.
+        // All rows in one group; two and one; one row per group, also if it has more numbers than a group should.
         for (numbers, groups) in
             [(NUMBERS_PER_GROUP, vec![3]), (11, vec![2, 1]), (4, vec![1, 1, 1]), (1, vec![1, 1, 1])]
         {

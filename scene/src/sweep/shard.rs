@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::str::FromStr;
 
-/// Part `part` of `parts`, from one.
+/// Part `part` of `parts`, counted from one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
     part: u64,
@@ -14,7 +14,7 @@ impl Shard {
     /// Everything.
     pub const WHOLE: Self = Self { part: 1, parts: 1 };
 
-    /// The scenes of this part out of `count`: consecutive, so that the parts' tables one after the other are the whole one.
+    /// The scenes of this part out of `count`: consecutive, so that the concatenated tables of the parts are the whole one.
     pub fn scenes(&self, count: u64) -> Range<u64> {
         let end = |part: u64| (u128::from(count) * u128::from(part) / u128::from(self.parts)) as u64;
         end(self.part - 1)..end(self.part)

@@ -1,4 +1,4 @@
-//! Least, largest and mean angle between the spin axis and the direction to the observer over the span of a scene.
+//! Smallest, largest and mean angle between the spin axis and the direction to the observer over the span of a scene.
 
 use std::f64::consts::{PI, TAU};
 use std::num::NonZeroUsize;
@@ -11,13 +11,13 @@ use twofold::observables::spin_axis::cos_lambda_rate;
 
 use crate::samples::AxisStateAt;
 
-/// Panels of the quadrature per turn at the upper estimate of the turning rate.
+/// Panels of the quadrature per turn, for the upper estimate of the rotation rate.
 const PANELS_PER_TURN: f64 = 16.0;
 
-/// Nodes of Gauss and Legendre's rule in a panel; its error in a sixteenth of a turn is about 1e-11 of the amplitude.
+/// Nodes of the Gauss-Legendre rule in a panel; its error in a sixteenth of a turn is about 1e-11 of the amplitude.
 const NODES: NonZeroUsize = NonZeroUsize::new(4).unwrap();
 
-/// Most halvings of a panel next to the line of sight, where the angle bends sharply.
+/// Largest number of halvings of a panel next to the line of sight, where the angle bends sharply.
 const MOST_HALVINGS: u32 = 10;
 
 /// Follows the angle `lambda` of Eq. (37) along a motion, segment by segment.
@@ -34,20 +34,21 @@ pub(super) struct SpinAxisAngle {
 }
 
 impl SpinAxisAngle {
-    /// For the unit vector `direction` and a motion that turns at most at `turning_rate`.
+    /// For the unit vector `direction` and a motion that rotates at most at `turning_rate`.
     pub(super) fn new(spheroid: RigidSpheroid<f64>, direction: Vector3<f64>, turning_rate: f64) -> Self {
         let nodes = GaussLegendre::new(NODES).iter().copied().collect();
         let least = f64::INFINITY;
         Self { spheroid, direction, turning_rate, nodes, least, largest: 0.0, integral: 0.0, length: 0.0 }
     }
 
-    /// Least, largest and mean angle (rad) so far. Extrema are found by the sign of the rate at 64 times a turn and then to
-    /// 1e-14; two that lie between neighbouring times, a plateau, are missed, which shifts the result by less than 1e-4.
+    /// Smallest, largest and mean angle (rad) so far. Extrema are found from the sign of the rate at 64 times per turn and
+    /// then to 1e-14; two extrema between neighbouring times, a plateau, are missed, which shifts the result by less than
+    /// 1e-4.
     pub(super) fn least_largest_mean(&self) -> [f64; 3] {
         [self.least, self.largest, self.integral / self.length]
     }
 
-    /// Takes the motion from `from` to `to` into account.
+    /// Includes the motion from `from` to `to`.
     pub(super) fn add(&mut self, motion: &AxisStateAt<'_>, from: f64, to: f64) -> Result<(), Error> {
         let panels = ((to - from).abs() * self.turning_rate / TAU * PANELS_PER_TURN).ceil().max(1.0);
         let half = (to - from) / panels / 2.0;
@@ -61,8 +62,8 @@ impl SpinAxisAngle {
         Ok(())
     }
 
-    /// Takes the panel `middle` +- `half` into account after the place `last`, in halves where the axis comes nearer to the line of sight, or to
-    /// its opposite, than it turns within the panel. The last place taken.
+    /// Includes the panel `middle` +- `half`, which follows the point `last`; it is halved if the axis comes nearer to the line of sight, or to
+    /// its opposite, than it turns within the panel. Returns the last point.
     fn add_panel(
         &mut self,
         motion: &AxisStateAt<'_>,
@@ -98,8 +99,8 @@ impl SpinAxisAngle {
         Ok(Place { time, angle, rate })
     }
 
-    /// Takes the extremum between two times at which the rate has different signs, by the rule of false position and halving in
-    /// turn. The angle is flat there: once the rate is 1e-6 of the rates at both ends, at most a 64th of a turn apart, the angle is within 1e-14 of its extremum.
+    /// Includes the extremum between two times at which the rate has different signs, by alternating false position and halving. The angle is flat
+    /// there: once the rate is 1e-6 of the rates at both ends, at most a 64th of a turn apart, the angle is within 1e-14 of its extremum.
     fn take_extremum(&mut self, motion: &AxisStateAt<'_>, a: &Place, b: &Place) -> Result<(), Error> {
         let (mut a, mut b) = (*a, *b);
         let enough = 1e-6 * (a.rate.abs() + b.rate.abs());
@@ -131,7 +132,7 @@ mod tests {
 
     use super::*;
 
-    /// The angle to the direction over spans (rad of rotation) of a star whose axis goes round Z at a right angle and this rate, beginning on X.
+    /// The angle to the direction over spans (rad of rotation) for a star whose axis circles Z at a right angle with this rate, starting at X.
     fn at_rate(rate: f64, direction: Vector3<f64>, spans: &[[f64; 2]]) -> [f64; 3] {
         let momentum = Vector3::z() * rate;
         let motion = |t: f64| {
@@ -149,7 +150,8 @@ mod tests {
         at_rate(2.0, direction, spans)
     }
 
-    /// `cos lambda = cos a cos phi`: from `a` to `pi - a`, in the mean a right angle over whole turns, and over half a turn from X on.
+    /// `cos lambda = cos a cos phi`: from `a` to `pi - a`, on average a right angle over whole turns, and over half a turn starting at
+    /// X.
     #[test]
     fn an_axis_at_a_right_angle_to_l_is_so_to_any_direction_in_the_mean() {
         let a: f64 = 0.3;
@@ -167,7 +169,8 @@ mod tests {
             vec![[0.0, 0.2], [0.2, 0.9], [0.9, half]],
             vec![[0.0, -0.2], [-0.2, -half]],
         ] {
-            // The mean to what four nodes in a sixteenth of a turn leave of a bend within 0.3 rad. Extrema to 1e-14, however slow the star.
+            // The mean is accurate to the error of four nodes in a sixteenth of a turn for a bend within 0.3 rad. Extrema are accurate to
+            // 1e-14, however slow the star.
             for rate in [2.0, 2e-6] {
                 let found = at_rate(rate, direction, &spans).into_iter().zip(expected);
                 for ((found, expected), bound) in found.zip([1e-13, 1e-13, 1e-8]) {
@@ -194,7 +197,8 @@ mod tests {
         assert_relative_eq!(mean, 0.3, max_relative = 1e-12);
     }
 
-    /// Through the direction the angle is `|phi|`, with a bend: its mean is half of the sum of both squares over that of both.
+    /// For a path through the direction the angle is `|phi|`, with a kink: its mean is half of the sum of both squares divided
+    /// by the sum of both.
     #[test]
     fn an_axis_through_the_direction_has_the_mean_of_both_sides() {
         for (first, last) in [(-0.7, 2.2), (0.7, -2.2), (-0.001, 3.1)] {

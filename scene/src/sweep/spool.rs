@@ -1,4 +1,4 @@
-//! A table that grows beside its final name and can be continued after any interruption.
+//! A table that grows under a temporary name next to its final one and can be continued after any interruption.
 
 use std::fmt;
 use std::fs::{self, File};
@@ -11,21 +11,21 @@ use crc32fast::Hasher;
 use super::identity::Identity;
 use super::journal::{self, Journal, Mark, Prefix};
 
-/// Names of the files of a table that is not complete.
+/// Names of the files of an incomplete table.
 #[derive(Debug, Clone)]
 pub struct SpoolFiles {
     /// The table so far.
     pub rows: PathBuf,
     /// The table of errors so far.
     pub errors: PathBuf,
-    /// Which part of both counts.
+    /// The journal, which states which part of both counts.
     pub journal: PathBuf,
 }
 
-/// Why a table cannot be begun or continued.
+/// Reasons why a table cannot be begun or continued.
 #[derive(Debug)]
 pub enum SpoolError {
-    /// The part that is there belongs to something else, described.
+    /// The existing part belongs to something else, described here.
     Different(String),
     /// Another process is writing it.
     InUse,
@@ -33,7 +33,7 @@ pub enum SpoolError {
     File(PathBuf, io::Error),
 }
 
-/// A table that grows.
+/// A growing table.
 #[derive(Debug)]
 pub struct Spool {
     files: SpoolFiles,
@@ -41,7 +41,7 @@ pub struct Spool {
     errors: Growing,
     journal: File,
     mark: Mark,
-    /// Whether everything was written before, and only the name is missing.
+    /// Whether everything was already written, and only the renaming is missing.
     pub complete: bool,
 }
 
@@ -53,7 +53,7 @@ struct Growing {
 }
 
 impl SpoolFiles {
-    /// Those of the table `out`.
+    /// The files for the table `out`.
     pub fn of(out: &Path) -> Self {
         let with = |extension: &str| {
             let mut name = out.as_os_str().to_owned();
@@ -63,21 +63,21 @@ impl SpoolFiles {
         Self { rows: with(".partial"), errors: with(".partial.errors"), journal: with(".partial.journal") }
     }
 
-    /// Whether there is a table, with the given identity, that was complete and about to get its name.
+    /// Whether there is a table, with the given identity, that was complete and about to be renamed.
     pub fn are_complete(&self, identity: &Identity) -> bool {
         let Ok(Ok(journal)) = File::open(&self.journal).map(Journal::read) else { return false };
         journal.complete && journal.identity.as_ref() == Some(identity.facts())
     }
 
-    /// Removes what an interrupted process has left.
+    /// Removes the files left by an interrupted process.
     pub fn discard(&self) -> Result<(), SpoolError> {
         let in_use = |journal: File| matches!(journal.try_lock(), Err(fs::TryLockError::WouldBlock));
         if File::open(&self.journal).is_ok_and(in_use) { Err(SpoolError::InUse) } else { self.remove() }
     }
 
-    /// Removes what is there.
+    /// Removes the existing files.
     pub fn remove(&self) -> Result<(), SpoolError> {
-        // The journal last: without it the others would not be known.
+        // The journal last: without it the others could not be identified.
         for path in [&self.rows, &self.errors, &self.journal] {
             match fs::remove_file(path) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(refused(path)(error)),
@@ -88,7 +88,7 @@ impl SpoolFiles {
     }
 }
 
-/// Name of the table of errors beside a table.
+/// Name of the table of errors for a table.
 pub fn errors_beside(out: &Path) -> PathBuf {
     let mut name = out.as_os_str().to_owned();
     name.push(".errors.csv");
@@ -96,8 +96,8 @@ pub fn errors_beside(out: &Path) -> PathBuf {
 }
 
 impl Spool {
-    /// Begins a table of `scenes` with two headers, or continues the part of it that is there: up to the last mark at which both files are
-    /// as the journal says. The files are locked for other processes, where the file system can do that.
+    /// Begins a table of `scenes` with two headers, or continues the existing part: up to the last mark at which both files agree with the
+    /// journal. The files are locked for other processes, if the file system supports this.
     pub fn open(
         files: SpoolFiles,
         identity: &Identity,
@@ -162,7 +162,7 @@ impl Spool {
         &self.files
     }
 
-    /// Appends lines to the table and to that of errors; `next` is the first scene that is then not in them.
+    /// Appends lines to the table and to the table of errors; `next` is the first scene that is then not in them.
     pub fn append(&mut self, next: u64, [rows, errors]: [&[u8]; 2], failed: u64) -> Result<(), SpoolError> {
         self.rows.append(rows).map_err(refused(&self.files.rows))?;
         self.errors.append(errors).map_err(refused(&self.files.errors))?;
@@ -171,20 +171,22 @@ impl Spool {
         Ok(())
     }
 
-    /// Makes sure that what was appended outlives the process and the machine's power: first the tables, then the journal.
+    /// Ensures that the appended lines survive the end of the process and a loss of power: first the tables, then the
+    /// journal.
     pub fn commit(&mut self) -> Result<(), SpoolError> {
         self.mark.rows = self.rows.mark().map_err(refused(&self.files.rows))?;
         self.mark.errors = self.errors.mark().map_err(refused(&self.files.errors))?;
         self.write_line(&self.mark.to_value())
     }
 
-    /// Notes that the table is complete.
+    /// Records that the table is complete.
     pub fn completed(&mut self) -> Result<(), SpoolError> {
         self.complete = true;
         self.write_line(&journal::completion())
     }
 
-    /// Gives a complete table of errors its name beside the table `out`, if there are any. What stands under that name goes if it may be `replaced`.
+    /// Gives a complete table of errors its name next to the table `out`, if there are any. An existing file of that name is removed if it may be
+    /// `replaced`.
     ///
     /// # Errors
     /// A file that cannot be written, or exists.
@@ -203,7 +205,8 @@ impl Spool {
         Ok(())
     }
 
-    /// Gives a complete CSV table its name `out`, after that of errors, so that the table itself is the sign that all is there.
+    /// Gives a complete CSV table its name `out`, after that of the errors, so that the presence of the table means that
+    /// everything is there.
     ///
     /// # Errors
     /// A file that cannot be written, or exists and may not be `replaced`.
@@ -213,7 +216,7 @@ impl Spool {
         fs::rename(&self.files.rows, out).map_err(refused(out))?;
         let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         if let Ok(folder) = File::open(folder) {
-            // The names outlive a loss of power, where the system can promise that.
+            // The names survive a loss of power, if the system can guarantee that.
             let _ = folder.sync_all();
         }
         self.files.remove()
@@ -254,7 +257,7 @@ fn truncate(file: &mut File, length: u64) -> io::Result<()> {
     file.seek(SeekFrom::Start(length)).map(|_| ())
 }
 
-/// How many of the prefixes, from the first on, the file holds unchanged.
+/// Number of prefixes, counted from the first, that the file contains unchanged.
 fn intact_prefixes(mut file: &File, prefixes: &[Prefix]) -> io::Result<usize> {
     const PIECE: usize = 1 << 16;
     let mut piece = vec![0; PIECE];
@@ -333,7 +336,7 @@ mod tests {
 
     #[test]
     fn files_torn_or_damaged_anywhere_are_continued_to_the_same_bytes() {
-        // In memory where that is a folder: thousands of times the marks wait for the disk.
+        // In memory if that is a folder, because the marks wait for the disk thousands of times.
         let folder = tempfile::tempdir_in("/dev/shm").or_else(|_| tempfile::tempdir()).expect("a folder");
         let folder = folder.path();
         assert_eq!(grow(folder, "text", 4).expect("a table"), 0);
@@ -345,7 +348,7 @@ mod tests {
         let contents = paths.clone().map(|path| fs::read(path).expect("a file"));
         let mut continued = 0;
         for (path, original) in paths.iter().zip(&contents) {
-            // Every byte of a journal is tried where it is read; here each costs a table.
+            // Every byte of a journal is tested where it is read; here each one costs a table.
             let step = if path.ends_with("a.csv.partial.journal") { 7 } else { 1 };
             for place in (0..original.len()).step_by(step) {
                 let mut damaged = original.clone();
@@ -390,7 +393,7 @@ mod tests {
         assert_eq!(bytes(folder), before);
     }
 
-    /// A table of errors has its name where one scene has failed, and goes where none has.
+    /// A table of errors is named if a scene has failed, and removed if none has.
     #[test]
     fn errors_have_a_name_where_a_scene_has_failed() {
         for (failed, replaced) in [(1, false), (0, true), (1, true)] {

@@ -20,7 +20,7 @@ fn refusal(lines: &str) -> Option<String> {
     Sweep::new(&text(lines)).err().map(String::from)
 }
 
-/// Names and numbers of the scenes of a sweep, which are all computed.
+/// Names and numbers of the scenes of a sweep, all of which are computed.
 fn table(lines: &str, scenes: Range<u64>) -> (Vec<String>, Vec<Vec<f64>>) {
     let text = text(lines);
     let sweep = Sweep::new(&text).expect("a sweep");
@@ -55,7 +55,7 @@ fn a_sweep_says_where_the_star_is_at_the_end_and_how_well() {
     assert_eq!(Sweep::new(&text).expect("a sweep").errors_header(), ["scene", "initial.beta_0", "error"]);
 }
 
-/// Many motions at once are those of each scene, from its start on, also where that is not zero.
+/// Many motions at once agree with those of each scene, from its start on, also if that is not zero.
 #[test]
 fn many_scenes_are_as_each_by_itself() {
     let of = |columns: &str| {
@@ -63,7 +63,7 @@ fn many_scenes_are_as_each_by_itself() {
         table(&format!("{VARIED}{times}[output]\ncolumns = [{columns}]\ntolerance = 1e-12\n"), 0..9)
     };
     let (names, together) = of("'e_z', 'L'");
-    // Errors are estimated one scene after the other.
+    // Errors are estimated for one scene after the other.
     let (more_names, by_themselves) = of("'e_z', 'L', 'errors'");
     assert_eq!((together.len(), by_themselves.len()), (9, 9));
     let same = names.iter().enumerate().filter(|(i, name)| *i != 2 && more_names.contains(name));
@@ -78,7 +78,7 @@ fn many_scenes_are_as_each_by_itself() {
     }
 }
 
-/// A row is the same to the byte whoever else is computed with it.
+/// A row is the same to the byte whichever scenes are computed with it.
 #[test]
 fn a_row_does_not_depend_on_its_neighbours() {
     let text = text(&format!("{VARIED}[time]\nend = 11.0\n[output]\ncolumns = ['e_z', 'L']\n"));
@@ -89,7 +89,7 @@ fn a_row_does_not_depend_on_its_neighbours() {
     assert_eq!((0..9).flat_map(|number| rows(number..number + 1)).collect::<Vec<_>>(), whole);
 }
 
-/// A thousand and one points by a factor of 10^15 + 1 are one scene too many.
+/// A thousand and one points times 10^15 + 1 is one scene too many.
 #[test]
 fn scenes_are_counted_up_to_the_doubles() {
     let grid = |key: &str, points: u64| {
@@ -102,7 +102,7 @@ fn scenes_are_counted_up_to_the_doubles() {
     assert!(refusal(&format!("{two}{time}")).is_some_and(|why| why.contains("too many scenes: allowed are 1e15")));
 }
 
-/// The angle in the mean, and pulses, are followed through every turn; the end of a motion alone may be far away.
+/// The mean angle, and pulses, require every turn to be followed; the end of a motion alone may be far away.
 #[test]
 fn what_goes_through_every_turn_has_a_longest_span() {
     let far = |output: &str| refusal(&format!("{VARIED}[time]\nend = 1e12\n[output]\n{output}\n"));
@@ -123,7 +123,7 @@ fn a_scene_that_is_wanted_has_its_own_row() {
     }
 }
 
-/// The first scene that is not written is told each time that it changes, and the table is that of one thread.
+/// The first scene that is not written is reported each time that it changes, and the table is that of a single thread.
 #[test]
 fn a_sweep_tells_how_far_it_is() {
     let text = text(&format!(

@@ -1,26 +1,26 @@
-//! Why a table could not be finished.
+//! Reasons why a table could not be finished.
 
 use std::fmt;
 
 use twofold::Error;
 
-/// Why a table could not be finished.
+/// Reasons why a table could not be finished.
 #[derive(Debug)]
 pub enum TrajectoryError {
-    /// The scene lacks what the table needs; a sentence.
+    /// The scene lacks something that the table needs; a sentence.
     Incomplete(String),
-    /// The motion, or what follows from it, could not be computed.
+    /// The motion, or a quantity derived from it, could not be computed.
     Motion(Error),
     /// The lines of a column could not be found.
     Lines(String, Error),
-    /// A column does not exist in a state of the motion.
+    /// A column does not exist in some state of the motion.
     Undefined(String),
     /// The rows could not be written.
     Write(csv::Error),
 }
 
 impl TrajectoryError {
-    /// Whether the reader of a pipe has gone away.
+    /// Whether the reader of a pipe has closed it.
     pub fn is_closed_pipe(&self) -> bool {
         match self {
             TrajectoryError::Write(error) => match error.kind() {

@@ -1,4 +1,4 @@
-//! The pulses of one beam, put together from those of the segments of a motion, with the turns that they belong to.
+//! The pulses of one beam, combined from those of the segments of a motion, with their turn numbers.
 
 use nalgebra::Vector3;
 use twofold::Error;
@@ -8,7 +8,7 @@ use twofold::propagation::Motion;
 
 use crate::samples::Segment;
 
-/// One beam with its line of sight, and the pulse that is not over yet.
+/// One beam with its line of sight, and the pulse that has not ended yet.
 pub(super) struct Source {
     pub(super) number: usize,
     pub(super) beam: Beam<f64>,
@@ -19,20 +19,20 @@ pub(super) struct Source {
     /// Turns counted up to the end of the last segment.
     turns: i64,
     first_turn: Option<i64>,
-    /// Why turns are not counted any more, once they are not.
+    /// The reason why turns are no longer counted, if that is the case.
     pub(super) uncounted: Option<Error>,
-    /// Whole pulses without a turn for that reason.
+    /// Number of whole pulses without a turn for that reason.
     pub(super) without_turn: usize,
 }
 
-/// A pulse with its place in the train of its beam.
+/// A pulse with its position in the train of its beam.
 pub(super) struct Numbered {
     pub(super) beam: usize,
     pub(super) number: usize,
     pub(super) pulse: Pulse,
-    /// Time between the midpoints of this pulse and of the one before, if both are whole.
+    /// Time between the midpoints of this pulse and of the previous one, if both are whole.
     pub(super) period: Option<f64>,
-    /// Turn of the star, zero for the first whole pulse, and time of the closest approach, for a whole pulse.
+    /// For a whole pulse: turn of the star, zero for the first whole pulse, and time of the closest approach.
     pub(super) arrival: Option<(i64, f64)>,
 }
 
@@ -41,7 +41,7 @@ struct Unfinished {
     approach: Option<Approach>,
 }
 
-/// The magnetic axis nearest to the line of sight.
+/// The closest approach of the magnetic axis to the line of sight.
 #[derive(Clone, Copy)]
 struct Approach {
     turn: i64,
@@ -65,7 +65,8 @@ impl Source {
         }
     }
 
-    /// Whether the magnetic axis is neither on the edge of the beam nor, for the count of turns, opposite to the line of sight.
+    /// Whether the magnetic axis is off the edge of the beam, and whether, for the count of turns, it is not opposite to the
+    /// line of sight.
     pub(super) fn is_clear_at(&self, segment: &Segment<BodyState<f64>>, time: f64) -> Result<(bool, bool), Error> {
         const CLEAR: f64 = 1e-6;
         let state = segment.motion.state(time)?;
@@ -74,7 +75,7 @@ impl Source {
         Ok((self.beam.margin(&state, n).abs() > CLEAR, x > CLEAR || y.abs() > CLEAR))
     }
 
-    /// The pulses that are over at the time `to` of a stretch, in the order of the motion, and the times of grazing.
+    /// The pulses that have ended by the time `to` of an interval, in the order of the motion, and the times of grazing.
     pub(super) fn take(
         &mut self,
         segment: &Segment<BodyState<f64>>,
@@ -88,7 +89,7 @@ impl Source {
         let begins_cut = |pulse: &Pulse| if backwards { pulse.cut_at_end } else { pulse.cut_at_start };
         let lasts = |pulse: &Pulse| if backwards { pulse.cut_at_start } else { pulse.cut_at_end };
         let open = self.open.take();
-        // Only what may become a whole pulse has a closest approach.
+        // Only a pulse that may become whole has a closest approach.
         let goes_on = open.as_ref().is_some_and(|open| !begins_cut(&open.pulse));
         let wanted = |(i, pulse): (usize, &Pulse)| {
             (!begins_cut(pulse) || i == 0 && goes_on) && !(segment.is_last && lasts(pulse))
@@ -109,7 +110,7 @@ impl Source {
         Ok((found.into_iter().map(|pulse| self.numbered(&pulse)).collect(), train.grazings))
     }
 
-    /// The closest approach in each of the pulses that are wanted, their turns counted on from the segment before.
+    /// The closest approach in each of the requested pulses, with turns counted on from the previous segment.
     fn approaches(
         &mut self,
         segment: &Segment<BodyState<f64>>,
@@ -121,7 +122,7 @@ impl Source {
             return Ok(vec![None; pulses.len()]);
         }
         let whole = |start, end| Pulse { start, end, cut_at_start: false, cut_at_end: false };
-        // Pulses without length at both ends tie the count to those of the neighbouring segments.
+        // Pulses of zero length at both ends link the count to those of the neighbouring segments.
         let mut parts = vec![whole(segment.from, segment.from)];
         parts.extend(pulses.iter().zip(wanted).filter(|(_, wanted)| **wanted).map(|(p, _)| whole(p.start, p.end)));
         parts.push(whole(to, to));
@@ -165,7 +166,7 @@ impl Source {
 }
 
 impl Unfinished {
-    /// Joins the part of the pulse in the segments before. Flags are those of the outer ends.
+    /// Joins the part of the pulse in the previous segments. The flags are those of the outer ends.
     fn continue_from(&mut self, open: Unfinished, backwards: bool) {
         if backwards {
             (self.pulse.end, self.pulse.cut_at_end) = (open.pulse.end, open.pulse.cut_at_end);
@@ -190,7 +191,8 @@ pub(super) mod tests {
 
     pub(in super::super) const THETA_O: f64 = 0.8;
 
-    /// A free star without wobble that turns once about Z in a unit of time, by 3.25 turns, with its magnetic axis towards the observer at zero.
+    /// A free star without wobble that rotates once about Z per unit of time, by 3.25 turns, with its magnetic axis towards the observer at
+    /// zero.
     pub(in super::super) fn scene(sense: f64) -> Scene {
         let mut scene = Scene::named("free").unwrap();
         let axis = Vector3::z();
@@ -235,7 +237,8 @@ pub(super) mod tests {
         }
     }
 
-    /// A pulse that lasted to the end of the segment before is over where none goes on; turns are counted through.
+    /// A pulse that lasted to the end of the previous segment has ended if none continues; turns are counted without a
+    /// break.
     #[test]
     fn a_pulse_that_does_not_go_on_comes_first() {
         for sense in [1.0, -1.0] {

@@ -17,15 +17,15 @@ use crate::scene_file::Scene;
 /// Counts of a table of pulses.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PulseSummary {
-    /// Pulses written, of each beam.
+    /// Number of pulses written, for each beam.
     pub pulses: Vec<usize>,
-    /// Extrema of m.n so near to the edge of a beam that a pulse is there, or missing, by rounding.
+    /// Extrema of m.n so close to the edge of a beam that rounding decides whether there is a pulse.
     pub grazings: usize,
-    /// Time of the first of those.
+    /// Time of the first such extremum.
     pub first_grazing: Option<f64>,
-    /// Beams with whole pulses whose turns cannot be counted, how many of them, and why.
+    /// Beams with whole pulses whose turns cannot be counted, the number of these pulses, and the reason.
     pub without_turn: Vec<(usize, usize, Error)>,
-    /// What it took.
+    /// The work done.
     pub work: Work,
 }
 
@@ -38,8 +38,8 @@ fn header(scene: &Scene) -> Vec<String> {
     names
 }
 
-/// Writes every pulse of the span of `scene` as CSV, in order of the time at which it is over. Memory is bounded whatever the
-/// span; a pulse that lasts from one segment of the motion to the next is one pulse.
+/// Writes every pulse of the span of `scene` as CSV, in order of the time at which it ends. Memory is bounded whatever the
+/// span; a pulse that extends from one segment of the motion to the next is one pulse.
 pub fn write_pulses(
     scene: &Scene,
     writer: impl Write,
@@ -111,8 +111,9 @@ pub(super) fn write_by_segments(
     Ok(summary)
 }
 
-/// A time near the end of the segment at which every source is clear: cut there, no pulse is torn or counted twice by
-/// rounding, and no turn. If turns are nowhere clear, as of a beam along the axis of rotation, that much is left to rounding.
+/// A time near the end of the segment at which every source is clear: with a cut there, rounding cannot split a pulse or
+/// count a pulse or a turn twice. If turns are nowhere clear, as for a beam along the axis of rotation, they are left to
+/// rounding.
 fn cut(scene: &Scene, segment: &Segment<BodyState<f64>>, sources: &[Source]) -> Result<f64, Error> {
     const TRIES: usize = 1000;
     const ROTATION_PER_TRY: f64 = 0.35;
@@ -160,7 +161,7 @@ impl Numbered {
     }
 }
 
-/// The width of Eq. (56) at a time that one of the motions holds; none where the formula has no pulse.
+/// The width of Eq. (56) at a time that one of the motions contains; `None` if the formula gives no pulse.
 fn width_at(time: f64, motions: [Option<&Counted<PlannedMotion>>; 2], beam: &Beam<f64>, theta_o: f64) -> Option<f64> {
     let state = motions.into_iter().flatten().find_map(|motion| motion.state(time).ok())?;
     let m = beam.direction(&state);
@@ -179,7 +180,8 @@ mod tests {
     use super::*;
     use crate::scene_file::{Pulsar, Viewer};
 
-    /// A third of a radian before an end at which the magnetic axis is on the edge of the beam, or opposite to the observer; at the middle of a shorter segment.
+    /// A third of a radian before an end at which the magnetic axis is on the edge of the beam, or opposite to the observer; at the middle of a
+    /// shorter segment.
     #[test]
     fn a_segment_is_cut_where_every_beam_is_clear() {
         for sense in [1.0, -1.0] {
@@ -197,7 +199,7 @@ mod tests {
             }
             (segment.from, segment.to) = (sense * 2.49, sense * 2.5);
             assert!((cut(&scene, &segment, &sources).unwrap() - sense * 2.495).abs() < 1e-14);
-            // A beam along the axis of rotation is never off half a turn: the other one is off its edge.
+            // A beam along the axis of rotation is never away from half a turn: the other one is off its edge.
             let [first] = sources;
             let sources = [first, tests::segment(0.0, 0.5, sense).0];
             (segment.from, segment.to) = (0.0, sense * (2.0 + edge));
@@ -206,7 +208,7 @@ mod tests {
         }
     }
 
-    /// The beam reaches the observer once a turn and no farther: at three quarters of each.
+    /// The beam just reaches the observer once per turn: at three quarters of each.
     #[test]
     fn pulses_of_no_length_are_counted_as_grazing() {
         let mut scene = scene(1.0);
@@ -219,7 +221,7 @@ mod tests {
         assert!((summary.first_grazing.unwrap() - 0.75).abs() < 1e-7, "{:?}", summary.first_grazing);
     }
 
-    /// Four segments evaluate the motion about as often as one, and show where each of them ends.
+    /// Four segments evaluate the motion about as often as one, and report where each of them ends.
     #[test]
     fn work_and_progress_are_those_of_all_segments() {
         let mut scene = Scene::named("tp-2").unwrap();
@@ -239,7 +241,7 @@ mod tests {
         for (one, four) in one.into_iter().zip(four) {
             assert!((0.9 * one..1.2 * one).contains(&four), "{one} {four}");
         }
-        // Each is cut by some radians at most before its end.
+        // Each is cut at most some radians before its end.
         let ends = [0.25, 0.5, 0.75, 1.0].map(|end| end - 3.0 / scene.rotation()..=end);
         assert!(shown.len() == 4 && ends.iter().zip(&shown).all(|(range, part)| range.contains(part)), "{shown:?}");
     }

@@ -1,4 +1,4 @@
-//! A long train, written segment by segment, is that of one motion over the whole span.
+//! A long train, written segment by segment, equals that of one motion over the whole span.
 
 use twofold::observables::pulsar::{arrivals, pulse_train};
 use twofold::plan::Output;
@@ -25,7 +25,7 @@ fn rows_of(scene: &Scene, rotation_per_segment: f64) -> (Vec<Vec<String>>, Pulse
     (text.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect(), summary)
 }
 
-/// Pulses that last across the boundary of two segments are neither torn nor counted twice, and turns are counted on:
+/// Pulses that extend across the boundary of two segments are neither split nor counted twice, and turns are counted on:
 /// forwards and backwards, with a beam so wide that the line of sight stays inside over several segments.
 #[test]
 fn pulses_across_segments_are_whole() {
@@ -60,7 +60,7 @@ fn pulses_across_segments_are_whole() {
                 let field = |k: usize| row[k].parse::<f64>().expect("number");
                 assert_eq!(row[1], (i + 1).to_string());
                 longest = longest.max(if pulse.is_whole() { pulse.duration() } else { 0.0 });
-                // The error of either motion, over a slow rate of m.n.
+                // The error of either motion, divided by a slow rate of m.n.
                 let near = |a: f64, b: f64| (a - b).abs() < 1e-8;
                 assert!(near(field(2), 5.0 + pulse.start) && near(field(3), 5.0 + pulse.end), "{row:?} {pulse:?}");
                 assert!(near(field(4), 5.0 + pulse.midpoint()) && near(field(5), pulse.duration()));

@@ -1,4 +1,4 @@
-//! Lines of a column of a scene's table.
+//! Spectral lines of a column of a scene's table.
 
 use std::f64::consts::TAU;
 use std::io::Write;
@@ -12,27 +12,27 @@ use crate::columns::Column;
 use crate::samples::{Sample, SampledState};
 use crate::scene_file::Scene;
 
-/// Which lines are written, and how.
+/// Selection and format of the lines.
 #[derive(Debug, Clone, Copy)]
 pub struct LinesWanted {
-    /// Least amplitude as a part of the largest one.
+    /// Smallest amplitude as a fraction of the largest one.
     pub least: f64,
-    /// Most lines that are written.
+    /// Largest number of lines that are written.
     pub most: usize,
-    /// Whether frequencies are in turns per unit of time, in Hz where that is the second, rather than in rad.
+    /// Whether frequencies are in turns per unit of time (Hz if that is the second) rather than in rad.
     pub in_turns: bool,
 }
 
-/// What a list of lines says beside the lines.
+/// Information about a list of lines in addition to the lines.
 #[derive(Debug, Clone)]
 pub struct LinesSummary {
     /// Constant term, in the unit of the column.
     pub constant: f64,
-    /// Lines written.
+    /// Number of lines written.
     pub written: usize,
-    /// Lines found.
+    /// Number of lines found.
     pub found: usize,
-    /// Amplitude that rounding makes of what is constant, in the unit of the column, where that is more than the least one wanted.
+    /// Amplitude that rounding of a constant causes, in the unit of the column, if it is larger than the smallest one requested.
     pub rounding: Option<f64>,
     /// Largest difference between the column and the sum of all lines found, at sixteen states, in the unit of the column.
     pub left: f64,
@@ -40,7 +40,7 @@ pub struct LinesSummary {
     pub unit: String,
     /// The fundamental frequencies that are not zero, in that unit.
     pub fundamental: Vec<FundamentalFrequency>,
-    /// The axis of the angles whose rates they are, in the scene's frame.
+    /// The axis of the angles with these rates, in the scene's frame.
     pub pole: [f64; 3],
 }
 
@@ -95,7 +95,7 @@ pub fn write_lines(
     })
 }
 
-/// The value of a column in a state of the motion, and the size of what it is a part of.
+/// The value of a column in a state of the motion, and the size of the quantity that it is a component of.
 fn value_and_size(scene: &Scene, column: &Column, state: &BodyState<f64>) -> Result<[f64; 2], TrajectoryError> {
     let mut sample = Sample::new(0.0, SampledState::Orientation(*state));
     if column.group == Output::EulerAngles {
@@ -103,7 +103,7 @@ fn value_and_size(scene: &Scene, column: &Column, state: &BodyState<f64>) -> Res
     }
     let (value, size) =
         column.value_and_size(scene, &sample).ok_or_else(|| TrajectoryError::Undefined(column.name.clone()))?;
-    // On a pole, or beside it by rounding.
+    // At a pole, or near it within rounding.
     if value.is_finite() { Ok([value, size]) } else { Err(TrajectoryError::Undefined(column.name.clone())) }
 }
 
@@ -119,7 +119,8 @@ mod tests {
         summary.fundamental.iter().map(|frequency| frequency.symbol).collect()
     }
 
-    /// Of a free star `L` stays. One that begins at rest goes round nothing and does not turn about its axis in the mean: the angles of the torus move.
+    /// For a free star `L` stays fixed. A star that starts at rest circles nothing and does not rotate about its axis on average: the angles of the
+    /// torus move.
     #[test]
     fn frequencies_are_told_that_are_not_zero() {
         assert_eq!(symbols(&Scene::named("free").unwrap()), ["alpha'", "gamma'", "nu'", "psi'"]);

@@ -10,18 +10,18 @@ use crate::columns;
 use crate::samples::{AxisStateAt, ErrorAtEnd, ErrorEstimates, Sample, for_each_sample};
 use crate::scene_file::Scene;
 
-/// Counts of a table that was written.
+/// Counts of a written table.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Summary {
-    /// Rows written.
+    /// Number of rows written.
     pub rows: usize,
-    /// Rows with empty fields, because an axis is on a pole.
+    /// Rows with empty fields, because an axis is at a pole.
     pub rows_on_pole: usize,
     /// Time of the first of those rows.
     pub first_on_pole: Option<f64>,
-    /// Error at the end of the span; none without a motion.
+    /// Error at the end of the span; `None` without a motion.
     pub error: Option<ErrorAtEnd>,
-    /// What it took.
+    /// The work done.
     pub work: Work,
 }
 
@@ -32,9 +32,9 @@ pub fn header(scene: &Scene) -> Vec<String> {
     names
 }
 
-/// Computes the motion of `scene` by the [plan](Scene::plan) for its columns and writes it as CSV: the [`header`],
-/// then a row per time. Numbers are written with as few digits as identify the double. Memory is bounded whatever the span.
-/// `progress` is given the part of the span that is done, from 0 to 1.
+/// Computes the motion of `scene` by the [plan](Scene::plan) for its columns and writes it as CSV: the [`header`], then a
+/// row per time. Numbers are written with as few digits as identify the double. Memory is bounded whatever the span.
+/// `progress` receives the fraction of the span that is done, from 0 to 1.
 pub fn write_csv(scene: &Scene, writer: impl Write, progress: impl FnMut(f64)) -> Result<Summary, TrajectoryError> {
     let plan = scene.plan(&scene.columns)?;
     let progress = RefCell::new(progress);
@@ -103,14 +103,14 @@ mod tests {
         ));
         for (row, t) in rows.iter().zip(times) {
             let expected = 0.3 + rate * t;
-            // The tolerance, and below any part of a turn.
+            // The tolerance, and below any fraction of a turn.
             assert!((row[1] - expected).abs() < 1e-5, "t = {t}: {} and {expected}", row[1]);
         }
         assert_eq!(rows.len(), 3);
     }
 
-    /// After 1e11 turns, in steps that doubles hold exactly: `e_z` goes round Z by equal angles. One double for the time in another unit is good to
-    /// 1e-16 of 6e11 rad.
+    /// After 1e11 turns, in steps that doubles represent exactly: `e_z` circles Z in equal angles. A single double for the time in another unit is
+    /// accurate to 1e-16 of 6e11 rad.
     #[test]
     fn late_directions_advance_by_equal_angles() {
         let (beta, spin) = (0.5_f64, TAU * 100.0);
@@ -129,7 +129,7 @@ mod tests {
         assert_eq!(azimuths.len(), 40);
     }
 
-    /// A motion in three segments without a row before its end: it shows where each ends.
+    /// A motion in three segments without a row before its end: it reports where each ends.
     #[test]
     fn progress_is_shown_without_rows() {
         let mut scene = Scene::named("tp-2").unwrap();

@@ -33,7 +33,7 @@ use crate::numerics::scalar::Real;
 /// have degree 8; after three differentiations, degree 5, they are still at 1e-15.
 const SERIES_RADIUS: f64 = 1e-3;
 
-/// More duplications than finite arguments need: each brings them closer by a factor of four. Only NaN gets this far.
+/// More duplications than finite arguments need, since each brings them closer by a factor of four. Only NaN gets this far.
 const MOST_DUPLICATIONS: usize = 600;
 
 /// `R_F(x, y, z) = (1/2) int_0^inf dt / sqrt((t + x)(t + y)(t + z))`, DLMF (19.16.1).
@@ -153,7 +153,7 @@ pub fn rj_of_roots<S: Real>(root_x: S, root_sum: S, root_product: S, p: S) -> S 
     S::from_f64(f64::NAN)
 }
 
-/// The arguments `x` and the pair `y`, `z` on their way to a common value.
+/// The argument `x` and the pair `y`, `z` as they approach a common value.
 struct Arguments<S> {
     x: S,
     root_x: S,
@@ -176,7 +176,7 @@ impl<S: Real> Arguments<S> {
         self.root_x * self.root_sum + self.root_product
     }
 
-    /// Every argument `x` to `(x + lambda) / 4`, which leaves `R_F` as it is.
+    /// Replaces every argument `x` by `(x + lambda) / 4`, which leaves `R_F` unchanged.
     fn duplicate(&mut self) {
         let lambda = self.lambda();
         let x = (self.x + lambda) * 0.25;

@@ -2,7 +2,7 @@
 //! 22.7(i), 22.20(ii)).
 //!
 //! Written here because no maintained Rust crate has them. The complementary parameter `m1 = 1 - m = k'^2` is the argument,
-//! so that nothing is lost as `m -> 1`; `m1 > 1`, a negative parameter, is allowed.
+//! so that no precision is lost as `m -> 1`; `m1 > 1`, a negative parameter, is allowed.
 //!
 //! # Example
 //!
@@ -25,23 +25,25 @@ use crate::numerics::scalar::Real;
 /// Relative difference of the means at which one more step makes them equal to rounding.
 const NEARLY_EQUAL: f64 = 1e-9;
 
-/// Steps after that: their derivatives of the first three orders become equal too.
+/// Additional steps, after which the derivatives of the first three orders have converged too.
 const STEPS_FOR_DERIVATIVES: usize = 2;
 
-/// Below it `1 - share` keeps its digits, in a step with `dn = (1 - share) / (1 + share)`.
+/// Below this `1 - share` keeps its digits, in a step with `dn = (1 - share) / (1 + share)`.
 const SMALL_SHARE: f64 = 0.5;
 
-/// More steps than any start needs: the ratio of the means goes to its square root, then their difference to its square.
+/// More steps than any start needs: the ratio of the means is replaced by its square root, later their difference by its
+/// square.
 const MOST_STEPS: usize = 20;
 
-/// The arithmetic-geometric mean of two positive numbers with its steps: a ladder of Landen transformations for the Jacobi
+/// The arithmetic-geometric mean of two positive numbers with its steps: a sequence of Landen transformations for the Jacobi
 /// functions of parameter `m = 1 - (b/a)^2`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArithmeticGeometricMean<S> {
-    /// The larger and the smaller start and the means after each step; the first `used` of them count, the last is the limit.
+    /// The larger and the smaller starting value and the means after each step; the first `used` of them count, the last is
+    /// the limit.
     steps: [(S, S); MOST_STEPS],
     used: usize,
-    /// Whether `a < b`, a negative parameter: the steps then start from `(b, a)`.
+    /// Whether `a < b`, a negative parameter: the steps then start with `(b, a)`.
     negative_parameter: bool,
 }
 
@@ -59,7 +61,7 @@ pub struct JacobiFunctions<S> {
 impl<S: Real> ArithmeticGeometricMean<S> {
     /// The mean of `a` and `b`, both above zero; NaN otherwise.
     pub fn new(a: S, b: S) -> Self {
-        // The means of a positive number and zero would only halve, and end short of their limit zero.
+        // The means of a positive number and zero would only halve, and stop before their limit zero.
         let b = if a.re() > 0.0 && b.re() > 0.0 { b } else { S::from_f64(f64::NAN) };
         let negative_parameter = a.re() < b.re();
         let mut steps = [if negative_parameter { (b, a) } else { (a, b) }; MOST_STEPS];
@@ -80,7 +82,7 @@ impl<S: Real> ArithmeticGeometricMean<S> {
         self.steps[self.used - 1].0
     }
 
-    /// `K(m) / a = pi / (2 AGM(a, b))`: the time in which `sn(a t | m)` goes from 0 to 1.
+    /// `K(m) / a = pi / (2 AGM(a, b))`: the time in which `sn(a t | m)` rises from 0 to 1.
     pub(crate) fn quarter_period(&self) -> S {
         S::from_f64(FRAC_PI_2) / self.limit()
     }
@@ -96,7 +98,8 @@ impl<S: Real> ArithmeticGeometricMean<S> {
             let share = c2 * f.sn * f.sn * 0.25;
             let denominator = S::one() + share;
             let (sn, cn) = (f.sn / denominator, f.cn * f.dn / denominator);
-            // By `cn`, which has a factor `dn` of the step before, an error would double at each step; but for small `dn` the other form cancels.
+            // If computed from `cn`, which has a factor `dn` of the previous step, an error would double at each step; but for small `dn` the
+            // other form cancels.
             let dn = if share.re() < SMALL_SHARE {
                 (S::one() - share) / denominator
             } else {
@@ -114,7 +117,7 @@ impl<S: Real> ArithmeticGeometricMean<S> {
 
 /// `K(m) = int_0^{pi/2} dphi / sqrt(1 - m sin^2 phi)`, the complete integral of the first kind, from `m1 = 1 - m > 0`.
 ///
-/// Error a few ulp; the logarithmic growth as `m1 -> 0` is resolved down to the smallest `m1`.
+/// Error: a few ulp. The logarithmic growth as `m1 -> 0` is resolved down to the smallest `m1`.
 pub fn complete_integral<S: Real>(m1: S) -> S {
     ArithmeticGeometricMean::new(S::one(), m1.sqrt()).quarter_period()
 }

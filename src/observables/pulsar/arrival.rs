@@ -19,34 +19,35 @@ use crate::propagation::Motion;
 pub struct Arrival {
     /// Turn of the star that the pulse belongs to, zero for the first pulse of the train.
     pub number: i64,
-    /// Middle between the edges.
+    /// Midpoint between the edges.
     pub midpoint: f64,
     /// Time at which the magnetic axis is nearest to the line of sight, `m.n` largest.
     pub closest_approach: f64,
 }
 
 /// The whole pulses of a train, with the motion, beam and line of sight (a unit vector in the frame of the motion) that it
-/// was made from; pulses cut by the span are left out.
+/// was computed from. Pulses cut off by the span are left out.
 ///
 /// The number counts the turns of the magnetic axis about the angular momentum, relative to the line of sight, so that it stays
-/// right where a beam misses some turns. (About L rather than Z: the azimuth about Z counts turns only while the path of `m`
-/// goes round Z. In single precession it need not, and in twofold precession it may leave Z out of a turn now and then; L it
-/// goes round always. Where both are gone round, the counts are the same.) Numbers grow, whichever way the star spins about Z.
+/// correct where a beam misses some turns. (The turns are about L rather than Z because the azimuth about Z counts turns only
+/// while the path of `m` encircles Z. In single precession it need not, and in twofold precession it may occasionally miss Z in
+/// a turn; it always encircles L. Where it encircles both, the counts are the same.) Numbers increase with time, whatever the
+/// sense of rotation about Z.
 ///
-/// Of a motion by [another law](crate::propagation::Turning::Given) the turns about the `L` of its states are counted: it has to go round with the
-/// body, as that of a body turns with `Omega`.
+/// For a motion under [another law](crate::propagation::Turning::Given) the turns about the `L` of its states are counted. `L` must rotate with
+/// the body, as the angular momentum of a body rotates with `Omega`.
 ///
-/// Two pulses of one turn, as a beam nearly grazed gives, have the same number. A pulse that lasts over more than one turn has
-/// that of its closest approach, and none is given to the others. A pulse whose phase at the closest approach is more than half
-/// a turn from that of the line of sight, possible only where the star precesses as fast as it turns, is numbered with the
-/// nearer turn.
+/// Two pulses of one turn, as from a beam that is nearly grazed, have the same number. A pulse that lasts longer than one turn
+/// has the number of its closest approach, and no pulse is assigned to the other turns. A pulse whose phase at the closest
+/// approach is more than half a turn from that of the line of sight, possible only where the star precesses as fast as it
+/// rotates, is numbered with the nearer turn.
 ///
-/// The closest approach is a root of the rate of `m.n`, in error by that of the rate over its slope: about 1e-16 over the
-/// rotation rate where the maximum is sharp. With several maxima in a pulse it is the highest.
+/// The closest approach is a root of the rate of `m.n`. Its error is that of the rate divided by its slope: about 1e-16 over
+/// the rotation rate where the maximum is sharp. If a pulse has several maxima, the highest one is used.
 ///
 /// # Errors
-/// [`Error::Domain`] for a train outside the span of the motion, a line of sight or a magnetic axis that lies along L, and a
-/// motion that is not finite or has no angular momentum, and for turns that cannot be counted, as for [`pulse_train`](super::pulse_train).
+/// [`Error::Domain`] for a train outside the span of the motion, a line of sight or a magnetic axis that lies along L, a motion that is
+/// not finite or has no angular momentum, and turns that cannot be counted, as for [`pulse_train`](super::pulse_train).
 pub fn arrivals<M: Motion<f64, State = BodyState<f64>>>(
     motion: &M,
     beam: &Beam<f64>,
@@ -84,7 +85,7 @@ impl<P: Margin> EdgeSearch<P> {
         Ok(found)
     }
 
-    /// Time of the largest `m.n` between two times at which it is lower and rises or falls inwards.
+    /// Time of the largest `m.n` between two times at which it is lower and increases inwards.
     fn highest(&self, from: f64, to: f64) -> Result<f64, Error> {
         let mut best = (f64::NEG_INFINITY, from);
         self.maxima(from, to, &mut |time, value| {
@@ -95,8 +96,8 @@ impl<P: Margin> EdgeSearch<P> {
         Ok(best.1)
     }
 
-    /// Reports every maximum: the stretch is halved until bounds prove that the rate has no root there, or one at most. About a
-    /// flat top, where the rate is of rounding over a stretch, one time is reported.
+    /// Reports every maximum. The interval is halved until bounds prove that the rate has at most one root there. At a flat
+    /// top, where the rate is rounding over an interval, one time is reported.
     fn maxima(&self, from: f64, to: f64, report: &mut impl FnMut(f64, f64)) -> Result<(), Error> {
         let middle = from + (to - from) / 2.0;
         let radius = (middle - from).max(to - middle);
@@ -133,7 +134,7 @@ mod tests {
         RateBounds { first, second: f64::NAN, third, fourth: f64::NAN, sixth: f64::NAN }
     }
 
-    /// Times of all maxima, and the looks that they took.
+    /// Times of all maxima, and the number of evaluations.
     fn maxima(bounds: RateBounds, (from, to): (f64, f64), margin: impl Fn(f64) -> [f64; 4]) -> (Vec<f64>, usize) {
         let (search, mut found) = (search(bounds, margin), Vec::new());
         search.maxima(from, to, &mut |time, _| found.push(time)).unwrap();
@@ -160,7 +161,7 @@ mod tests {
         }
     }
 
-    /// Waves of any length and height: every maximum once, nothing else.
+    /// Waves of any length and height: every maximum is found once, and nothing else.
     #[test]
     fn every_maximum_is_found_once() {
         let (mut all, mut all_looks) = (0, 0);
@@ -180,7 +181,7 @@ mod tests {
                 }
             }
         }
-        // Four for a root, and two or three for each stretch.
+        // Four evaluations for a root, and two or three for each interval.
         assert!(all > 500 && all_looks < 24 * all, "{all_looks} looks for {all} maxima");
     }
 
@@ -196,11 +197,11 @@ mod tests {
     fn a_flat_top_is_one_maximum() {
         let (found, looks) = maxima(bounded(1.0, 24.0 * 1.3), (2.0, 3.1), flat(2.7, 1.0));
         assert!(found.len() == 1 && (found[0] - 2.7).abs() < 1e-9, "{found:?}");
-        // Only the four thousandths of a radian about it are divided to the end.
+        // Only the interval of four thousandths of a radian about it is subdivided to the end.
         assert!(looks < 2500, "{looks}");
     }
 
-    /// So late that times are a seventh of a radian apart, and the middle of two of them is one of them.
+    /// So late that consecutive doubles are a seventh of a radian apart, and the midpoint of two of them is one of them.
     #[test]
     fn late_maxima_are_found_to_the_spacing_of_times() {
         let start = 2_f64.powi(52);
@@ -210,14 +211,14 @@ mod tests {
                 maxima(bounded(w, 24.0 * 1.2 * w.powi(3)), (start, start + 8.0), move |t| flat(top, w)(t - start));
             assert!(found.len() == 1 && (found[0] - start - top).abs() <= 1.0, "{top}: {found:?}");
         }
-        // The middle of this stretch is rounded to two thirds of it.
+        // The midpoint of this interval is rounded to two thirds of it.
         let (found, _) = maxima(bounded(w, w.powi(3)), (start, start + 3.0), move |t| {
             waves(vec![[1.0, w, 0.0]], 0.0)(t - start - 0.1)
         });
         assert!(found.len() == 1 && (found[0] - start).abs() <= 1.0, "{found:?}");
     }
 
-    /// The rate `a^2 u - u^3`: two maxima at a ten-thousandth of a radian on either side, of a star that turns fast.
+    /// The rate `a^2 u - u^3` has two maxima, a ten-thousandth of a radian on either side, for a star that rotates fast.
     #[test]
     fn maxima_that_are_close_together_are_told_apart() {
         let (w, a) = (1000.0, 1e-4);

@@ -1,4 +1,4 @@
-//! The beam: a cone about the magnetic axis, and whether it holds the line of sight. Eqs. (44), (45), (47).
+//! The beam: a cone about the magnetic axis, and whether it contains the line of sight. Eqs. (44), (45), (47).
 //!
 //! ```
 //! use twofold::observables::pulsar::beam::{Beam, axis_along_line_of_sight};
@@ -75,7 +75,7 @@ impl<S: Scalar> Beam<S> {
         self.margin_rates_turning(&angular_velocity_rates(spheroid, s, bulge, state), state, line_of_sight)
     }
 
-    /// The [`margin`](Self::margin) and its first three time derivatives, for `Omega`, `Omega'`, `Omega''` known.
+    /// The [`margin`](Self::margin) and its first three time derivatives, for given `Omega`, `Omega'`, `Omega''`.
     pub(super) fn margin_rates_turning(
         &self,
         [omega, acceleration, jerk]: &[Vector3<S>; 3],
@@ -91,7 +91,7 @@ impl<S: Scalar> Beam<S> {
     }
 }
 
-/// `Omega`, `Omega'` and `Omega''` by the equations of motion, inertial components.
+/// `Omega`, `Omega'` and `Omega''` from the equations of motion, in inertial components.
 fn angular_velocity_rates<S: Scalar>(
     spheroid: &RigidSpheroid<S>,
     s: &Matrix3<S>,

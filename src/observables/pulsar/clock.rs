@@ -1,4 +1,4 @@
-//! A pulsar as a clock: its pulse near any time, with turns counted without a break over any number of them. Eqs. (44), (47).
+//! A pulsar as a clock: its pulse near any time, with turns counted continuously over any number of them. Eqs. (44), (47).
 
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 
@@ -23,10 +23,11 @@ use crate::propagation::{Motion, PhasedMotion, Turning, largest_torque};
 use crate::solutions::averaged::AveragingOrder;
 use crate::spin_down::{Braking, Precession, StretchedTime};
 
-/// Largest `x = C |s| I^xx / |L|^2` with a torque that goes with the magnetic axis: its two harmonics are those of free precession with the angles at the start, which are right to `x`.
+/// Largest `x = C |s| I^xx / |L|^2` for a torque that depends on the magnetic axis: its two harmonics are those of free precession with the initial
+/// angles, which are accurate to `x`.
 const STRONGEST: f64 = 1e-3;
 
-/// Most rotation of the body in one turn about L (rad): the search takes a tenth of a second.
+/// Largest rotation of the body in one turn about L (rad); the search then takes a tenth of a second.
 const MOST_ROTATION: f64 = 1e5;
 
 /// A pulsar with its motion, its beam and its observer.
@@ -52,7 +53,7 @@ const MOST_ROTATION: f64 = 1e5;
 #[derive(Debug, Clone)]
 pub struct PulsarClock {
     motion: PhasedMotion,
-    /// In the stretched time the star does not slow down.
+    /// In stretched time the star does not slow down.
     time: StretchedTime,
     beam: Beam<f64>,
     observer: Observer<f64>,
@@ -63,18 +64,19 @@ pub struct PulsarClock {
 /// A pulse of a [`PulsarClock`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClockPulse {
-    /// Turn that it belongs to: of the magnetic axis about the angular momentum, from the line of sight, zero for the turn nearest to the
-    /// time zero.
+    /// Turn that it belongs to, counted for the magnetic axis about the angular momentum, relative to the line of sight; zero for the
+    /// turn nearest to the time zero.
     pub number: i64,
-    /// Middle between the edges, as the unevaluated sum of two doubles, of 32 digits.
+    /// Midpoint between the edges, as the unevaluated sum of two doubles, with 32 digits.
     pub midpoint: [f64; 2],
     /// Time between the edges.
     pub duration: f64,
-    /// Position angle (rad) of the magnetic axis at the midpoint, in (-pi, pi]; NaN where that is along the line of sight.
+    /// Position angle (rad) of the magnetic axis at the midpoint, in (-pi, pi]; NaN where the axis is along the line of
+    /// sight.
     pub position_angle: f64,
-    /// Its rate there (rad per unit of time).
+    /// Rate of the position angle there (rad per unit of time).
     pub position_angle_rate: f64,
-    /// By how much the position angle swings from edge to edge (rad), by less than a turn.
+    /// Swing of the position angle from edge to edge (rad), less than a turn.
     pub swing: f64,
     /// State at the midpoint, in the frame of the initial state.
     pub state: BodyState<f64>,
@@ -121,7 +123,8 @@ impl Motion<f64> for Near<'_> {
 }
 
 impl PulsarClock {
-    /// The pulsar in averaged motion, whose state at the time zero is the initial one of `problem`, in whose frame the `observer` is.
+    /// A pulsar clock on the averaged motion of `problem`, starting from its initial state at the time zero. The `observer` is in the
+    /// same inertial frame.
     ///
     /// # Errors
     /// As for [`PhasedMotion::averaged`] and [`on`](Self::on).
@@ -134,11 +137,11 @@ impl PulsarClock {
         Self::on(PhasedMotion::averaged(problem, order)?, beam, observer)
     }
 
-    /// The pulsar in a motion, in whose frame the `observer` is.
+    /// A pulsar clock on a motion. The `observer` is in the same inertial frame.
     ///
     /// # Errors
-    /// [`Error::Domain`] as for [`pulse_train`](super::pulse_train), where the line of sight or the magnetic axis comes along L, about which turns are counted,
-    /// and for a body that turns by more than 1e5 rad in one such turn.
+    /// [`Error::Domain`] as for [`pulse_train`](super::pulse_train), if the line of sight or the magnetic axis comes along L, about which turns are
+    /// counted, and for a body that turns by more than 1e5 rad in one such turn.
     pub fn on(motion: PhasedMotion, beam: &Beam<f64>, observer: &Observer<f64>) -> Result<Self, Error> {
         check_beam(beam, &observer.direction)?;
         let turns = TurnCount::new(&motion, beam, &observer.direction)?;
@@ -154,11 +157,12 @@ impl PulsarClock {
         Ok(Self { bounds, turns, time: StretchedTime::uniform(), motion, beam: *beam, observer: *observer })
     }
 
-    /// The pulsar slowing down by a torque along `L`, from the time zero on, where its mean rotation is that of the motion. `C` falls with the square of the rotation, as
-    /// that of a centrifugal bulge does.
+    /// The pulsar slowing down under a torque along `L`. At the time zero its mean rotation is that of the motion. `C` falls with the square of the
+    /// rotation rate, as for a centrifugal bulge.
     ///
     /// # Errors
-    /// As for [`StretchedTime::new`]; [`Error::Domain`] for a torque that goes with the magnetic axis where `C |s| I^xx / |L|^2` is above 1e-3.
+    /// As for [`StretchedTime::new`]; [`Error::Domain`] for a torque that depends on the magnetic axis where `C |s| I^xx / |L|^2` is above
+    /// 1e-3.
     pub fn braked(self, braking: &Braking) -> Result<Self, Error> {
         if braking.torque_share > 0.0 {
             self.require_weak("C |s| I^xx / |L|^2 with a torque that goes with the magnetic axis")?;
@@ -167,7 +171,8 @@ impl PulsarClock {
         Ok(Self { time, ..self })
     }
 
-    /// The pulsar with friction inside that damps the wobble at a `rate` (1 per unit of time): see [`Precession`]. The axis `n` is taken towards `L`, and the body turned on about it, from where they are without friction.
+    /// The pulsar with internal friction that damps the wobble at a `rate` (1 per unit of time): see [`Precession`]. Relative to the undamped motion,
+    /// `n` is tilted towards `L`, and the phase of the body about `n` is advanced.
     ///
     /// # Errors
     /// As for [`StretchedTime::new`]; [`Error::Domain`] where `C |s| I^xx / |L|^2` is above 1e-3.
@@ -188,11 +193,12 @@ impl PulsarClock {
         let m = self.beam.direction(state);
         let [wobble, chi] = [l, m].map(|v| between(&n, &v));
         let phase = about(&n, &(m - n * n.dot(&m)), &l);
-        // The magnetic axis goes round n as e_x does, and psi is from it to L.
+        // The magnetic axis rotates about n like e_x, and psi is the angle from it to L.
         Ok(Precession::new([wobble, chi, phase], -self.precession_rates()?[0], damping))
     }
 
-    /// The star as a [`TimingModel`]. That has free precession and a line of sight whose angle to `L` changes evenly: it is right to `x = C |s| I^xx / |L|^2` in angles, over times in which `L` turns by a small angle.
+    /// The star as a [`TimingModel`], which has free precession and a line of sight whose angle to `L` changes linearly. It is accurate to
+    /// `x = C |s| I^xx / |L|^2` in angles, over times in which `L` turns by a small angle.
     ///
     /// # Errors
     /// As for [`TimingModel::new`] and [`precession_rates`](Self::precession_rates).
@@ -223,7 +229,8 @@ impl PulsarClock {
         model.moved(&[(Phase, look.phase / core::f64::consts::TAU - at_zero)])
     }
 
-    /// Angle of the line of sight to `L` at the time zero, and its mean rate: over the time in which `L` turns by a hundredth of a radian about its axis.
+    /// Angle of the line of sight to `L` at the time zero, and its mean rate over the time in which `L` turns by a hundredth of a radian about its
+    /// axis.
     fn inclination(&self) -> Result<[f64; 2], Error> {
         let angle = |t: f64| between(&self.motion.state([t, 0.0]).momentum, &self.observer.direction);
         let rate = self.precession_rates()?[1].abs();
@@ -231,16 +238,17 @@ impl PulsarClock {
         Ok([angle(0.0), if rate > 0.0 { (angle(half) - angle(-half)) / (2.0 * half) } else { 0.0 }])
     }
 
-    /// The motion, in the stretched time of a star that slows down.
+    /// The motion; for a star that slows down, in stretched time.
     pub fn motion(&self) -> &PhasedMotion {
         &self.motion
     }
 
-    /// Mean rates (rad per unit of time) of the free precession, of `e_x` about `n` from the direction in which `n` goes round `L`, and of the precession of `L`. That is positive where `L`
-    /// goes in the right-handed sense round the principal axis of `s^IJ` that it circles, directed so that its largest component in the frame of the initial state is positive; zero where `L` stays.
+    /// Mean rates (rad per unit of time) of two precessions. The first is free precession: the rotation of `e_x` about `n`, relative to the direction
+    /// in which `n` circles `L`. The second is the precession of `L`. It is positive where `L` circles a principal axis of `s^IJ` in the right-handed
+    /// sense, with the axis directed so that its largest component in the frame of the initial state is positive. It is zero where `L` stays fixed.
     ///
     /// # Errors
-    /// As for [`QuasiPeriodicMotion::new`]; [`Error::NotConverged`] where turns about `n` or of `L` are not counted.
+    /// As for [`QuasiPeriodicMotion::new`]; [`Error::NotConverged`] if the turns about `n` or of `L` cannot be counted.
     pub fn precession_rates(&self) -> Result<[f64; 2], Error> {
         if let Some(of_momentum) = self.motion.precession_of_momentum() {
             let [.., of_body] = self.motion.rates();
@@ -259,13 +267,16 @@ impl PulsarClock {
         &self.time
     }
 
-    /// Mean time between two pulses, of a star that slows down at the time zero. It is positive: turns are counted about `L`.
+    /// Mean time between two pulses; for a star that slows down, at the time zero. It is positive because turns are counted
+    /// about `L`.
     pub fn period(&self) -> f64 {
         core::f64::consts::TAU / self.turns.rate(&self.motion)
     }
 
-    /// Error of a midpoint at the time `t` by what the motion leaves out: that of directions over the rate of turns. Of a star that slows down also what the
-    /// stretched time leaves out, what angles that are off by `C |s| I^xx / |L|^2` do to the lateness by the varying torque, and what a `C` that does not fall would add to the precession of `L`; of a damped wobble what it changes of the rates by `C`.
+    /// Error of a midpoint at the time `t` because of effects that the motion neglects: the error of directions over the rotation rate. For a star
+    /// that slows down it includes the truncation of the stretched time, the effect of angle errors of `C |s| I^xx / |L|^2` on the timing delay due
+    /// to the torque modulation, and the effect on the precession of `L` of a `C` that does not fall. For a damped wobble it includes the change of
+    /// the rates due to `C`.
     pub fn truncation(&self, t: f64) -> f64 {
         let of_motion = self.motion.truncation(t) / self.turns.rate(&self.motion);
         if self.time.is_uniform() && self.time.precession().damping == 0.0 {
@@ -274,7 +285,8 @@ impl PulsarClock {
         let state = self.motion.problem.initial();
         let precession = self.strength() * state.momentum.norm() / self.motion.problem.spheroid().inertia_xx;
         let slowed = self.time.braking().rate * t * t;
-        // Rates by a rigid C go with the square of the wobble, times 3 / 2 that of L and less than 3 / 2 that about n; the tilt is that of a wobble right to the strength.
+        // The rates due to a rigid C vary with the square of the wobble: that of L by 3 / 2 of it, that about n by less than 3 / 2. The tilt is that
+        // of a wobble accurate to the strength.
         let wobble = self.time.precession().wobble;
         let now = self.time.precession().wobble_at(t);
         let damped = 3.0 * (now.sin().powi(2) - wobble.sin().powi(2)) * t;
@@ -283,7 +295,7 @@ impl PulsarClock {
         of_motion + self.time.truncation(t) + self.time.error_by_angles(self.strength()) + rigid
     }
 
-    /// `C |s| I^xx / |L|^2`, by the largest torque: the relative size of what Lorentz violation adds to rates.
+    /// `C |s| I^xx / |L|^2`, from the largest torque: the relative effect of Lorentz violation on rates.
     fn strength(&self) -> f64 {
         let problem = &self.motion.problem;
         let torque = largest_torque(problem.spheroid(), problem.coefficients());
@@ -293,7 +305,7 @@ impl PulsarClock {
     /// The state as a function of the time since `t[0] + t[1]`, in the frame of the initial one.
     ///
     /// # Errors
-    /// As for [`StretchedTime::stretched_at`], by the function.
+    /// The function returns the errors of [`StretchedTime::stretched_at`].
     pub fn near(&self, t: [f64; 2]) -> impl Fn(f64) -> Result<BodyState<f64>, Error> {
         let near = DoubleDouble::from(t);
         move |since| {
@@ -302,7 +314,7 @@ impl PulsarClock {
         }
     }
 
-    /// The state at a stretched time, with the wobble that friction has left and without braking.
+    /// The state at a stretched time, with the damped wobble but without braking.
     fn state(&self, tau: [f64; 2]) -> BodyState<f64> {
         let state = self.motion.state(tau);
         let precession = self.time.precession();
@@ -323,7 +335,7 @@ impl PulsarClock {
         }
         let sight = &self.observer.direction;
         let damped = phase(&self.beam, sight, &self.state(tau))?;
-        // Their difference by free precession tells the whole turns.
+        // The difference of the phases in free precession determines the whole turns.
         let ahead = precession.ahead(tau[0]);
         let psi = precession.phase_at(tau[0]);
         let azimuth = |wobble: f64, psi: f64| azimuth_ahead(wobble, precession.chi, psi);
@@ -334,23 +346,24 @@ impl PulsarClock {
         Ok(Look { number: look.number + ((turned - phase) / core::f64::consts::TAU).round() as i64, phase })
     }
 
-    /// A state of the motion with its `L` at a stretched time.
+    /// A state of the motion with `L` reduced to its value at a stretched time.
     fn slowed(&self, state: BodyState<f64>, tau: f64) -> BodyState<f64> {
         BodyState { momentum: state.momentum * self.time.slowing(tau), ..state }
     }
 
-    /// The pulse of the turn nearest to the time `t[0] + t[1]`, of its pulses that nearest to the middle of the turn; none if that turn
-    /// is dark, or if an edge of the pulse is farther than a turn and a half from the middle of the turn. The cost does not depend on `t`.
+    /// The pulse of the turn nearest to the time `t[0] + t[1]`; if that turn has several, the one nearest to its middle. `None` if the
+    /// turn has no pulse, or if an edge of the pulse is farther than a turn and a half from the middle of the turn. The cost does not
+    /// depend on `t`.
     ///
-    /// A pulse is a stretch of time with `m.n > cos rho`. The search takes derivatives and their bounds from the exact equations of motion; those
-    /// of an averaged motion differ by `x^2`, `x = C |s| I^xx / |L|^2`, as the averaged motion itself does. For `x` below 1e-6, and in exact motion, edges are as
-    /// exact as those of [`pulse_train`](super::pulse_train), else to some `1e-4 x^2` rad.
+    /// A pulse is an interval of time with `m.n > cos rho`. The search takes derivatives and their bounds from the exact equations of motion; those
+    /// of an averaged motion differ by `x^2`, `x = C |s| I^xx / |L|^2`, like the averaged motion itself. For `x` below 1e-6, and for exact motion,
+    /// edges are as accurate as those of [`pulse_train`](super::pulse_train), otherwise to some `1e-4 x^2` rad.
     ///
     /// # Errors
     /// [`Error::Domain`] for times that are not finite, after 4e18 turns, and as for [`StretchedTime::stretched_at`].
     pub fn pulse_near(&self, t: [f64; 2]) -> Result<Option<ClockPulse>, Error> {
         Error::ensure((t[0] + t[1]).is_finite(), "time t", t[0] + t[1], "a finite number")?;
-        // The parts of a sum that is much less than they are would tell no turns apart.
+        // If the parts are much larger than their sum, they would not resolve turns.
         let t = self.time.stretched_at(DoubleDouble::sum(t[0], t[1]).into())?;
         let look = self.look(t)?;
         let period = self.period();
@@ -403,8 +416,8 @@ impl PulsarClock {
     }
 }
 
-/// The pulse that holds a time, if the line of sight is inside the beam then and m.n is bent downwards: nothing is nearer, and the rest of
-/// the turn need not be looked at.
+/// The pulse at a time, if the line of sight is inside the beam then and m.n is concave: no other pulse is nearer, and the rest of the
+/// turn need not be searched.
 fn around<P: Margin>(search: &EdgeSearch<P>, time: f64, period: f64) -> Result<Option<Pulse>, Error> {
     let middle = search.jet(time)?;
     let [margin, _, curvature, _] = middle.values;
@@ -428,7 +441,7 @@ fn around<P: Margin>(search: &EdgeSearch<P>, time: f64, period: f64) -> Result<O
     Ok(whole.map(|(start, end)| Pulse { start, end, cut_at_start: false, cut_at_end: false }))
 }
 
-/// The pulse that holds a time or is nearest to it.
+/// The pulse that contains a time or is nearest to it.
 fn nearest(train: &PulseTrain, time: f64) -> Option<Pulse> {
     let distance = |pulse: &Pulse| (pulse.start - time).max(time - pulse.end).max(0.0);
     train.pulses.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).copied()
@@ -450,15 +463,16 @@ mod tests {
             assert!((pulse.start + PI / 3.0).abs() < 1e-14 && (pulse.end - PI / 3.0).abs() < 1e-14, "{pulse:?}");
             assert!(!pulse.cut_at_start && !pulse.cut_at_end);
         }
-        // Outside, where it bends upwards though inside, and over more than a period.
+        // Outside the beam, inside it where m.n is convex, and over more than a period.
         assert_eq!(around(0.5, 1.2, TAU), None);
         assert_eq!(around(-0.5, 1.8, 2.0 * TAU), None);
         assert_eq!(around(0.5, 0.0, 2.0), None);
         assert!(around(0.5, 0.0, 2.2).is_some());
     }
 
-    /// A star without Lorentz violation that wobbles by 0.5 rad about L, once in four and a half turns. Of the magnetic axis, 0.3 rad from the axis,
-    /// the angle to L is between 0.2 and 0.8; the observer is next to L, inside the beam for the part of a wobble with a smaller angle.
+    /// A star without Lorentz violation that wobbles by 0.5 rad about L, once in four and a half turns. The magnetic axis is 0.3 rad from the
+    /// symmetry axis, and its angle to L is between 0.2 and 0.8; the observer is next to L, inside the beam for the part of a wobble with a smaller
+    /// angle.
     fn wobbling(half_opening: f64) -> PulsarClock {
         let spheroid = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 0.8, constant_c: 1.0 };
         let (sin, cos) = 0.5_f64.sin_cos();
@@ -472,7 +486,7 @@ mod tests {
 
     #[test]
     fn a_pulse_is_not_given_where_it_lasts_over_more_turns_than_are_searched() {
-        // The share of a wobble with an angle to L below this.
+        // The fraction of a wobble with an angle to L below this.
         let (theta, chi) = (0.5_f64, 0.3_f64);
         let share = |half_opening: f64| {
             let cos = (theta.cos() * chi.cos() - half_opening.cos()) / (theta.sin() * chi.sin());
@@ -483,7 +497,7 @@ mod tests {
             let clock = wobbling(half_opening);
             assert!((clock.period() - TAU).abs() < 1e-12);
             let duration = share(half_opening) * wobble;
-            // Less than one turn, or more than three.
+            // Shorter than one turn, or longer than three.
             assert!(if is_given { duration < 0.9 * TAU } else { duration > 3.3 * TAU });
             let pulses: Vec<_> = (0..40).filter_map(|k| clock.pulse_near([0.5 * f64::from(k), 0.0]).unwrap()).collect();
             assert_eq!(!pulses.is_empty(), is_given, "{half_opening}: {pulses:?}");
@@ -493,8 +507,8 @@ mod tests {
         }
     }
 
-    /// A body with a huge moment about n turns back about n by nearly as much as n goes round L: of a turn of the magnetic axis about L it takes
-    /// `cot(theta / 2)`.
+    /// A body with a huge moment of inertia about n turns back about n by nearly as much as n circles L. One turn of the magnetic axis about L
+    /// takes `cot(theta / 2)` such turns.
     #[test]
     fn a_magnetic_axis_that_hardly_turns_is_refused() {
         let spheroid = RigidSpheroid { inertia_xx: 1.7, inertia_zz: 1e14, constant_c: 1.0 };
@@ -515,7 +529,7 @@ mod tests {
         }
     }
 
-    /// A star that wobbles by 0.2 rad, with `C |s| I^xx / |L|^2` of this size; `s^IJ` is symmetric about Z, from which `L` is 0.5 rad.
+    /// A star that wobbles by 0.2 rad, with `C |s| I^xx / |L|^2` of this size; `s^IJ` is symmetric about Z, and `L` is 0.5 rad from Z.
     fn precessing(strength: f64) -> PulsarClock {
         let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.313, constant_c: 0.8 };
         let l = Vector3::new(0.3_f64.cos() * 0.5_f64.sin(), 0.3_f64.sin() * 0.5_f64.sin(), 0.5_f64.cos());
@@ -528,14 +542,14 @@ mod tests {
         PulsarClock::new(&problem, &Beam::new(1.1, 0.4, 0.3), &Observer::at(1.2, -0.5), AveragingOrder::Second).unwrap()
     }
 
-    /// The star goes through the same pulses later and later: rates are smaller and pulses longer by the rate of the stretched time.
+    /// The star emits the same pulses later and later: rates are smaller and pulses longer by the rate of the stretched time.
     #[test]
     fn pulses_of_a_braked_star_are_those_of_the_free_one_at_the_stretched_time() {
         let free = precessing(5e-4);
         let clock = free.clone().braked(&Braking { rate: 1e-4, index: 3.0, torque_share: 0.5 }).unwrap();
         let stretched = |t: f64| clock.stretched_time().stretched_at([t, 0.0]).unwrap()[0];
         let mut compared = 0;
-        // The wobble takes the beam away and back.
+        // The wobble moves the beam out of sight and back.
         for t in (-18..=18).map(|k| 50.0 * f64::from(k)) {
             let Some(pulse) = clock.pulse_near([t, 0.0]).unwrap() else { continue };
             let middle = pulse.midpoint[0];
@@ -553,7 +567,8 @@ mod tests {
         assert!(compared > 3, "{compared}");
     }
 
-    /// As for the motion; of a star that is braked, whose wobble is damped or excited, or both, its terms written out with the numbers of this star.
+    /// As for the motion; for a star that is braked, whose wobble is damped or excited, or both, the terms are written out with the numbers of this
+    /// star.
     #[test]
     fn what_a_clock_leaves_out() {
         let strength = 5e-4;
@@ -583,12 +598,12 @@ mod tests {
             assert_eq!(undisturbed.truncation(t), undisturbed.motion.truncation(t) / turns);
         }
         assert!(undisturbed.truncation(f64::INFINITY) > 0.0);
-        // A motion near a time is that of the clock.
+        // The error estimate near a time is that of the clock's motion.
         let near = Near { clock: &undisturbed, t: [1e3, 1e-3] };
         assert_eq!(near.error_estimate(5.0), undisturbed.motion.error_estimate(1005.0));
     }
 
-    /// In averaged motion and on the torus, about either pole of any axis, with their senses.
+    /// In averaged motion and on the torus, about either pole of any axis, with their signs.
     #[test]
     fn rates_of_both_precessions_are_those_of_any_motion() {
         let base = precessing(5e-4).motion.problem;
@@ -609,7 +624,7 @@ mod tests {
         }
     }
 
-    /// `L` goes round Z: `cos i = L.o / |L|` changes at the rate `l' (Z x L).o / |L|`.
+    /// `L` circles Z: `cos i = L.o / |L|` changes at the rate `l' (Z x L).o / |L|`.
     #[test]
     fn the_inclination_of_a_timing_model_changes_as_the_momentum_precesses() {
         let clock = precessing(1e-9);
@@ -619,13 +634,13 @@ mod tests {
         let expected = -rate * Vector3::z().cross(&l).dot(&o) / inclination.sin();
         let model = clock.timing_model().unwrap();
         assert!((model.value(Inclination) - inclination).abs() < 1e-14);
-        // A difference over 0.01 rad, of momenta whose nutation is of the size of the strength.
+        // A difference over 0.01 rad, for momenta whose nutation is of the size of the strength.
         let found = model.value(InclinationRate);
         assert!((found / expected - 1.0).abs() < 1e-5 && expected.abs() > 1e-10, "{found:e} {expected:e}");
         assert_eq!(precessing(0.0).timing_model().unwrap().value(InclinationRate), 0.0);
     }
 
-    /// Parts that cancel are one time.
+    /// Parts that cancel add up to one time.
     #[test]
     fn a_time_may_be_any_sum() {
         let clock = wobbling(0.3);
@@ -642,7 +657,7 @@ mod tests {
             pulses: pulses.iter().map(|(start, end)| pulse(*start, *end)).collect(),
             grazings: Vec::new(),
         };
-        // By the edges, not by the midpoints: the third is long.
+        // The edges count, not the midpoints: the third pulse is long.
         let train = of(&[(-5.0, -4.0), (1.0, 1.5), (3.0, 9.0)]);
         for (time, start) in [
             (-9.0, -5.0),

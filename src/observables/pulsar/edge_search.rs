@@ -1,4 +1,4 @@
-//! Finds every time at which the line of sight crosses the edge of the beam, by bounds on the derivatives of `m.n`.
+//! Finds every time at which the line of sight crosses the edge of the beam, using bounds on the derivatives of `m.n`.
 
 use core::cell::Cell;
 
@@ -8,31 +8,31 @@ use super::root::{Look, root};
 use crate::error::Error;
 use crate::numerics::hermite::{Jet, Quintic};
 
-/// An extremum of `m.n` this near to `cos rho` is a grazing: whether the line of sight passes the edge there is beyond
-/// doubles, whose `m.n` along a numerical motion is in error by about as much.
+/// An extremum of `m.n` this close to `cos rho` is a grazing. Whether the line of sight crosses the edge there cannot be
+/// decided in doubles, because `m.n` along a numerical motion has an error of about this size.
 pub const GRAZING: f64 = 1e-13;
 
-/// Rotation (rad) in a piece to begin with, and in one so short that an extremum near the edge is worth finding exactly.
+/// Rotation (rad) in an initial piece, and in one so short that an extremum near the edge is worth finding exactly.
 const PIECE: f64 = 2.4;
 const SHORT: f64 = 0.05;
 
 /// What the search reports, in order of time.
 pub(super) enum Event {
-    /// The margin `m.n - cos rho` changes its sign; whether upwards.
+    /// The margin `m.n - cos rho` changes its sign; `entering` is true if upwards.
     Crossing { time: f64, entering: bool },
     /// An extremum of the margin within [`GRAZING`] of zero.
     Grazing { time: f64 },
 }
 
-/// The search along a motion, by what bounds the derivatives of the margin.
+/// The search along a motion, with bounds on the derivatives of the margin.
 pub(super) struct EdgeSearch<P> {
     pub(super) margin: P,
     pub(super) bounds: RateBounds,
-    /// Divisions that the piece at hand may still take.
+    /// Number of subdivisions left for the current piece.
     divisions: Cell<u32>,
 }
 
-/// Most divisions of one piece, and one more a radian: some ten are usual, a hundred by a grazing.
+/// Maximum number of subdivisions of one piece, plus one per radian: about ten are usual, a hundred near a grazing.
 const MOST_DIVISIONS: u32 = 10_000;
 
 impl<P: Margin> EdgeSearch<P> {
@@ -40,7 +40,7 @@ impl<P: Margin> EdgeSearch<P> {
         Self { margin, bounds, divisions: Cell::new(0) }
     }
 
-    /// Searches a piece anew.
+    /// Searches a new piece.
     pub(super) fn piece(&self, from: &Jet, to: &Jet, report: &mut impl FnMut(Event)) -> Result<(), Error> {
         let rotation = self.bounds.first * (to.time - from.time);
         self.divisions.set(MOST_DIVISIONS.saturating_add(rotation as u32));
@@ -50,18 +50,18 @@ impl<P: Margin> EdgeSearch<P> {
         self.search(from, to, report)
     }
 
-    /// Refuses values and derivatives that cannot be those of one function within the bounds.
+    /// Refuses values and derivatives that cannot belong to one function within the bounds.
     ///
     /// With `H` of [`Quintic`], `f - H` is `(t - a)^3 (t - b)^3` times a divided difference, which for the third derivative at `a` is a
-    /// sixth derivative over 720: there `|f''' - H'''| <= M h^3 / 120`. An error `e` of the margin adds up to `120 e / h^3`, and
-    /// one of its derivatives as much again where they turn as fast. 0.3 lets pass what is off by a few thousandths.
+    /// sixth derivative over 720: there `|f''' - H'''| <= M h^3 / 120`. An error `e` of the margin adds up to `120 e / h^3`, and an
+    /// error of one of its derivatives as much again if they rotate as fast. The value 0.3 accepts errors of a few thousandths.
     fn check_stated_law(&self, from: &Jet, to: &Jet) -> Result<(), Error> {
         let h = to.time - from.time;
         let ([f, df, ddf, dddf], [g, dg, ddg, _]) = (from.values, to.values);
         let of_polynomial = 60.0 * (g - f) - h * (36.0 * df + 24.0 * dg) + h * h * (3.0 * ddg - 9.0 * ddf);
         let mismatch = (h * h * h * dddf - of_polynomial).abs();
         let allowed = self.bounds.sixth * h.powi(6) / 120.0 + 0.3;
-        // The estimate may take a second motion: only where it decides.
+        // The estimate may require a second motion, so it is made only where it decides.
         Error::ensure(
             mismatch <= allowed || mismatch <= allowed + 300.0 * self.margin.estimated_error(to.time),
             "third derivative of m.n times h^3, over a stretch of length h, by the stated law less that by the states",
@@ -73,7 +73,7 @@ impl<P: Margin> EdgeSearch<P> {
     /// The margin and its first three time derivatives.
     pub(super) fn at(&self, t: f64) -> Result<[f64; 4], Error> {
         let margin = self.margin.at(t)?;
-        // A number that is not finite spoils the sum, which does not overflow otherwise.
+        // A value that is not finite makes the sum not finite; otherwise the sum does not overflow.
         let all = margin.iter().sum::<f64>();
         Error::ensure(all.is_finite(), "m.n or a time derivative of it", all, "a finite number")?;
         Ok(margin)
@@ -83,7 +83,7 @@ impl<P: Margin> EdgeSearch<P> {
         Ok(Jet { time, values: self.at(time)? })
     }
 
-    /// Reports every event between a time that has been looked at and a later one, whose margin it gives.
+    /// Reports every event between a time that has been evaluated and a later one, and returns the margin there.
     pub(super) fn events(&self, from: Jet, to: f64, report: &mut impl FnMut(Event)) -> Result<Jet, Error> {
         let piece = PIECE / self.bounds.first;
         let mut from = from;
@@ -101,8 +101,8 @@ impl<P: Margin> EdgeSearch<P> {
         Quintic::between(from, to, [self.bounds.first, self.bounds.second, self.bounds.sixth])
     }
 
-    /// Divides a piece until the polynomial through its ends and the bounds of what that leaves out prove that the margin
-    /// has no root there, or one.
+    /// Subdivides a piece until the polynomial through its ends and the bounds on its remainder prove that the margin has at
+    /// most one root there.
     fn search(&self, from: &Jet, to: &Jet, report: &mut impl FnMut(Event)) -> Result<(), Error> {
         let polynomial = self.quintic(from, to);
         if polynomial.is_clear(2.0 * GRAZING) {
@@ -115,7 +115,7 @@ impl<P: Margin> EdgeSearch<P> {
         }
         let mut middle = from.time + length / 2.0;
         if let Some(convex) = polynomial.convexity().or_else(|| self.is_curved(from, to)) {
-            // An extremum this near to the edge is to be reported, on whatever side of it the ends are.
+            // An extremum this close to the edge is to be reported, whichever side the ends are on.
             let off_the_edge = from.values[0].abs().min(to.values[0].abs()) > 2.0 * GRAZING;
             if is_across && (off_the_edge || from.is_rising() == to.is_rising()) {
                 return self.crossing(from, to, &polynomial, report);
@@ -154,14 +154,15 @@ impl<P: Margin> EdgeSearch<P> {
         self.search(&middle, to, report)
     }
 
-    /// Whether the rate keeps its sign between two times because it cannot change so fast.
+    /// Whether the rate keeps its sign between two times, because it cannot change fast enough.
     fn is_steep(&self, from: &Jet, to: &Jet) -> bool {
         let RateBounds { first, second, .. } = self.bounds;
         let (a, b) = (from.values[1], to.values[1]);
         a * b > 0.0 && (a + b).abs() > second * (to.time - from.time) + 16.0 * f64::EPSILON * first
     }
 
-    /// The sign of the second derivative, if it keeps it because it cannot change so fast; whether it is positive.
+    /// Whether the second derivative is positive, if it keeps its sign because it cannot change fast enough; otherwise
+    /// `None`.
     fn is_curved(&self, from: &Jet, to: &Jet) -> Option<bool> {
         let RateBounds { second, third, .. } = self.bounds;
         let (a, b) = (from.values[2], to.values[2]);
@@ -185,8 +186,8 @@ impl<P: Margin> EdgeSearch<P> {
         Ok(())
     }
 
-    /// The step to the root of the cubic about `t`, by reversion of its series. It is exact if that root is one of the cubic and the
-    /// next term of the margin, by its bound, moves it by less than `t` or the margin are rounded.
+    /// The step to the root of the cubic about `t`, by reversion of its series. It is exact if it is a root of the cubic and the
+    /// next term of the margin, by its bound, moves it by less than the rounding of `t` or of the margin.
     #[inline]
     fn look_for_edge(&self, t: f64, width: f64, margin: &[f64; 4]) -> Look {
         let [value, rate, second, third] = *margin;
@@ -206,7 +207,7 @@ impl<P: Margin> EdgeSearch<P> {
         Ok(Look { value: rate, step: -rate / second, is_exact: false })
     }
 
-    /// On a piece with an extremum, near `guess`: the roots on both sides of it.
+    /// The roots on both sides of an extremum near `guess`, in a piece that contains it.
     fn around_extremum(&self, from: &Jet, to: &Jet, guess: f64, report: &mut impl FnMut(Event)) -> Result<(), Error> {
         let time = root((from.time, to.time), guess, to.is_rising(), |t| self.look_for_extremum(t))?;
         let extremum = self.jet(time)?;
@@ -230,7 +231,7 @@ mod tests {
     use super::*;
     use crate::observables::pulsar::margin::tests::search_of;
 
-    /// Times of crossings (and whether upwards), and of grazings.
+    /// Times of crossings (with `true` if upwards), and of grazings.
     fn found<P: Margin>(search: &EdgeSearch<P>, from: f64, to: f64) -> (Vec<(f64, bool)>, Vec<f64>) {
         let (mut crossings, mut grazings) = (Vec::new(), Vec::new());
         let start = search.jet(from).unwrap();
@@ -247,7 +248,7 @@ mod tests {
         Jet { time, values }
     }
 
-    /// Of which the error alone is asked.
+    /// A margin of which only the error is used.
     struct Known(f64);
 
     impl Margin for Known {
@@ -264,7 +265,8 @@ mod tests {
         }
     }
 
-    /// A third derivative that values of zero do not have: 0.3, what the sixth one leaves open, and 300 errors of the later value.
+    /// A third derivative that is inconsistent with values of zero: by 0.3, which the sixth derivative leaves open, and by 300
+    /// errors of the later value.
     #[test]
     fn a_law_that_the_values_do_not_follow_is_refused() {
         let bounds = RateBounds { first: 1.0, second: 1.0, third: 1.0, fourth: 1.0, sixth: 2.4 };
@@ -299,7 +301,7 @@ mod tests {
             assert_eq!(with(bounds).is_steep(&from, &to), is_certain);
             assert_eq!(with(bounds).is_curved(&from, &to), is_certain.then_some(a > 0.0));
         }
-        // Sixteen roundings of what a rate may be at most.
+        // Sixteen roundings of the largest possible rate.
         for (largest, is_certain) in [(5.5e14, true), (5.7e14, false)] {
             let (from, to) = ends(1.0, 1.0, 1.0);
             let rounded = RateBounds { first: largest, second: 0.0, third: 0.0, ..bounds };
@@ -309,7 +311,7 @@ mod tests {
         }
     }
 
-    /// Narrow pulses and narrow gaps of a single wave, with the looks that they take.
+    /// Narrow pulses and narrow gaps of a single wave, with the number of evaluations.
     #[test]
     fn extrema_near_the_edge_are_found_with_few_looks() {
         let mut looks = 0;
@@ -317,7 +319,7 @@ mod tests {
             let below = 10f64.powi(-exponent);
             for sign in [1.0, -1.0] {
                 for offset in [0.0, 0.37, 0.9, -0.6] {
-                    // From the middle of the span 3.1 to either side.
+                    // From the middle of a span of 3.1 to either side.
                     let search = search_of(vec![[sign, 1.0, offset]], sign * (1.0 - below));
                     let (crossings, grazings) = found(&search, -offset - 3.1, -offset + 3.0);
                     assert!(grazings.is_empty() && crossings.len() == 2, "{exponent} {sign} {offset}: {crossings:?}");
@@ -336,7 +338,7 @@ mod tests {
         assert!(looks <= 1440, "{looks} looks");
     }
 
-    /// Of slow and fast stars: near and short are measured in radians.
+    /// For slow and fast stars: `near` and `short` are measured in radians.
     #[test]
     fn grazings_are_told_on_either_side_of_the_edge() {
         for w in [1.0, 1e-7, 3e-3, 40.0, 1e6] {
@@ -346,7 +348,7 @@ mod tests {
                 for (sign, offset) in [(1.0, 0.1), (1.0, -0.8), (-1.0, 0.1), (-1.0, -0.8)] {
                     let search = search_of(vec![[sign, w, 0.0]], sign * (1.0 - below));
                     let events = found(&search, (-1.0 + offset) / w, (1.0 + offset) / w);
-                    // At the edge itself rounding decides.
+                    // Exactly at the edge rounding decides.
                     assert!(events.0.len() == crossings || below.abs() < 1e-15, "{w} {below:e}: {events:?}");
                     assert_eq!(events.1.len(), grazings, "{w} {below:e}: {events:?}");
                     assert!(events.1.iter().all(|time| (time * w).abs() < 1e-9));
@@ -370,7 +372,7 @@ mod tests {
             (crossings, grazings)
         };
         let edge = 1e-13_f64.sqrt();
-        // The end inside is before the top, or after it; the other is outside.
+        // The inner end is before the top, or after it; the other end is outside.
         for (from, to, second, holds_top) in [(-1e-7, 0.3, 1.0, true), (1e-13, 0.04, 1.0, false)] {
             for sign in [1.0, -1.0] {
                 let (a, b) = if sign > 0.0 { (from, to) } else { (-to, -from) };
@@ -383,7 +385,7 @@ mod tests {
                 assert!(crossings.len() == 1 && is_edge(crossings[0]), "{crossings:?}");
             }
         }
-        // All on one side of the top, with bounds too wide to tell.
+        // All on one side of the top, with bounds too wide to decide.
         assert_eq!(events(1e-13, 2e-7, 2.0), (vec![], vec![]));
     }
 

@@ -1,4 +1,4 @@
-//! Times of a pulse with their derivatives by parameters, from the implicit function theorem. Eq. (44).
+//! Times of a pulse with their derivatives with respect to parameters, from the implicit function theorem. Eq. (44).
 //!
 //! ```
 //! use num_dual::Dual64;
@@ -21,14 +21,15 @@ use crate::numerics::scalar::Real;
 /// dt/dp = -(df/dp) / (df/dt)
 /// ```
 ///
-/// `t` is a root to rounding, `value` is `f` at that fixed time with its derivatives by `p`, and `rate` is `df/dt` there. This is
-/// one step of Newton's method in numbers that carry derivatives; its real part moves `t` by what rounding had left.
+/// `t` is a root to rounding, `value` is `f` at that fixed time with its derivatives with respect to `p`, and `rate` is `df/dt`
+/// there. This is one step of Newton's method in numbers that carry derivatives; its real part corrects `t` for the remaining
+/// rounding error.
 ///
 /// With the [rates of the margin](super::Beam::margin_rates) `[f, f', f'', ..]` at `t`, an edge of a pulse, Eq. (44) `[ineq]`, is
 /// `event_time(t, f, f'.re())`, and a closest approach `event_time(t, f', f''.re())`.
 ///
 /// # Errors
-/// [`Error::Domain`] for a rate of zero or one that is not finite: the root is a touch, and no function of `p`.
+/// [`Error::Domain`] for a rate of zero or one that is not finite: at a double root `t` is not a function of `p`.
 pub fn event_time<S: Real>(t: f64, value: S, rate: f64) -> Result<S, Error> {
     Error::ensure(rate.abs() > 0.0 && rate.is_finite(), "rate at a root", rate, "finite and not zero: no touch")?;
     Ok(S::from_f64(t) - value / rate)

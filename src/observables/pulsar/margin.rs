@@ -1,4 +1,4 @@
-//! The margin `m.n - cos rho` by which the line of sight is inside the beam, along a motion.
+//! The margin `m.n - cos rho` along a motion; it is positive where the line of sight is inside the beam.
 
 use nalgebra::Vector3;
 
@@ -9,22 +9,22 @@ use crate::propagation::{Motion, SeriesProjection, Turning};
 
 /// The margin `m.n - cos rho` along a motion.
 pub(super) trait Margin {
-    /// With its first three time derivatives at the time `t`.
+    /// The margin with its first three time derivatives at the time `t`.
     fn at(&self, t: f64) -> Result<[f64; 4], Error>;
 
-    /// The latest time in `(after, t]` at which it takes less work than elsewhere, or `t`.
+    /// The latest time in `(after, t]` at which it is cheaper to evaluate, or `t`.
     fn cheapest_time(&self, after: f64, t: f64) -> f64;
 
-    /// Whether the derivatives come from a law that the motion states, so that the values may disagree with them.
+    /// Whether the derivatives come from a law stated by the motion, so that the values may be inconsistent with them.
     const BY_STATED_LAW: bool = false;
 
-    /// What the values may be wrong by at the time `t`.
+    /// Possible error of the values at the time `t`.
     fn estimated_error(&self, _t: f64) -> f64 {
         0.0
     }
 }
 
-/// From the series of a motion, which are cheapest where they start.
+/// The margin from the series of a motion, which are cheapest to evaluate at their start.
 pub(super) struct BySeries<'a> {
     projection: &'a SeriesProjection<'a>,
     /// `cos rho`.
@@ -32,7 +32,7 @@ pub(super) struct BySeries<'a> {
 }
 
 impl<'a> BySeries<'a> {
-    /// `projection` is that of the axis of the beam on the line of sight.
+    /// `projection` is that of the beam axis on the line of sight.
     pub(super) fn new(projection: &'a SeriesProjection<'a>, beam: &Beam<f64>) -> Self {
         Self { projection, edge: beam.half_opening.cos() }
     }
@@ -49,7 +49,7 @@ impl Margin for BySeries<'_> {
     }
 }
 
-/// From the states of any motion.
+/// The margin from the states of any motion.
 pub(super) struct ByStates<'a, M> {
     pub(super) motion: &'a M,
     pub(super) turning: Turning<'a>,
@@ -98,7 +98,7 @@ pub(super) mod tests {
     use crate::observables::pulsar::rate_bounds::RateBounds;
     use crate::propagation::UniformMotion;
 
-    /// A rate may be above the bound stated for it by rounding, a billionth.
+    /// A rate may exceed its stated bound by rounding, a billionth.
     #[test]
     fn rates_keep_to_the_bounds_that_are_stated() {
         let motion = UniformMotion::free(&problem([0.0; 3]), (0.0, 1.0));
@@ -113,13 +113,13 @@ pub(super) mod tests {
         }
     }
 
-    /// A margin by a function, which counts how often it is looked at.
+    /// A margin given by a function, with a count of its evaluations.
     pub(in crate::observables::pulsar) struct Given<F>(F, pub(in crate::observables::pulsar) Cell<usize>);
 
     impl<F: Fn(f64) -> [f64; 4]> Margin for Given<F> {
         fn at(&self, t: f64) -> Result<[f64; 4], Error> {
             self.1.set(self.1.get() + 1);
-            // A search takes some dozens.
+            // A search takes some dozens of evaluations.
             Error::ensure(self.1.get() < 10_000, "looks", 1e4, "fewer")?;
             Ok((self.0)(t))
         }
@@ -129,7 +129,7 @@ pub(super) mod tests {
         }
     }
 
-    /// A search by a function with bounds on its derivatives.
+    /// A search for a function with bounds on its derivatives.
     pub(in crate::observables::pulsar) fn search<F: Fn(f64) -> [f64; 4]>(
         bounds: RateBounds,
         margin: F,
@@ -148,7 +148,7 @@ pub(super) mod tests {
         }
     }
 
-    /// The same with the bounds that their amplitudes and frequencies give.
+    /// The same with the bounds that follow from the amplitudes and frequencies.
     pub(in crate::observables::pulsar) fn search_of(
         of: Vec<[f64; 3]>,
         edge: f64,

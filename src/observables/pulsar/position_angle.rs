@@ -1,8 +1,8 @@
 //! Position angle of the linear polarization in the rotating-vector model, for a precessing star.
 //!
-//! In the model of V. Radhakrishnan and D. J. Cooke, Astrophys. Lett. 3, 225 (1969), the polarization is along (or across) the
-//! projection of the magnetic axis `m` on the sky. Its position angle `psi` is counted as astronomers do, from north through
-//! east, counterclockwise as the observer sees it:
+//! In the model of V. Radhakrishnan and D. J. Cooke, Astrophys. Lett. 3, 225 (1969), the polarization is along (or
+//! perpendicular to) the projection of the magnetic axis `m` on the sky. Its position angle `psi` is counted as in astronomy,
+//! from north through east, counterclockwise as seen by the observer:
 //!
 //! ```text
 //! north = -theta-hat_o   (the projection of +Z),    east = -phi-hat_o = n-hat x north,    n-hat towards the observer
@@ -10,8 +10,8 @@
 //! ```
 //!
 //! The printed formula of that model counts clockwise: its angle is `-psi` (J. E. Everett and J. M. Weisberg, Astrophys. J. 553,
-//! 341 (2001)). For a line, such as a polarization, `psi` is known up to half a turn. Nothing in the model asks the star to spin
-//! about a fixed axis: with `Theta(t)` and `Phi(t)` of Eq. (49) `[tranang]` it holds for any motion.
+//! 341 (2001)). For a line, such as a polarization, `psi` is known up to half a turn. The model does not require the star to
+//! spin about a fixed axis: with `Theta(t)` and `Phi(t)` of Eq. (49) `[tranang]` it holds for any motion.
 //!
 //! ```
 //! use nalgebra::Vector3;
@@ -108,7 +108,7 @@ pub fn rotating_vector_position_angle<S: Real>(theta: S, phi: S, theta_o: S, phi
 /// ```
 ///
 /// At `Phi = phi_o` the second is `-sin Theta / sin(theta_o - Theta)`, for `Theta = chi` the steepest gradient of the classic
-/// model. Off the line of sight; on it a division by zero.
+/// model. Valid off the line of sight; on it there is a division by zero.
 pub fn rotating_vector_gradient<S: Scalar>(theta: S, phi: S, theta_o: S, phi_o: S) -> (S, S) {
     let (sin_phi, cos_phi) = sin_cos_of_sum(phi, -phi_o);
     let ((s, c), (s_o, c_o)) = (theta.sin_cos(), theta_o.sin_cos());

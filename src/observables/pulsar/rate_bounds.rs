@@ -35,21 +35,21 @@ pub struct RateBounds {
 }
 
 impl RateBounds {
-    /// From bounds on `|Omega|` and its first five time derivatives: with `m' = Omega x m` those of `m` are at most
-    /// `m_0 = 1, m_(k+1) = sum_j (k over j) w_j m_(k-j)`.
+    /// From bounds on `|Omega|` and its first five time derivatives: with `m' = Omega x m` the derivatives of `m` are at
+    /// most `m_0 = 1, m_(k+1) = sum_j (k over j) w_j m_(k-j)`.
     pub(super) fn of_angular_velocity(omega: &[f64; 6]) -> Self {
         let mut m = [0.0; HIGHEST + 1];
         m[0] = 1.0;
         for k in 0..HIGHEST {
             m[k + 1] = leibniz(k, omega, &m);
         }
-        // Unit vectors are such to 1e-9.
+        // Unit vectors are of unit length only to 1e-9.
         let slack = 1.0 + 1e-7;
         let [_, first, second, third, fourth, _, sixth] = m.map(|bound| bound * slack);
         Self { first, second, third, fourth, sixth }
     }
 
-    /// Those of a motion, which its state at a time of the span and its [`Turning`] give.
+    /// The bounds for a motion, from its state at a time of the span and its [`Turning`].
     pub(super) fn of_motion<M: Motion<f64, State = BodyState<f64>>>(
         motion: &M,
         turning: &Turning<'_>,
@@ -68,11 +68,11 @@ impl RateBounds {
         Ok(Self::of_angular_velocity(bounds))
     }
 
-    /// Refuses a stretch of time with more turns than can be looked at one by one, or so late that doubles do not tell its turns apart.
+    /// Refuses an interval of time with more turns than can be followed one by one, or so late that doubles do not resolve its turns.
     pub(super) fn check_countable(&self, from: f64, to: f64) -> Result<(), Error> {
         let rotation = self.first * (to - from).abs();
         if rotation.is_nan() {
-            // Refused with the state that it comes of.
+            // The error is reported with the state that causes it.
             return Ok(());
         }
         Error::ensure(
@@ -83,7 +83,7 @@ impl RateBounds {
         )?;
         let latest = from.abs().max(to.abs());
         Error::ensure(
-            // A sum changes by what is more than half the spacing of doubles.
+            // A sum changes if the addend is more than half the spacing of doubles.
             from == to || latest + LEAST_RESOLVED / 2.0 / self.first > latest,
             "time t",
             latest,
@@ -98,13 +98,13 @@ const LEAST_RESOLVED: f64 = 0.2;
 /// Highest derivative that is bounded.
 const HIGHEST: usize = 6;
 
-/// The bounds from one state of the motion, by its energy and spin.
+/// The bounds from one state of the motion, using its energy and spin.
 ///
-/// With `T = |C| (largest - smallest eigenvalue of s) / I^xx`, bounded by the Frobenius norm of its anisotropic part, the
-/// torque is at most `I^xx T`; the energy keeps `|dn/dt|^2 <= |dn/dt|^2(now) + 2 T = v^2`, and the spin `Omega^z` is constant.
+/// With `T = |C| (largest - smallest eigenvalue of s) / I^xx`, bounded by the Frobenius norm of its anisotropic part, the torque is
+/// at most `I^xx T`. Conservation of energy gives `|dn/dt|^2 <= |dn/dt|^2(now) + 2 T = v^2`, and the spin `Omega^z` is constant.
 /// Hence, with `w = sqrt(v^2 + Omega^z^2)`, `e = |I^zz - I^xx| |Omega^z| / I^xx` and
 /// `g = sqrt(v^2 + (I^zz Omega^z / I^xx)^2) >= |L| / I^xx`, the derivatives of order `k` of `L / I^xx`, `n`, `Omega` and `m` are at
-/// most `l_k`, `n_k`, `w_k` and `m_k`, the last with `m_0 = 1, m_(k+1) = sum_j (k over j) w_j m_(k-j)` by `m' = Omega x m`:
+/// most `l_k`, `n_k`, `w_k` and `m_k`, the last with `m_0 = 1, m_(k+1) = sum_j (k over j) w_j m_(k-j)` from `m' = Omega x m`:
 ///
 /// ```text
 /// l_0 = g,   l_(k+1) = T sum_j (k over j) n_j n_(k-j)          L' = 2 C (s n) x n, to s any multiple of 1 may be added
@@ -112,9 +112,9 @@ const HIGHEST: usize = 6;
 /// w_0 = w,   w_k = l_k + e n_k                                 Omega = L / I^xx - (I^zz - I^xx) Omega^z n / I^xx
 /// ```
 ///
-/// A bulge of the energy `b L.(s L)` turns everything by `2 b s L`, at most `B |L| / I^xx` with `B = 2 |b| |s| I^xx`. The energy then keeps
-/// `(1 - B) g^2 <= (1 + B) g^2(now) + 2 T`, and `v^2` grows by `2 T + B (g^2(now) + g^2)`; in the rate of `n` and in `w` stands `(1 + B) l` in place of `l`, and `l_(k+1)` has `B sum_j (k over j) l_j l_(k-j)` more.
-/// From `B = 1` on the bounds are infinite.
+/// A bulge of the energy `b L.(s L)` rotates everything by `2 b s L`, at most `B |L| / I^xx` with `B = 2 |b| |s| I^xx`. The energy then gives
+/// `(1 - B) g^2 <= (1 + B) g^2(now) + 2 T`, and `v^2` grows by `2 T + B (g^2(now) + g^2)`. In the rate of `n` and in `w`, `(1 + B) l` replaces `l`,
+/// and `l_(k+1)` has the additional term `B sum_j (k over j) l_j l_(k-j)`. For `B >= 1` the bounds are infinite.
 pub fn rate_bounds<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, bulge: S, state: &BodyState<S>) -> RateBounds {
     let (xx, zz) = (spheroid.inertia_xx.re(), spheroid.inertia_zz.re());
     let s = s.map(S::re);
@@ -124,7 +124,7 @@ pub fn rate_bounds<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, bulge: 
     let axis = real_part(&state.axis);
     let spin = omega.dot(&axis).abs();
     let of_bulge = 2.0 * bulge.re().abs() * anisotropic.norm() * xx;
-    // Without a bulge also of what is infinite.
+    // Without a bulge this is zero even if `size` is infinite.
     let by_bulge = |size: f64| if of_bulge > 0.0 { of_bulge * size } else { 0.0 };
     let (across, along) = (omega.cross(&axis).norm_squared(), zz / xx * spin);
     let now = across + along * along;
@@ -174,7 +174,8 @@ mod tests {
                 assert_eq!(is_refused(0.5, from, to), refused, "{from} {to}");
             }
         }
-        // From here on times are one apart, before here by half of that: the nearest that is more than a half away is resolved.
+        // From this time on doubles are one apart, before it half of that: the nearest one that is more than a half away is
+        // resolved.
         let late = 2_f64.powi(52);
         for (first, refused) in [(0.19, false), (0.21, true)] {
             for (from, to) in [(late - 50.0, late), (late, late - 50.0), (-late, 50.0 - late), (50.0 - late, -late)] {
@@ -185,7 +186,7 @@ mod tests {
         assert!(!is_refused(f64::NAN, 0.0, 1.0));
     }
 
-    /// With `n` and `L` on a principal axis of `s` a bulge adds its part to a uniform rotation.
+    /// With `n` and `L` on a principal axis of `s` a bulge adds its contribution to a uniform rotation.
     #[test]
     fn the_bounds_have_the_turning_of_a_bulge() {
         let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.9, constant_c: 0.0 };
@@ -204,7 +205,8 @@ mod tests {
         }
     }
 
-    /// About its own axis, without a torque, a star turns uniformly: the derivative of order `k` is that power of the rate.
+    /// Without a torque, a star that rotates about its own axis does so uniformly: the derivative of order `k` is the `k`-th
+    /// power of the rate.
     #[test]
     fn uniform_rotation_has_the_powers_of_its_rate_for_bounds() {
         let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.9, constant_c: 0.7 };
@@ -219,7 +221,7 @@ mod tests {
             assert_relative_eq!(bound, rate.powi(order), max_relative = 1e-6);
             assert!(bound > rate.powi(order));
         }
-        // A torque has a size whatever the sign of C.
+        // The size of a torque does not depend on the sign of C.
         let s = Matrix3::new(0.02, 0.01, 0.0, 0.01, -0.03, 0.004, 0.0, 0.004, 0.01);
         let opposite = RigidSpheroid { constant_c: -0.7, ..spheroid };
         assert_eq!(rate_bounds(&opposite, &s, 0.0, &state), rate_bounds(&spheroid, &s, 0.0, &state));

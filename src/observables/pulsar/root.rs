@@ -2,21 +2,21 @@
 
 use crate::error::Error;
 
-/// What is known of a function at one time, for the search of its root.
+/// Information about a function at one time, for the search of its root.
 pub(super) struct Look {
     /// Value there.
     pub(super) value: f64,
     /// Estimated distance from there to the root.
     pub(super) step: f64,
-    /// Whether that is known to be exact to rounding.
+    /// Whether this distance is known to be exact to rounding.
     pub(super) is_exact: bool,
 }
 
-/// The time in `[low, high]` at which a function changes its sign, to the spacing of doubles at the larger of it and
-/// of the bracket's width, or to the rounding of the function.
+/// The time in `[low, high]` at which a function changes its sign, to the spacing of doubles at the larger of this time and
+/// the width of the bracket, or to the rounding of the function.
 ///
-/// The search begins at `guess`, or at the middle if that is outside. `rising` says that the function is positive at `high` and not
-/// at `low`, or the other way round. Steps are halved to the bracket where they leave it or do not shrink it.
+/// The search begins at `guess`, or at the middle if that is outside. If `rising`, the function is positive at `high` and not at
+/// `low`, otherwise the other way round. Steps are replaced by bisection where they leave the bracket or do not shrink it.
 pub(super) fn root(
     (mut low, mut high): (f64, f64),
     guess: f64,
@@ -58,7 +58,8 @@ mod tests {
 
     use super::*;
 
-    /// The times that are looked at, for a root at `at` of a rising function whose steps are given in turn, then too long ones.
+    /// The times that are evaluated, for a root at `at` of a rising function whose steps are given in order, followed by steps
+    /// that are too long.
     fn looks(bracket: (f64, f64), guess: f64, at: f64, steps: &[f64]) -> Vec<f64> {
         let seen = RefCell::new(Vec::new());
         let look = |t: f64| {
@@ -72,7 +73,8 @@ mod tests {
         seen.into_inner()
     }
 
-    /// The search begins at the guess, or in the middle; steps that leave the bracket or do not shrink are halvings of it.
+    /// The search begins at the guess, or in the middle; steps that leave the bracket or do not shrink are replaced by
+    /// bisection.
     #[test]
     fn times_that_are_looked_at_are_those_of_the_rules() {
         let none: &[f64] = &[];
@@ -83,12 +85,12 @@ mod tests {
             (10.0, none, &[6.0]),
             (11.0, none, &[6.0]),
             (f64::NAN, none, &[6.0, 8.0, 7.0, 7.5, 7.25]),
-            // As short as half the bracket at first.
+            // The first step may be as long as half the bracket.
             (3.0, &[4.5], &[3.0, 6.5, 8.25]),
             (3.0, &[3.9], &[3.0, 6.9, 8.45]),
             // 2 is less than half of 8, 0.9 less than half of 2, 0.5 not less than half of 0.9: then the bracket is [5.9, 10].
             (3.0, &[2.0, 0.9, 0.5], &[3.0, 5.0, 5.9, 7.95]),
-            // After that, half of the bracket's length is the measure again, 2.05.
+            // After that the criterion is again half of the bracket's length, 2.05.
             (3.0, &[2.0, 0.9, 0.5, -2.0], &[3.0, 5.0, 5.9, 7.95, 5.95]),
             (3.0, &[2.0, 0.9, 0.5, -2.06], &[3.0, 5.0, 5.9, 7.95, 6.925000000000001]),
         ] {

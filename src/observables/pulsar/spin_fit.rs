@@ -15,28 +15,30 @@ use super::timing::check_number;
 use crate::error::Error;
 use crate::numerics::double_double::DoubleDouble;
 
-/// The phase `phase + F0 t + F1 t^2 / 2 + F2 t^3 / 6` (turns) fitted to pulse numbers by least squares, as timing programs do.
+/// The phase `phase + F0 t + F1 t^2 / 2 + F2 t^3 / 6` (turns) fitted to pulse numbers by least squares, as in timing programs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpinFit {
     /// Turns at the time zero, as the unevaluated sum of two doubles.
     pub phase: [f64; 2],
-    /// `F0` at the time zero (turns per unit of time), as the unevaluated sum of two doubles: over 1e12 turns 1e-9 of one is 21 digits.
+    /// `F0` at the time zero (turns per unit of time), as the unevaluated sum of two doubles: 1e-9 turn in 1e12 turns requires 21
+    /// digits.
     pub frequency: [f64; 2],
     /// `F1` and `F2` at the time zero; zero if they are not fitted.
     pub derivatives: [f64; 2],
-    /// `(phase of the fit - number) / F0` at each time: above zero for a pulse that is late.
+    /// `(phase of the fit - number) / F0` at each time: positive for a pulse that arrives late.
     pub residuals: Vec<f64>,
 }
 
 impl SpinFit {
-    /// The fit to points `(number, time)`, the times as unevaluated sums of two doubles, all of the same weight; with none, one (`F1`) or two (`F2` too) `derivatives` of the
-    /// frequency.
+    /// Fits points `(number, time)` of equal weight, with the times as unevaluated sums of two doubles. `derivatives` is the number of derivatives of
+    /// the frequency that are fitted: none, one (`F1`) or two (`F2` too).
     ///
-    /// A chord is taken away to 32 digits first. What is left of the numbers is fitted in doubles, by polynomials orthogonal over the
-    /// points: residuals have rounding errors of some 1e-16 of the largest distance from the chord.
+    /// A chord is subtracted with 32 digits first. The remainders of the numbers are fitted in doubles, by polynomials orthogonal
+    /// over the points: residuals have rounding errors of some 1e-16 of the largest distance from the chord.
     ///
     /// # Errors
-    /// [`Error::Domain`] for times that are not finite, numbers above 2^53 in size, more than two derivatives, or fewer different points than are fitted.
+    /// [`Error::Domain`] for times that are not finite, numbers above 2^53 in size, more than two derivatives, or fewer distinct points than fitted
+    /// parameters.
     pub fn new(points: &[(i64, [f64; 2])], derivatives: usize) -> Result<Self, Error> {
         Error::ensure(derivatives <= 2, "number of derivatives", derivatives as f64, "0, 1 (F1) or 2 (F1 and F2)")?;
         let wanted = 2.0 + derivatives as f64;
@@ -72,7 +74,7 @@ impl SpinFit {
             .iter()
             .map(|&(number, time)| (DoubleDouble::from((number - first) as f64) - chord * since(time)).high)
             .collect();
-        // Times in units of the chord's.
+        // Times in units of the length of the chord.
         let unit = span.high;
         let x: Vec<_> = points.iter().map(|&(_, time)| since(time).high / unit).collect();
 
@@ -83,7 +85,7 @@ impl SpinFit {
         let basis = orthogonal(&u, 1 + derivatives);
         let mut fitted = [0.0; 4];
         let mut residues = left;
-        // Twice: the second time takes away what rounding left.
+        // Twice: the second pass removes what rounding left.
         for _ in 0..2 {
             let change: Vec<_> = basis
                 .iter()
@@ -101,7 +103,7 @@ impl SpinFit {
             }
         }
 
-        // At the time zero of the caller.
+        // At the caller's time zero.
         let zero = DoubleDouble::default() - start;
         let [there, rate, second, third] = horner(&fitted, zero.high / unit - middle);
         let frequency = chord + (rate / unit).into();
@@ -114,7 +116,8 @@ impl SpinFit {
     }
 
     /// The time at which the fit has the phase `number`, as the unevaluated sum of two doubles, by Newton's method from the root
-    /// `2 n / (F0 + sqrt(F0^2 + 2 F1 n))` of the quadratic equation, `n` counted from the phase at the time zero. Not a number where that never comes so far.
+    /// `2 n / (F0 + sqrt(F0^2 + 2 F1 n))` of the quadratic equation, `n` counted from the phase at the time zero. NaN if the phase never reaches the
+    /// number.
     pub fn time_of(&self, number: i64) -> [f64; 2] {
         let wanted = (DoubleDouble::from(number as f64) - self.phase.into()) * 2.0;
         let frequency = DoubleDouble::from(self.frequency);
@@ -133,10 +136,11 @@ impl SpinFit {
     }
 }
 
-/// Steps of Newton's method, whose errors are squared: from a thousandth to 32 digits in four.
+/// Number of Newton steps, each of which squares the error: from a thousandth to 32 digits in four.
 const NEWTON_STEPS: usize = 5;
 
-/// Coefficients by powers of `u` of the polynomials up to a degree, at most 3, that are orthogonal over points whose mean is zero.
+/// Coefficients, by powers of `u`, of the polynomials up to a degree of at most 3 that are orthogonal over points whose mean is
+/// zero.
 fn orthogonal(u: &[f64], degree: usize) -> Vec<[f64; 4]> {
     let mut basis = vec![[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]];
     let sum = |value: &dyn Fn(f64) -> f64| u.iter().map(|&u| value(u)).sum::<f64>();
@@ -163,7 +167,7 @@ fn horner([a, b, c, d]: &[f64; 4], u: f64) -> [f64; 4] {
 mod tests {
     use super::*;
 
-    /// Twenty years of a millisecond pulsar that is late by a known sine of 3 ns.
+    /// Twenty years of a millisecond pulsar with a known sinusoidal delay of 3 ns.
     #[test]
     fn a_signal_of_nanoseconds_is_found_over_decades() {
         let frequency = DoubleDouble::sum(641.928_233_334_553_6, 3.1e-15);
@@ -177,7 +181,7 @@ mod tests {
             .collect();
         for derivatives in 0..3 {
             let fit = SpinFit::new(&points, derivatives).expect("a fit");
-            // A sine of many turns is left nearly as it is.
+            // The fit leaves a sine of many turns nearly unchanged.
             for (k, residual) in fit.residuals.iter().enumerate() {
                 assert!((residual - signal(k as i64)).abs() < 2e-10, "{k}: {residual:e}");
             }
@@ -189,7 +193,8 @@ mod tests {
         }
     }
 
-    /// Of a pulsar that has lost a sixth of its rotation, and of fits with a second derivative, for frequencies of either sign.
+    /// For a pulsar that has lost a sixth of its rotation, and for fits with a second derivative, with frequencies of either
+    /// sign.
     #[test]
     fn the_time_of_a_number_has_its_phase() {
         for (frequency, rate, second) in
@@ -201,13 +206,13 @@ mod tests {
                 let t = DoubleDouble::from(fit.time_of(number));
                 let slope = DoubleDouble::from(fit.frequency) + t * (t * (second / 6.0) + (rate / 2.0).into());
                 let off = DoubleDouble::from(phase) + t * slope - (number as f64).into();
-                // Of 4e7 turns with 32 digits.
+                // Of 4e7 turns, with 32 digits.
                 assert!(off.high.abs() < 1e-22, "{frequency} {rate:e} {second:e}, {number}: {off:?}");
             }
         }
     }
 
-    /// A phase of third degree is found as it is.
+    /// A cubic phase is recovered exactly.
     #[test]
     fn derivatives_are_those_of_the_phase() {
         let [f0, f1, f2] = [DoubleDouble::from(2.46), DoubleDouble::from(-3.65e-13), DoubleDouble::from(8.7e-25)];
@@ -228,7 +233,7 @@ mod tests {
         for (number, time) in points.iter().step_by(50) {
             assert!((fit.time_of(*number)[0] - time[0]).abs() < 1e-6);
         }
-        // Without F2 the root of the quadratic equation, of a rate a thousand times as large.
+        // Without F2: the root of the quadratic equation, for a rate a thousand times as large.
         let quadratic = SpinFit { derivatives: [-3.65e-10, 0.0], ..fit.clone() };
         let t = DoubleDouble::from(quadratic.time_of(400_000_000));
         let phase = DoubleDouble::from(fit.phase) + t * (DoubleDouble::from(fit.frequency) + t * -1.825e-10);

@@ -14,14 +14,14 @@ pub struct ConstantPeriod {
 }
 
 impl ConstantPeriod {
-    /// The fit to points `(number, time)` that makes `sum weight residual^2` least, a weight being the inverse square of a
-    /// time's uncertainty in any unit; all of the same weight if none are given.
+    /// The fit to points `(number, time)` that minimises `sum weight residual^2`. A weight is the inverse square of a time's
+    /// uncertainty in any unit; without weights all points count equally.
     ///
     /// Numbers and times are counted from their weighted means, so that the residuals keep the digits of the times.
     ///
     /// # Errors
     /// [`Error::Domain`] unless there is one weight for each point, finite and not negative, times are finite, numbers are at most
-    /// 2^53 in size, and two numbers at least differ among the points with weight.
+    /// 2^53 in size, and at least two numbers differ among the points with weight.
     pub fn fit(points: &[(i64, f64)], weights: Option<&[f64]>) -> Result<Self, Error> {
         let equal = vec![1.0; points.len()];
         let weights = weights.unwrap_or(&equal);
@@ -32,7 +32,7 @@ impl ConstantPeriod {
             Error::ensure(time.is_finite(), "time of arrival", time, "a finite number")?;
             Error::ensure(weight >= 0.0 && weight.is_finite(), "weight", weight, "a finite number, not negative")?;
         }
-        // From the first point, so that nothing is lost in the means.
+        // Relative to the first point, so that the means lose no digits.
         let (first, start) = points.first().copied().unwrap_or_default();
         let offsets = || points.iter().map(|&(number, time)| ((number - first) as f64, time - start));
         let mean = |values: &mut dyn Iterator<Item = f64>| {
@@ -53,7 +53,7 @@ impl ConstantPeriod {
     }
 }
 
-/// Refuses a pulse number that is not exact as a double; differences of others stay within 64 bits.
+/// Refuses a pulse number that is not exact as a double, so that differences of numbers stay within 64 bits.
 pub(super) fn check_number(number: i64) -> Result<(), Error> {
     const LARGEST: u64 = 1 << 53;
     let allowed = "a whole number of at most 2^53 in size, which a double holds";

@@ -1,4 +1,4 @@
-//! The pulse train of a motion: every stretch of time with the line of sight inside the beam. Eq. (44).
+//! The pulse train of a motion: all time intervals in which the line of sight is inside the beam. Eq. (44).
 //!
 //! ```
 //! use nalgebra::{Matrix3, Vector3};
@@ -34,37 +34,37 @@ use crate::error::Error;
 use crate::numerics::hermite::Jet;
 use crate::propagation::{Motion, Samples, projected_by_segments};
 
-/// A stretch of time with `m.n > cos rho`.
+/// A time interval with `m.n > cos rho`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pulse {
     /// Time at which the line of sight enters the beam, or the start of the span.
     pub start: f64,
     /// Time at which it leaves, or the end of the span.
     pub end: f64,
-    /// Whether it was inside already at the start of the span.
+    /// Whether the line of sight was already inside at the start of the span.
     pub cut_at_start: bool,
-    /// Whether it is still inside at the end of the span.
+    /// Whether the line of sight is still inside at the end of the span.
     pub cut_at_end: bool,
 }
 
 impl Pulse {
-    /// Middle between the edges.
+    /// Midpoint between the edges.
     pub fn midpoint(&self) -> f64 {
         self.start + (self.end - self.start) / 2.0
     }
 
-    /// Length in time.
+    /// Duration.
     pub fn duration(&self) -> f64 {
         self.end - self.start
     }
 
-    /// Whether the span of the train holds both edges.
+    /// Whether both edges are within the span of the train.
     pub fn is_whole(&self) -> bool {
         !self.cut_at_start && !self.cut_at_end
     }
 }
 
-/// A number of a series with its time stamp.
+/// A value of a series with its time stamp.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stamped {
     /// Time stamp.
@@ -76,10 +76,11 @@ pub struct Stamped {
 /// The pulses of one beam in a span of time, in order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PulseTrain {
-    /// The pulses. None for a line of sight that is never inside; one, cut at both ends, for one that always is.
+    /// The pulses. The list is empty for a line of sight that is never inside; it has one pulse, cut at both ends, for one
+    /// that always is.
     pub pulses: Vec<Pulse>,
-    /// Times of extrema of `m.n` within [`GRAZING`] of `cos rho`. A pulse, or a gap between two, that is there or missing at
-    /// such a time is so by rounding.
+    /// Times of extrema of `m.n` within [`GRAZING`] of `cos rho`. Whether there is a pulse, or a gap between two, at such a
+    /// time is decided by rounding.
     pub grazings: Vec<f64>,
 }
 
@@ -93,30 +94,32 @@ impl PulseTrain {
         })
     }
 
-    /// The paper's width series: the length in time of each whole pulse, stamped at its midpoint.
+    /// The paper's width series: the duration of each whole pulse, stamped at its midpoint.
     pub fn durations(&self) -> impl Iterator<Item = Stamped> {
         let whole = self.pulses.iter().filter(|pulse| pulse.is_whole());
         whole.map(|pulse| Stamped { time: pulse.midpoint(), value: pulse.duration() })
     }
 }
 
-/// Every pulse of a beam in a span of a motion, Eq. (44) `[ineq]`: none is missed and none invented, but where an extremum of `m.n` is
-/// within [`GRAZING`], 1e-13, of `cos rho`. There rounding decides; the time is among the [`grazings`](PulseTrain::grazings).
+/// Every pulse of a beam in a span of a motion, Eq. (44) `[ineq]`. No pulse is missed and none is spurious, except where an extremum
+/// of `m.n` is within [`GRAZING`], 1e-13, of `cos rho`. There rounding decides; the time is listed in
+/// [`grazings`](PulseTrain::grazings).
 ///
-/// `line_of_sight` is the unit vector `n` towards the observer in the frame of the motion; `span` is within that of the
-/// motion, its ends in either order. The second beam of the star is that of [`Beam::opposite`].
+/// `line_of_sight` is the unit vector `n` towards the observer in the frame of the motion; `span` is within the span of the
+/// motion, its ends in either order. For the second beam of the star use [`Beam::opposite`].
 ///
-/// The span is divided until `m.n` and its derivatives at the ends of a piece, and a bound on the sixth derivative, prove that it holds no
-/// edge, or one, or one extremum; an edge is then a root between two times of different sign. Derivatives and bounds are those of
-/// [`Motion::turning`]: by the equations of motion, with bounds from energy and spin, or as a motion by another law states them. This holds for the exact motion;
-/// a numerical one adds its error, see [`error_estimate`](crate::propagation::Motion::error_estimate). Edges are as exact as `m.n` allows: its error divided by
-/// its rate, about 1e-16 over the rotation rate plus the rounding of `t`, more for a short pulse, whose `m.n` is slow at the
-/// edges (a pulse of the length `w` radian multiplies the error by about `2 / w`).
+/// The span is subdivided until `m.n` and its derivatives at the ends of a piece, with a bound on the sixth derivative, prove that the piece contains
+/// no edge, or one edge, or one extremum. An edge is then a root between two times of different sign. Derivatives and bounds are those of
+/// [`Motion::turning`]: from the equations of motion, with bounds from energy and spin, or as stated by a motion under another law. This holds for
+/// the exact motion; a numerical one adds its error, see [`error_estimate`](crate::propagation::Motion::error_estimate). The accuracy of the edges is
+/// limited by `m.n`: its error divided by its rate, about 1e-16 over the rotation rate plus the rounding of `t`. It is worse for a short pulse, whose
+/// `m.n` varies slowly at the edges (a pulse of the length `w` radian multiplies the error by about `2 / w`).
 ///
 /// # Errors
-/// [`Error::Domain`] for a span outside the motion's, vectors that are not of unit length (to 1e-9), a semi-open angle outside
-/// (0, pi), a motion that is not finite or turns faster than it states, a line of sight that stays on the edge of the beam to [`GRAZING`] for a while, a span of more than
-/// [`MOST_COUNTED`](crate::propagation::MOST_COUNTED) radian by the bound on `|Omega|`, and times at which doubles do not resolve 0.2 rad.
+/// [`Error::Domain`] for a span outside that of the motion, vectors that are not of unit length (to 1e-9), a semi-open angle outside (0, pi), a
+/// motion that is not finite or rotates faster than it states, a line of sight that stays on the edge of the beam to [`GRAZING`] for a while, a span
+/// of more than [`MOST_COUNTED`](crate::propagation::MOST_COUNTED) radian by the bound on `|Omega|`, and times at which doubles do not resolve 0.2
+/// rad.
 pub fn pulse_train<M: Motion<f64, State = BodyState<f64>>>(
     motion: &M,
     beam: &Beam<f64>,
@@ -134,11 +137,12 @@ pub fn pulse_train<M: Motion<f64, State = BodyState<f64>>>(
 }
 
 impl Problem<f64> {
-    /// The pulse train of the numerical motion over a span, without keeping the motion: the edges of [`pulse_train`] of
-    /// [`taylor`](Self::taylor), to rounding. Also the state at the end of the span, with the number and order of the steps.
+    /// The pulse train of the numerical motion over a span, computed without storing the motion: the edges agree with
+    /// [`pulse_train`] of [`taylor`](Self::taylor) to rounding. Also returns the state at the end of the span, with the
+    /// number and order of the steps.
     ///
     /// # Errors
-    /// As for [`pulse_train`] and [`taylor`](Self::taylor), but for the number of steps.
+    /// As for [`pulse_train`] and [`taylor`](Self::taylor), except that the number of steps is not limited.
     pub fn taylor_pulse_train(
         &self,
         span: (f64, f64),
@@ -169,12 +173,12 @@ impl Problem<f64> {
     }
 }
 
-/// A train in the making.
+/// A pulse train under construction.
 #[derive(Default)]
 struct Unfinished {
     pulses: Vec<Pulse>,
     grazings: Vec<f64>,
-    /// Where the pulse that is not over began, and whether it was cut there.
+    /// Start of the pulse that has not ended yet, and whether it was cut there.
     open: Option<(f64, bool)>,
 }
 
@@ -205,12 +209,12 @@ impl Unfinished {
 }
 
 impl<P: Margin> EdgeSearch<P> {
-    /// The pulses between two times in order.
+    /// The pulses between two times in ascending order.
     pub(super) fn train(&self, from: f64, to: f64) -> Result<PulseTrain, Error> {
         self.bounds.check_countable(from, to)?;
         let mut train = Unfinished::default();
         let start = train.begin(self.jet(from)?);
-        // So that a motion that does not reach so far is refused before the work.
+        // A motion that does not extend so far is refused before the work begins.
         self.at(to)?;
         self.events(start, to, &mut |event| train.take(event))?;
         Ok(train.finished(to))

@@ -1,14 +1,16 @@
-//! Turn numbers without a break over any number of turns, from the phases of the motion.
+//! Continuous turn numbers over any number of turns, from the phases of the motion.
 //!
-//! [`Turns`](super::turns) follows a motion from one half radian to the next. Over 1e11 turns the whole turns must come of the phases `theta_i = theta_i0 + w_i t`, of
-//! which the state is a periodic function. The azimuth of the magnetic axis `m` about `L` from the line of sight is then
+//! [`Turns`](super::turns) follows a motion in steps of half a radian. Over 1e11 turns, the whole turns must instead be computed from the phases
+//! `theta_i = theta_i0 + w_i t`. The state is a periodic function of these. The azimuth of the magnetic axis `m` about `L` from the line of sight is
+//! then
 //!
 //! ```text
 //! phi(t) = sum_i k_i theta_i + periodic function of theta,    k_i whole numbers,    mean rate sum_i k_i w_i
 //! ```
 //!
-//! if neither `m` nor the line of sight is along `L` anywhere on the torus of the phases. `k_i` are the turns of `phi` along a closed way on which `theta_i` grows by a
-//! turn; at a time the whole turns of the phases count `k_i` each, and the rest of `phi` is followed along the straight way from the start to the rest of the phases.
+//! if neither `m` nor the line of sight is along `L` anywhere on the torus of the phases. `k_i` is the number of turns of `phi` along a closed path
+//! on which `theta_i` grows by one turn. At a given time each whole turn of phase `i` counts `k_i`, and the rest of `phi` is followed along the
+//! straight path from the start to the fractional phases.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -22,19 +24,20 @@ use crate::numerics::double_double::DoubleDouble;
 use crate::propagation::PhasedMotion;
 use crate::solutions::averaged::Turns;
 
-/// Looks in a turn of a phase, to begin with.
+/// Initial number of evaluations per turn of a phase.
 const LOOKS: f64 = 16.0;
 
-/// Shortest step between two looks, as a part of the path. A path that passes `L` nearer than that may count on either side.
+/// Shortest step between two evaluations, as a fraction of the path. A path that passes `L` more closely may count on either
+/// side.
 const SHORTEST: f64 = 1e-12;
 
-/// Points along a phase at which a torus is looked at.
+/// Number of points along a phase at which a torus is sampled.
 const MESH: usize = 20;
 
-/// Part of the range of an angle that may lie between the points.
+/// Fraction of the range of an angle that may lie between the points.
 const BETWEEN_POINTS: f64 = 0.1;
 
-/// Most turns from the start: the sum of two such numbers has 64 bits.
+/// Largest number of turns from the start, such that the sum of two of them fits into 64 bits.
 const MOST_TURNS: f64 = 4e18;
 
 /// The turns of a magnetic axis.
@@ -44,26 +47,27 @@ pub(super) struct TurnCount {
     line_of_sight: Vector3<f64>,
     /// Phases at the time zero.
     start: [Turns; 3],
-    /// Turns with a turn of each phase.
+    /// Turns of the magnetic axis per turn of each phase.
     windings: [i64; 3],
 }
 
-/// A look at the phase.
+/// An evaluation of the phase.
 pub(super) struct Look {
-    /// Turn that is nearest.
+    /// Number of the nearest turn.
     pub(super) number: i64,
-    /// Phase (rad) from it, in (-pi, pi].
+    /// Phase (rad) relative to it, in (-pi, pi].
     pub(super) phase: f64,
 }
 
 impl TurnCount {
-    /// Windings are those of ways at [`MESH`] places; of a line of sight just inside the ring that `L` covers, by some hundredths of its width, they may not tell.
+    /// The windings are determined along paths at [`MESH`] positions. For a line of sight just inside the ring that `L` covers, by some hundredths of
+    /// its width, they may be missed.
     pub(super) fn new(motion: &PhasedMotion, beam: &Beam<f64>, line_of_sight: &Vector3<f64>) -> Result<Self, Error> {
         let start = motion.turns([0.0; 2]);
         let mut count = Self { beam: *beam, line_of_sight: *line_of_sight, start, windings: [0; 3] };
         count.check_wobble(motion)?;
         for along in 0..3 {
-            // What `m` does was checked, and where `L` is depends on the first two.
+            // The path of `m` was checked, and `L` depends on the first two phases only.
             for place in 0..if along == 2 { 1 } else { MESH } {
                 let mut from = start.map(|turns| turns.fraction);
                 from[usize::from(along == 0)] += place as f64 / MESH as f64;
@@ -87,7 +91,8 @@ impl TurnCount {
         Ok(count)
     }
 
-    /// Refuses a torus on which `m` comes along `L`: where the wobble, the angle of `n` to `L`, is that of the beam, or its supplement.
+    /// Refuses a torus on which `m` comes along `L`: where the wobble, the angle of `n` to `L`, equals the angle of the beam axis to
+    /// `n` or its supplement.
     fn check_wobble(&self, motion: &PhasedMotion) -> Result<(), Error> {
         let at = |i: usize| (i % MESH) as f64 / MESH as f64;
         let wobbles = (0..MESH * MESH).map(|i| {
@@ -106,12 +111,12 @@ impl TurnCount {
         )
     }
 
-    /// Rate (rad per unit of time) at which turns follow one another.
+    /// Mean rotation rate (rad per unit of time) of the magnetic axis about `L`.
     pub(super) fn rate(&self, motion: &PhasedMotion) -> f64 {
         self.windings.iter().zip(motion.rates()).map(|(turns, rate)| *turns as f64 * rate).sum()
     }
 
-    /// The same in turns, to 32 digits where they are known.
+    /// The same in turns, to 32 digits where the rates are known to that precision.
     pub(super) fn per_time(&self, motion: &PhasedMotion) -> DoubleDouble {
         let rates = self.windings.iter().zip(motion.turns_per_time());
         rates.fold(DoubleDouble::default(), |sum, (turns, rate)| sum + rate * (*turns as f64))
@@ -134,10 +139,11 @@ impl TurnCount {
         Ok(Look { number: whole.iter().sum::<i128>() as i64 + ((followed - phase) / TAU).round() as i64, phase })
     }
 
-    /// The phase at the start of a straight way on the torus, and at its end with its whole turns.
+    /// The phase at the start of a straight path on the torus, and at its end including whole turns.
     ///
-    /// A look sees the state, so that between two looks less than a radian apart `L` and `m` have gone no way round. The azimuth swept about a point that a path
-    /// passes is at most half a turn and what the path itself turns by: a piece with less than a quarter turn between its ends has none hidden.
+    /// Each evaluation sees the state, so `L` and `m` cannot have gone once around between two evaluations less than a radian apart. The azimuth
+    /// swept about a point that a path passes is at most half a turn plus the turn of the path itself: a piece with less than a quarter turn between
+    /// its ends hides none.
     fn followed(&self, motion: &PhasedMotion, from: [f64; 3], way: [f64; 3]) -> Result<[f64; 2], Error> {
         let look = |part: f64| {
             let state = motion.state_at(core::array::from_fn(|i| from[i] + part * way[i]));
@@ -188,7 +194,7 @@ mod tests {
         Vector3::new(0.1, -0.3, 0.6).normalize()
     }
 
-    /// Of motions in averaged form and on the torus, of beams that enclose `L` or do not, on either side.
+    /// For averaged motions and motions on the torus, and for beams that enclose `L` or do not, on either side.
     #[test]
     fn turns_are_those_that_a_motion_takes_one_by_one() {
         fn compare(phased: &PhasedMotion, motion: &impl Motion<f64, State = BodyState<f64>>) {
@@ -217,7 +223,7 @@ mod tests {
 
     #[test]
     fn the_turn_of_the_time_zero_is_zero() {
-        // With L in principal planes phases start at half a turn, as a whole one or none.
+        // With L in principal planes phases start at half a turn, at a whole one or at zero.
         let motions = [[0.3, 0.0], [-0.3, 0.0], [0.0, 0.7], [0.0, -0.7]].map(|[x, y]| {
             let weak = problem(0.1);
             let start = BodyState { momentum: Vector3::new(x, y, 2.0), ..*weak.initial() };
@@ -249,7 +255,7 @@ mod tests {
         }
     }
 
-    /// At the one place where the azimuth jumps, as the magnetic axis passes `L`, it counts on either side.
+    /// At the only place where the azimuth jumps, where the magnetic axis passes `L`, either side may be counted.
     #[test]
     fn a_way_through_the_momentum_is_followed() {
         let motion = PhasedMotion::torus(&problem(1.0), 1e3).unwrap();
@@ -261,7 +267,7 @@ mod tests {
         let through = TurnCount { beam: Beam { axis, half_opening: 0.3 }, ..count };
         let from = [phases[0] - 0.3, phases[1], phases[2]];
         let way = |turns: f64| through.followed(&motion, from, [turns, 0.0, 0.0]).unwrap();
-        // The azimuth jumps by half a turn, but for what it turns by in a ten-thousandth of one.
+        // The azimuth jumps by half a turn, except for its change in a ten-thousandth of a turn.
         let [[_, before], [_, after]] = [0.29995, 0.30005].map(way);
         assert!(((after - before).abs() - PI).abs() < 0.01, "{before} {after}");
     }

@@ -10,15 +10,15 @@ use crate::error::Error;
 use crate::numerics::angle::wrapped;
 use crate::propagation::Motion;
 
-/// Rotation (rad) between two looks at the phase.
+/// Rotation (rad) between two evaluations of the phase.
 const STRIDE: f64 = 0.5;
 
-/// Follows the phase of rotation: the azimuth of the magnetic axis `m` about the angular momentum `L`, counted from that of
-/// the line of sight, whole turns included.
+/// Follows the rotational phase: the azimuth of the magnetic axis `m` about the angular momentum `L`, counted from that of
+/// the line of sight, including whole turns.
 ///
-/// A body turns about `L` in the positive sense always (`L . Omega > 0`), and `m` comes nearest to the line of sight near the
-/// phase zero of each turn. The azimuth about a fixed axis counts the same turns while that axis and `L` are on one side of
-/// the path of `m`; where the path leaves the axis outside, that azimuth swings to and fro and counts none.
+/// A body always turns about `L` in the positive sense (`L . Omega > 0`), and `m` is nearest to the line of sight close to
+/// the phase zero of each turn. The azimuth about a fixed axis counts the same turns while that axis and `L` are on one side
+/// of the path of `m`; if the path leaves the axis outside, that azimuth oscillates and counts none.
 pub(super) struct Turns<'a, M> {
     motion: &'a M,
     beam: &'a Beam<f64>,
@@ -44,8 +44,8 @@ impl<'a, M: Motion<f64, State = BodyState<f64>>> Turns<'a, M> {
     /// Phase at a later time `t`, continued from the last call.
     ///
     /// Half a radian of rotation turns the path of `m` by about as much, and the azimuth swept about a point that a path
-    /// passes is at most half a turn and what the path itself turns by: a piece with less than a quarter turn between its ends
-    /// has none hidden. Others are halved.
+    /// passes is at most half a turn plus the turn of the path itself. Therefore a piece with less than a quarter turn between
+    /// its ends hides none; other pieces are halved.
     pub(super) fn at(&mut self, t: f64) -> Result<f64, Error> {
         while self.time < t {
             let mut to = if t - self.time > self.stride { self.time + self.stride } else { t };
@@ -105,7 +105,7 @@ mod tests {
         Vector3::new(0.1, -0.3, 0.6).normalize()
     }
 
-    /// Looks are half a radian apart, however fast the star turns.
+    /// Evaluations are half a radian apart, however fast the star rotates.
     #[test]
     fn fast_turns_are_counted() {
         let (axis, rate) = (Vector3::new(0.36, 0.48, 0.8), 300.0);
@@ -118,7 +118,8 @@ mod tests {
         }
     }
 
-    /// One passage, at a thousandth of a radian, wherever the looks are: within half a radian the azimuth turns by more than half a turn.
+    /// One close passage, at a thousandth of a radian, wherever the evaluations are: within half a radian the azimuth turns by more than
+    /// half a turn.
     #[test]
     fn a_close_passage_is_followed_in_any_stride() {
         let (l, theta) = (Vector3::new(0.36, 0.48, 0.8), 0.7_f64);

@@ -13,10 +13,10 @@
 
 use crate::numerics::scalar::{Real, Scalar};
 
-/// What an observer sees of a magnetic axis that turns about Z at constant colatitude.
+/// The pulse of a magnetic axis that rotates about Z at constant colatitude.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PulseWidth<S> {
-    /// A pulse each turn; its width `W` in azimuth (rad), between 0 and 2 pi.
+    /// One pulse per turn, with the width `W` in azimuth (rad), between 0 and 2 pi.
     Pulsed(S),
     /// The line of sight stays inside the cone through the whole turn.
     AlwaysOn,
@@ -33,7 +33,7 @@ pub enum PulseWidth<S> {
 /// tan^2(W/4) = sin((rho + D)/2) sin((rho - D)/2) / [sin((S + rho)/2) sin((S - rho)/2)],   D = Theta - theta_o, S = Theta + theta_o
 /// ```
 ///
-/// which is the printed cosine without its cancellation: `W` keeps its digits down to the grazing pulse. There is a pulse
+/// This is the printed cosine without its cancellation: `W` keeps its digits down to the grazing pulse. There is a pulse
 /// where `|D| < rho < min(S, 2 pi - S)`.
 pub fn pulse_width<S: Real>(half_opening: S, theta: S, theta_o: S) -> PulseWidth<S> {
     let (difference, sum) = (theta - theta_o, theta + theta_o);

@@ -1,16 +1,16 @@
-//! Whole combinations of fundamental frequencies.
+//! Integer combinations of fundamental frequencies.
 
 use core::fmt;
 
-/// A whole combination `sum k_i f_i` of fundamental frequencies.
+/// An integer combination `sum k_i f_i` of fundamental frequencies.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Combination {
-    /// The whole numbers with the symbols of their frequencies.
+    /// The integers with the symbols of their frequencies.
     pub terms: Vec<(i32, &'static str)>,
 }
 
 impl Combination {
-    /// How often a frequency is in it.
+    /// The integer coefficient of a frequency.
     pub fn multiple(&self, symbol: &str) -> i32 {
         self.terms.iter().find(|(_, found)| *found == symbol).map_or(0, |(k, _)| *k)
     }

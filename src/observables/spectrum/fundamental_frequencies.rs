@@ -1,4 +1,4 @@
-//! Fundamental frequencies of a motion: mean rates of its angles, by how often each goes round along the angles of the torus.
+//! Fundamental frequencies of a motion: mean rates of its angles, from their winding numbers along the angles of the torus.
 
 use core::f64::consts::TAU;
 
@@ -9,17 +9,19 @@ use crate::dynamics::{BodyState, RotationState};
 use crate::numerics::angle::{about, wrapped};
 use crate::numerics::double_double::DoubleDouble;
 
-/// Points of the first grid in each angle, and most of them: where an Euler angle still jumps between two of these, `n` passes a pole.
+/// Number of points of the first and of the finest grid in each angle. If an Euler angle still jumps between two points of the finest
+/// grid, `n` passes a pole.
 const POINTS: [usize; 2] = [32, 256];
 
-/// From so many points on, four neighbours whose azimuths go round have the pole of `alpha` between them or within `(2 pi / 64)^2 / 8 = 1.2e-3` of the curvature of `n` on the torus.
-/// The finest grid tells only poles farther from `n` than half of its step, `0.5 * 2 pi / 256 = 1.2e-2`, and need not be made.
+/// With this many points or more, four neighbours whose azimuths wind once enclose the pole of `alpha`, or miss it by at most
+/// `(2 pi / 64)^2 / 8 = 1.2e-3` of the curvature of `n` on the torus. The finest grid only resolves poles farther from `n` than half of its step,
+/// `0.5 * 2 pi / 256 = 1.2e-2`, and need not be computed.
 const FINE: usize = 64;
 
 /// Largest change of an angle between two points of the grid (rad), below a quarter turn.
 const LARGEST_STEP: f64 = 1.5;
 
-/// An averaged `L` below this part of its largest is rounding.
+/// An averaged `L` below this fraction of its largest value is rounding.
 const SMALLEST_MOMENTUM: f64 = 1e-9;
 
 /// The mean rate of an angle of the motion.
@@ -29,33 +31,35 @@ pub struct FundamentalFrequency {
     pub symbol: &'static str,
     /// The rate, of either sign (rad per unit of time).
     pub rate: f64,
-    /// How often the angle goes round with each of the three angles of the torus.
+    /// Winding number of the angle with respect to each of the three angles of the torus.
     pub turns: [i32; 3],
 }
 
-/// Mean rates of the angles of a motion, and which of them are independent.
+/// Mean rates of the angles of a motion, and a set of independent ones.
 ///
-/// A continuous angle of the state on the torus goes round a whole number of times with each angle of the torus; its mean rate is that combination of
-/// their rates. The angles, about the principal axis of `s^IJ` that the averaged `L` goes round (Z for a free one):
+/// A continuous angle of the state on the torus has an integer winding number with respect to each angle of the torus; its mean rate is the same
+/// integer combination of their rates. The angles, about the principal axis of `s^IJ` that the averaged `L` circles (Z for a free motion), are:
 ///
-/// * `alpha'`, `gamma'`: the Euler angles `alpha` and `gamma`. They have no mean rate where `n` comes as near as one likes to a pole of the axis.
-/// * `l'`: the azimuth of `L` averaged over the fast rotation, the slow precession. Neither it nor `nu'` is where that `L` passes zero, as after a start from rest.
-/// * `nu'`: the turn of the fast part of `n` about the averaged `L`, from the plane of `L` and the axis: the nutation.
-/// * `psi'`: the turn of `e_x` about `n`, from the direction in which that part of `n` moves, or from a fixed one where it has no such part.
+/// * `alpha'`, `gamma'`: the Euler angles `alpha` and `gamma`. They have no mean rate if `n` comes arbitrarily close to a pole of the axis.
+/// * `l'`: the azimuth of `L` averaged over the fast rotation, the slow precession. Neither it nor `nu'` is defined if that `L` passes zero, as after
+///   a start from rest.
+/// * `nu'`: the rotation of the fast part of `n` about the averaged `L`, from the plane of `L` and the axis: the nutation.
+/// * `psi'`: the rotation of `e_x` about `n`, from the direction in which that part of `n` moves, or from a fixed direction if there is no
+///   such part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FundamentalFrequencies {
     /// The axis.
     pub pole: Vector3<f64>,
-    /// All of them.
+    /// All fundamental frequencies.
     pub all: Vec<FundamentalFrequency>,
-    /// Those that name the lines: of these every line is a whole combination. `alpha'`, `gamma'` and `l'`, or `nu'` where `alpha'` is a multiple of
-    /// `l'`; without `alpha'` and `gamma'` the others, and the angles of the torus
-    /// themselves where these do not name every line.
+    /// The basis: every line is an integer combination of these. They are `alpha'`, `gamma'` and `l'`, or `nu'` where `alpha'` is a multiple of
+    /// `l'`; without `alpha'` and `gamma'` the others are used, and the angles of the torus themselves where these do not name every line.
     pub basis: Vec<FundamentalFrequency>,
 }
 
 impl FundamentalFrequencies {
-    /// Of a motion on the torus, by the state after turns of its three angles and their rates (turns per unit of time).
+    /// The frequencies of a motion on the torus, from the state as a function of the turns of its three angles, and their
+    /// rates (turns per unit of time).
     pub(super) fn of(
         state: impl Fn([f64; 3]) -> BodyState<f64>,
         rates: [DoubleDouble; 3],
@@ -77,7 +81,7 @@ impl FundamentalFrequencies {
             add("alpha'", alpha);
             add("gamma'", gamma);
         }
-        // A body that begins at rest swings: its averaged L goes round nothing.
+        // A body that starts from rest oscillates: its averaged L does not circle any axis.
         if grid.has_momentum() {
             add("l'", grid.slow());
             add("nu'", grid.nutation());
@@ -96,14 +100,14 @@ impl FundamentalFrequencies {
         Self { pole: *pole, all, basis }
     }
 
-    /// The rate of one of them, if the motion has it (rad per unit of time).
+    /// The rate of one of them (rad per unit of time), if the motion has it.
     pub fn rate(&self, symbol: &str) -> Option<f64> {
         self.all.iter().find(|found| found.symbol == symbol).map(|found| found.rate)
     }
 
-    /// The combination of the basis that goes round so often with each angle of the torus.
+    /// The combination of the basis with given integer multiples of the angles of the torus.
     pub(super) fn combination(&self, multiples: [i32; 3]) -> Combination {
-        // The rows are whole and the determinant is one, so that the inverse is whole.
+        // The rows are integers and the determinant is one, so the inverse has integer entries.
         let rows = completed(&self.basis);
         let wanted = nalgebra::RowVector3::from(multiples.map(f64::from));
         let inverse = rows.try_inverse().expect("a basis has the determinant one");
@@ -118,7 +122,7 @@ pub(super) fn rate_of(rates: &[DoubleDouble; 3], multiples: [i32; 3]) -> f64 {
     terms.fold(DoubleDouble::from(0.0), |sum, term| sum + term).high * TAU
 }
 
-/// The rows of a basis, with unit vectors along the angles that do not move.
+/// The rows of a basis, completed with unit vectors along the angles that do not move.
 fn completed(basis: &[FundamentalFrequency]) -> Matrix3<f64> {
     let mut rows = Matrix3::zeros();
     for (i, of) in basis.iter().enumerate() {
@@ -134,7 +138,7 @@ fn completed(basis: &[FundamentalFrequency]) -> Matrix3<f64> {
     rows
 }
 
-/// The first of some frequencies that are independent and of which all angles that move are whole combinations.
+/// The first independent subset of the frequencies of which all moving angles are integer combinations.
 fn basis(all: &[FundamentalFrequency], moving: [bool; 3]) -> Vec<FundamentalFrequency> {
     let dimension = moving.iter().filter(|moves| **moves).count();
     let of_moving: Vec<_> = all
@@ -154,10 +158,10 @@ fn basis(all: &[FundamentalFrequency], moving: [bool; 3]) -> Vec<FundamentalFreq
     Vec::new()
 }
 
-/// States on the torus: of both first angles a grid, and of the third one a loop.
+/// States on the torus: a grid in the first two angles, and a loop in the third one.
 struct Grid {
     count: usize,
-    /// In the frame whose third axis is that of the angles.
+    /// In the frame whose third axis is the axis of the angles.
     states: Vec<BodyState<f64>>,
     third: Vec<BodyState<f64>>,
     /// `n` and `L` averaged over the first angle, for each point of the second one.
@@ -180,8 +184,8 @@ impl Grid {
         Self { count, states, third, means }
     }
 
-    /// How often an angle goes round with each angle of the torus; None where it jumps. It is the same along all parallel loops: where it differs between two,
-    /// the steps round a cell between them add to a turn, and one of the four is a quarter turn or more.
+    /// Winding number of an angle with respect to each angle of the torus; `None` if it jumps. It is the same along all parallel loops: if it
+    /// differed between two, the steps around a cell between them would add to a turn, and one of the four would be a quarter turn or more.
     fn windings(&self, angle: impl Fn(&BodyState<f64>, usize) -> f64) -> Option<[i32; 3]> {
         let count = self.count;
         let angles: Vec<f64> = self.states.iter().enumerate().map(|(i, state)| angle(state, i / count)).collect();
@@ -196,7 +200,8 @@ impl Grid {
         Some([first?, second?, winding(self.third.iter().map(|state| angle(state, 0)))?])
     }
 
-    /// Whether the azimuth of `n` winds once counter-clockwise round some cell of four neighbouring points. One sense is enough: the windings of all cells cancel on a torus, so that both occur equally often.
+    /// Whether the azimuth of `n` winds once counter-clockwise around some cell of four neighbouring points. One sense is sufficient: the windings of
+    /// all cells cancel on a torus, so that both occur equally often.
     fn surrounds_pole(&self) -> bool {
         let count = self.count;
         let azimuth = |k: usize, j: usize| {
@@ -217,7 +222,7 @@ impl Grid {
         Some([alpha, gamma])
     }
 
-    /// Turns of the fast part of `n` about the averaged `L` from the plane of `L` and the axis, or from a fixed plane where that `L` stays on the axis.
+    /// Turns of the fast part of `n` about the averaged `L`, from the plane of `L` and the axis, or from a fixed plane if that `L` stays on the axis.
     fn nutation(&self) -> [i32; 3] {
         let from_plane = self.windings(|state, k| {
             let [n, momentum] = self.means[k];
@@ -235,12 +240,13 @@ impl Grid {
         sizes().fold(f64::INFINITY, f64::min) > SMALLEST_MOMENTUM * sizes().fold(0.0, f64::max)
     }
 
-    /// The sense in which the averaged `L` goes round the axis.
+    /// Winding numbers of the averaged `L` about the axis.
     fn slow(&self) -> [i32; 3] {
         [0, sign(area(self.means.iter().map(|[_, momentum]| *momentum), &Vector3::z())), 0]
     }
 
-    /// Turns of `e_x` about `n`, from the direction in which the fast part of `n` goes round the averaged `L`, or from a fixed one where `n` has no such part.
+    /// Turns of `e_x` about `n`, from the direction in which the fast part of `n` circles the averaged `L`, or from a fixed direction if `n` has no
+    /// such part.
     fn body(&self) -> [i32; 3] {
         let from_across = self.windings(|state, k| {
             let [n, momentum] = self.means[k];
@@ -255,12 +261,12 @@ impl Grid {
     }
 }
 
-/// How often an angle goes round along a loop; None where it jumps.
+/// Winding number of an angle along a loop; `None` if it jumps.
 fn winding(angles: impl Iterator<Item = f64> + Clone) -> Option<i32> {
     let mut sum = 0.0;
     for (a, b) in angles.clone().zip(angles.cycle().skip(1)) {
         let step = wrapped(b - a);
-        // NaN is a jump too.
+        // NaN counts as a jump.
         if step.is_nan() || step.abs() > LARGEST_STEP {
             return None;
         }
@@ -269,7 +275,7 @@ fn winding(angles: impl Iterator<Item = f64> + Clone) -> Option<i32> {
     Some((sum / TAU).round() as i32)
 }
 
-/// Twice the area round which a loop of points goes, about a direction.
+/// Twice the area enclosed by a loop of points, about a direction.
 fn area(points: impl Iterator<Item = Vector3<f64>> + Clone, direction: &Vector3<f64>) -> f64 {
     points.clone().zip(points.cycle().skip(1)).map(|(a, b)| a.cross(&b).dot(direction)).sum()
 }
@@ -278,7 +284,7 @@ fn sign(value: f64) -> i32 {
     if value < 0.0 { -1 } else { 1 }
 }
 
-/// A rotation after which a unit vector is along Z.
+/// A rotation that takes a unit vector to Z.
 fn frame(pole: &Vector3<f64>) -> Matrix3<f64> {
     let least = pole.iamin();
     let x = pole.cross(&Vector3::ith(least, 1.0)).normalize();
@@ -291,7 +297,8 @@ mod tests {
 
     use super::*;
 
-    /// `L` goes round Z, `n` round `L`, `e_x` round `n`, each once with one angle of the torus and, `n` and `e_x`, some more often with the second.
+    /// `L` circles Z, `n` circles `L` and `e_x` circles `n`, each once with one angle of the torus; `n` and `e_x` also circle additional times with
+    /// the second.
     fn turning(tilt: f64, opening: f64, more: [f64; 2]) -> impl Fn([f64; 3]) -> BodyState<f64> {
         leaning(tilt, 0.0, opening, more)
     }
@@ -339,10 +346,10 @@ mod tests {
         assert_eq!(turns(&single, "psi'"), Some([-1, 0, -1]));
         assert_eq!(turns(&single, "gamma'"), Some([0, 2, -1]));
         assert_eq!(symbols(&single), ["alpha'", "gamma'", "nu'"]);
-        // L stays outside of the cone: n does not go round it, its fast part does.
+        // L stays outside the cone: n does not circle it, but its fast part does.
         let aside = found(leaning(0.9, 0.3, 0.1, [2.0, 0.0]));
         assert_eq!(turns(&aside, "nu'"), Some([1, 2, 0]));
-        // n passes the pole: at a point of the grid, beside one, and with loops on both sides that differ.
+        // n passes the pole: at a point of the grid, next to one, and with loops on both sides that differ.
         let passing = turning(0.6, 0.6, [0.0, 0.0]);
         let beside = |turns: [f64; 3]| passing(turns.map(|part| part + 0.0137));
         let swinging =
@@ -363,7 +370,8 @@ mod tests {
         Grid { count, states, third: Vec::new(), means: Vec::new() }
     }
 
-    /// The horizontal part `(cos a + cos b - c, sin a)` of `n` is zero at two places of the torus, in opposite senses, for `c` between 0 and 2, and nowhere for more.
+    /// The horizontal part `(cos a + cos b - c, sin a)` of `n` is zero at two points of the torus, in opposite senses, for `c` between 0 and 2, and
+    /// nowhere for larger `c`.
     #[test]
     fn four_neighbours_see_the_pole_between_them() {
         let count = 8;
@@ -389,7 +397,8 @@ mod tests {
         }
     }
 
-    /// With `L` on the axis the turn of `n` has no plane to start from; with `n` along `L` that of `e_x` is counted from a fixed direction, and where `n` passes that one too, by its sense.
+    /// With `L` on the axis the turn of `n` has no reference plane. With `n` along `L` the turn of `e_x` is counted from a fixed direction, and where
+    /// `n` passes that one too, by its sense.
     #[test]
     fn turns_are_counted_where_a_reference_is_missing() {
         let backwards = |state: &dyn Fn([f64; 3]) -> BodyState<f64>, signs: [f64; 3]| {
@@ -406,7 +415,7 @@ mod tests {
         }
     }
 
-    /// `n` swings through the pole and `L` through zero: neither has an azimuth, and lines are named by the angles of the torus that move.
+    /// `n` swings through the pole and `L` through zero: neither has an azimuth, and lines are named by the moving angles of the torus.
     #[test]
     fn lines_without_a_basis_are_named_by_the_angles_of_the_torus() {
         let state = |[a, b, c]: [f64; 3], momentum: f64| {

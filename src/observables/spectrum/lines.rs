@@ -1,4 +1,4 @@
-//! The lines of a function of the state.
+//! The spectral lines of a function of the state.
 
 use core::f64::consts::TAU;
 
@@ -12,20 +12,20 @@ use crate::error::Error;
 /// Points of the first grid in each angle.
 const FIRST_GRID: [usize; 3] = [8, 8, 4];
 
-/// Most points of a grid, which take some tenths of a second.
+/// Largest number of points of a grid, which takes some tenths of a second.
 const MOST_POINTS: usize = 1 << 18;
 
-/// Coefficients at the edge of the grid are to be below this part of the least amplitude.
+/// Coefficients at the edge of the grid must be below this fraction of the least amplitude.
 const EDGE: f64 = 0.1;
 
-/// Noise is below this part of the size of the function, and more than [`UNCHANGED`] of it is left by twice as many points in the angle, twice.
+/// Noise is below this fraction of the size of the function, and doubling the points in the angle, twice, leaves more than [`UNCHANGED`] of it.
 const LARGEST_NOISE: f64 = 1e-10;
 const UNCHANGED: f64 = 0.7;
 
-/// Places beside the grid at which the sum of the lines is compared with the function.
+/// Number of points off the grid at which the sum of the lines is compared with the function.
 const PLACES: usize = 16;
 
-/// Lines are this many times the largest coefficient of noise, and the error of the states.
+/// Listed lines exceed this multiple of the largest noise coefficient and of the error of the states.
 const ABOVE_NOISE: f64 = 4.0;
 
 /// One line `amplitude cos(frequency t + phase)`.
@@ -39,12 +39,12 @@ pub struct SpectralLine {
     pub phase: f64,
     /// Estimated error of the frequency.
     pub uncertainty: f64,
-    /// The line as a whole combination of fundamental frequencies.
+    /// The line as an integer combination of fundamental frequencies.
     pub combination: Combination,
 }
 
 impl SpectralLine {
-    /// Its share of the function at a time since the start.
+    /// Its contribution to the function at a time since the start.
     pub fn value(&self, t: f64) -> f64 {
         self.amplitude * (self.frequency * t + self.phase).cos()
     }
@@ -57,21 +57,24 @@ pub struct LineList {
     pub constant: f64,
     /// The lines.
     pub lines: Vec<SpectralLine>,
-    /// Least amplitude that is listed: what was asked for, or what rounding makes of a constant. Amplitudes are right to a tenth of it.
+    /// Smallest amplitude that is listed: the requested value, or the rounding of a constant. Amplitudes are accurate to a tenth of it.
     pub least: f64,
-    /// Largest difference between the function and the sum of its listed parts at sixteen places of the torus: what is not listed. Combinations that do not move are compared by their value at that place.
+    /// Largest residual of the sum of listed parts at sixteen points of the torus, that is, the size of the parts that are not listed. Terms of zero
+    /// frequency are evaluated at the same points.
     pub left: f64,
 }
 
 impl QuasiPeriodicMotion {
-    /// The lines of a function of the state, down to the part `least` of the strongest one. The function has two values: its own, and the size of what
-    /// it is a component of, such as `|L|` for a component of `L`, in which rounding is measured.
+    /// The lines of a function of the state, down to the fraction `least` of the strongest one. The function returns two values: its own, and the
+    /// size of the vector or quantity that it is a component of, such as `|L|` for a component of `L`, relative to which rounding is measured.
     ///
-    /// The function is sampled on a grid of the torus, twice as fine in an angle until the coefficients at the edge of the grid are below the least
-    /// amplitude, or noise; an angle on which the function does not depend has one point. Lines that are left out are below [`LineList::least`].
+    /// The function is sampled on a grid of the torus, which is refined by two in an angle until the coefficients at the edge of the grid are below
+    /// the least amplitude or below noise; an angle on which the function does not depend has one point. Lines that are left out are below
+    /// [`LineList::least`].
     ///
     /// # Errors
-    /// Those of the function; [`Error::Domain`] for one whose series falls off so slowly that a quarter of a million points are not enough, as one that jumps.
+    /// The errors of the function; [`Error::Domain`] for a function whose series converges so slowly that a quarter of a million points are not
+    /// enough, for example one that jumps.
     pub fn lines<E: From<Error>>(
         &self,
         least: f64,
@@ -80,7 +83,7 @@ impl QuasiPeriodicMotion {
         let at = |turns: [f64; 3]| function(&self.state_after_turns(turns));
         let still = self.still(&at)?;
         let mut counts: [usize; 3] = core::array::from_fn(|i| if still[i] { 1 } else { FIRST_GRID[i] });
-        // How often twice as many points in an angle have left its edge as it was, and that edge.
+        // How often doubling the points in an angle has left its edge unchanged, and that edge.
         let mut before = [(0, f64::INFINITY); 3];
         loop {
             let (mut values, mut size) = (Vec::with_capacity(counts.iter().product()), 0.0_f64);
@@ -110,7 +113,7 @@ impl QuasiPeriodicMotion {
         }
     }
 
-    /// The angles on which a function does not depend, or that do not move: its values are the same numbers wherever these angles are.
+    /// The angles on which a function does not depend, or that do not move: its values are identical wherever these angles are.
     fn still<E>(&self, at: &impl Fn([f64; 3]) -> Result<[f64; 2], E>) -> Result<[bool; 3], E> {
         const PLACE: [f64; 3] = [0.127, 0.411, 0.283];
         let first = at(PLACE)?;
@@ -136,7 +139,7 @@ impl QuasiPeriodicMotion {
         at: &impl Fn([f64; 3]) -> Result<[f64; 2], E>,
     ) -> Result<LineList, E> {
         let (mut lines, mut constant) = (Vec::new(), all[0].re);
-        // What the lines and the constants of combinations that do not move are at a place: amplitude and phase.
+        // The lines and the zero-frequency terms at a point: amplitude and phase.
         let mut waves = Vec::new();
         for (place, coefficient) in all.iter().enumerate().skip(1) {
             let amplitude = 2.0 * coefficient.norm();
@@ -147,7 +150,7 @@ impl QuasiPeriodicMotion {
             let [frequency, uncertainty] = self.frequency(multiples);
             if frequency == 0.0 {
                 constant += coefficient.re;
-                // Each of the pair of opposite multiples adds half.
+                // Each of the pair of opposite multiples contributes half.
                 waves.push((0.5 * amplitude, phase, multiples));
             } else if frequency > 0.0 {
                 // The others have the opposite multiples.
@@ -158,7 +161,7 @@ impl QuasiPeriodicMotion {
         }
         let mut left = 0.0_f64;
         for k in 0..PLACES {
-            // Turns that are no fractions of the grid, of the first prime numbers.
+            // Turns that are not fractions of the grid, from the first prime numbers.
             let turns = [2.0_f64, 3.0, 5.0].map(|prime| (k as f64 + 0.5) * prime.sqrt());
             let turns: [f64; 3] = core::array::from_fn(|i| if counts[i] > 1 { turns[i].fract() } else { 0.0 });
             let here = |(amplitude, phase, multiples): &(f64, f64, [i32; 3])| {
@@ -172,7 +175,8 @@ impl QuasiPeriodicMotion {
     }
 }
 
-/// Largest coefficient beside the constant, and for each angle that of multiples in the upper quarter of the grid.
+/// Largest coefficient apart from the constant, and for each angle the largest among multiples in the upper quarter of the
+/// grid.
 fn strongest_and_edges(all: &[Complex<f64>], counts: [usize; 3]) -> (f64, [f64; 3]) {
     let (mut strongest, mut edges) = (0.0_f64, [0.0_f64; 3]);
     for (place, size) in all.iter().map(|coefficient| coefficient.norm()).enumerate().skip(1) {
@@ -212,7 +216,7 @@ mod tests {
         assert!((few.least / few.lines[0].amplitude - 1e-3).abs() < 1e-6 && all.left < 1e-10 && few.left < 0.02);
         for (line, exact) in few.lines.iter().zip(&all.lines) {
             assert_eq!((&line.combination, line.frequency), (&exact.combination, exact.frequency));
-            // What is folded back from beyond the grid is below the least amplitude.
+            // The aliases from beyond the grid are below the least amplitude.
             assert!((line.amplitude - exact.amplitude).abs() < EDGE * few.least);
         }
         assert!(all.lines.windows(2).all(|pair| pair[0].amplitude >= pair[1].amplitude && pair[1].frequency > 0.0));
@@ -229,7 +233,8 @@ mod tests {
         }
     }
 
-    /// Noise, by the last bits of the function, ends the refinement of the grid: no line of it is listed, and those of the function above it are as they are without it.
+    /// Noise in the last bits of the function ends the refinement of the grid: no line of it is listed, and the lines of the function above it are
+    /// unchanged.
     #[test]
     fn noise_is_not_listed() {
         let found = motion(&problem([0.02, 0.01, -0.03]));
@@ -240,7 +245,8 @@ mod tests {
         let exact = lines(&found, 1e-14, |state| state.axis.z);
         for part in [1e-11, 1e-10] {
             let with_noise = lines(&found, 1e-14, |state| state.axis.z + part * noise(state.axis.z));
-            // Eight times the largest of the coefficients at the edge, each about the size of the noise over the root of twelve times the number of points.
+            // Eight times the largest coefficient at the edge; these coefficients are each about the size of the noise over the root of twelve times
+            // the number of points.
             assert!((8e-3 * part..0.2 * part).contains(&with_noise.least), "{part:e}: {:e}", with_noise.least);
             assert!(with_noise.left < 2.0 * part && exact.left < 1e-12, "{:e}", with_noise.left);
             assert!(with_noise.lines.len() > 10);
@@ -249,7 +255,7 @@ mod tests {
                 assert!((line.amplitude - exact.amplitude).abs() < with_noise.least);
             }
         }
-        // Of a size that a number of the program could have, no noise is taken for granted.
+        // Noise large enough to be a real signal of the program is not assumed to be noise.
         let loud = found.lines(1e-14, |state| Ok::<_, Error>([state.axis.z + 1e-7 * noise(state.axis.z), 1.0]));
         assert!(matches!(loud, Err(Error::Domain { .. })), "{loud:?}");
     }
@@ -267,7 +273,8 @@ mod tests {
         assert!(matches!(refused, Err(Error::Unsupported { .. })));
     }
 
-    /// A free body whose spin against `L` is half of its rate of precession: a line of `(1, 0, -2)` has no frequency, and belongs to the mean over time.
+    /// A free body whose spin relative to `L` is half of its precession rate: the line `(1, 0, -2)` has zero frequency, and belongs to the mean over
+    /// time.
     #[test]
     fn lines_that_do_not_move_are_in_the_constant() {
         let star = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 0.5, constant_c: 0.0 };
@@ -283,7 +290,7 @@ mod tests {
         let mean = |of: &dyn Fn(f64, f64) -> f64| {
             (0..32 * 32).map(|i| of(f64::from(i % 32) / 32.0, f64::from(i / 32) / 32.0)).sum::<f64>() / 1024.0
         };
-        // The body comes back to where it was in two turns about L.
+        // The body returns to its initial state in two turns about L.
         let over_time = mean(&|part, _| at(2.0 * part, about_axis.signum() * part));
         assert!((all.constant - over_time).abs() < 1e-14, "{} {over_time}", all.constant);
         assert!((over_time - mean(&at)).abs() > 0.01, "no such line");

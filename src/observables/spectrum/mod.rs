@@ -7,7 +7,7 @@
 //! f(t) = sum_m c_m exp(i m.theta(t)),    theta(t) = w t:    2 |c_m| cos(m.w t + arg c_m)
 //! ```
 //!
-//! No span of time enters. Lines as near to one another as one likes are told apart.
+//! No time series is computed, so arbitrarily close lines are resolved.
 //!
 //! ```
 //! use nalgebra::{Matrix3, Vector3};

@@ -7,10 +7,10 @@ use crate::dynamics::{BodyState, Problem};
 use crate::error::Error;
 use crate::propagation::{PhasedMotion, largest_torque};
 
-/// Rates are found to 32 digits, as for a motion of so many turns.
+/// Rates are computed to 32 digits, as for a motion of this many turns.
 const TURNS: f64 = 1e15;
 
-/// Part of that over which the error of the rates is taken.
+/// Fraction of these turns over which the error of the rates is evaluated.
 const PART: f64 = 1e-9;
 
 /// A motion as a function of three angles that grow in proportion to time, with its fundamental frequencies.
@@ -24,13 +24,13 @@ pub struct QuasiPeriodicMotion {
 }
 
 impl QuasiPeriodicMotion {
-    /// The motion of a problem, exact to rounding, of the numbers as they are given.
+    /// The motion of a problem, exact to rounding for the given numbers.
     ///
     /// # Errors
     /// As for [`PhasedMotion::exact`]: near the separatrix.
     pub fn new(problem: &Problem<f64>) -> Result<Self, Error> {
         let (spheroid, momentum) = (problem.spheroid(), problem.initial().momentum.norm());
-        // From rest by what the torque gives.
+        // For a start from rest, the scale is set by the torque.
         let torque = largest_torque(spheroid, problem.coefficients());
         let momentum = momentum.max((spheroid.inertia_xx * torque).sqrt());
         let longest = if momentum > 0.0 { TURNS * TAU * spheroid.inertia_xx / momentum } else { 1.0 };
@@ -42,7 +42,7 @@ impl QuasiPeriodicMotion {
         Ok(Self { motion, start, rate_error, frequencies })
     }
 
-    /// The state after turns of the three angles since the start.
+    /// The state after given turns of the three angles since the start.
     pub(crate) fn state_after_turns(&self, turns: [f64; 3]) -> BodyState<f64> {
         self.motion.state_at(sum(self.start, turns))
     }
@@ -70,7 +70,7 @@ impl QuasiPeriodicMotion {
     }
 }
 
-/// Angles in turns, without whole ones.
+/// Angles in turns, without their integer part.
 fn sum(start: [f64; 3], turns: [f64; 3]) -> [f64; 3] {
     core::array::from_fn(|i| {
         let turns = start[i] + turns[i];
@@ -94,7 +94,8 @@ mod tests {
         assert_eq!(found.state_after_turns([0.0; 3]), start);
     }
 
-    /// The rate of `e_x` about `n` of a nearly spherical star is a difference of rates 1e8 times as large: `-epsilon Omega^z`, the torque apart.
+    /// The rate of `e_x` about `n` of a nearly spherical star is a difference of rates 1e8 times as large: `-epsilon Omega^z`, apart from the
+    /// torque.
     #[test]
     fn small_differences_of_rates_keep_their_digits() {
         let star = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.0 + 9e-9, constant_c: 1.0 };

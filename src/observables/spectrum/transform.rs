@@ -4,7 +4,7 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
 /// Coefficients `c_m` of `sum_m c_m exp(i m.theta)` from the values at `counts[0] x counts[1] x counts[2]` equally spaced points, the last angle
-/// fastest, in the same order: `m` from 0 up, then the negative ones from the lowest on.
+/// varying fastest, in the same order: `m` from 0 up, then the negative values in ascending order.
 pub(super) fn coefficients(values: &[f64], mut counts: [usize; 3]) -> Vec<Complex<f64>> {
     let mut all: Vec<Complex<f64>> = values.iter().map(|value| Complex::from(value / values.len() as f64)).collect();
     let mut planner = FftPlanner::new();
@@ -19,7 +19,7 @@ pub(super) fn coefficients(values: &[f64], mut counts: [usize; 3]) -> Vec<Comple
     all
 }
 
-/// The multiples of the three angles of a place among all coefficients.
+/// The multiples of the three angles for an index among all coefficients.
 pub(super) fn multiples(place: usize, counts: [usize; 3]) -> [i32; 3] {
     let places = places(place, counts);
     core::array::from_fn(|i| {

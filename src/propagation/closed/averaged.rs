@@ -11,15 +11,16 @@ use crate::propagation::input::check_time;
 use crate::propagation::{Motion, Turning};
 use crate::solutions::averaged::{AveragedPhases, AveragedSolution, AveragingOrder};
 
-/// A motion by [`AveragedSolution`], whatever the frame in which the tensor is given: for a body that turns fast against the torque, over any
-/// number of turns.
+/// A motion by [`AveragedSolution`] for a tensor given in any frame: for a body whose rotation is fast compared with the effect of the
+/// torque, over any number of turns.
 #[derive(Debug, Clone, Copy)]
 pub struct AveragedMotion<S> {
     problem: Problem<S>,
     span: (f64, f64),
     /// Time of the initial state, in two parts.
     origin: [f64; 2],
-    /// The motion in the principal frame of `s`, and its rates. Times count from the initial state, or from the epoch of [`near`](Self::near).
+    /// The motion in the principal frame of `s`, and its rates. Times are counted from the initial state, or from the epoch of
+    /// [`near`](Self::near).
     pub mean: AveragedSolution<S>,
     given_from_principal: Matrix3<S>,
 }
@@ -33,8 +34,8 @@ impl<S: Real> AveragedMotion<S> {
         Self::in_frame(problem, span, order, principal_frame_with_derivatives(problem.coefficients())?)
     }
 
-    /// As [`new`](Self::new), with the eigenvalues of `s` and the proper rotation to its principal frame: for derivatives, of which those of the
-    /// frame are part (see [`principal_frame_along`](crate::lorentz_violation::principal_frame_along)).
+    /// As [`new`](Self::new), with the eigenvalues of `s` and the proper rotation to its principal frame given. This is for derivatives, which
+    /// include those of the frame (see [`principal_frame_along`](crate::lorentz_violation::principal_frame_along)).
     ///
     /// # Errors
     /// As for [`AveragedSolution::new`].
@@ -57,7 +58,8 @@ impl<S: Real> AveragedMotion<S> {
         })
     }
 
-    /// The same motion with the time counted from `epoch[0] + epoch[1]`: near it a double is enough for a time, after any number of turns.
+    /// The same motion with the time counted from `epoch[0] + epoch[1]`: near the epoch a double is precise enough for a time, after any
+    /// number of turns.
     ///
     /// # Errors
     /// [`Error::Domain`] for an epoch outside the span.
@@ -72,7 +74,7 @@ impl<S: Real> AveragedMotion<S> {
         })
     }
 
-    /// Time since that from which phases are counted.
+    /// Time since the one from which phases are counted.
     fn elapsed(&self, t: [f64; 2]) -> [f64; 2] {
         let sum = DoubleDouble::sum(t[0], t[1]) + DoubleDouble::sum(-self.origin[0], -self.origin[1]);
         [sum.high, sum.low]
@@ -121,7 +123,8 @@ impl<S: Real> Motion<S> for AveragedMotion<S> {
         Turning::Equations { bulge: self.problem.bulge().re() }
     }
 
-    /// That of the [averaged motion](AveragedSolution::error_estimate); the rounding of `t` itself is not counted.
+    /// The error estimate of the [averaged motion](AveragedSolution::error_estimate); the rounding of `t` itself is not
+    /// included.
     fn error_estimate(&self, t: f64) -> f64 {
         self.mean.error_estimate(t - self.origin[0])
     }

@@ -1,4 +1,4 @@
-//! Motions in closed form: no integration, any time at the same cost.
+//! Motions in closed form: no integration, and the same cost for any time.
 //!
 //! ```
 //! use nalgebra::{Matrix3, Vector3};

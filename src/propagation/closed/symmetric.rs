@@ -1,4 +1,5 @@
-//! The exact motion for two equal eigenvalues of `s^IJ`, in the frame of the caller and without Euler angles outside.
+//! The exact motion for two equal eigenvalues of `s^IJ`, in the frame of the caller and without Euler angles in the
+//! interface.
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
@@ -13,9 +14,9 @@ use crate::propagation::Motion;
 use crate::propagation::input::check_time;
 use crate::solutions::symmetric::SymmetricSolution;
 
-/// A motion by [`SymmetricSolution`], whatever the frame in which the tensor is given.
+/// A motion by [`SymmetricSolution`] for a tensor given in any frame.
 ///
-/// Two eigenvalues that differ are replaced by their mean. What that leaves out of the torque is part of the error estimate.
+/// Two eigenvalues that differ are replaced by their mean. The effect of the neglected torque is part of the error estimate.
 /// Derivatives (duals) are those within tensors of the same symmetry axis.
 #[derive(Debug, Clone, Copy)]
 pub struct SymmetricMotion<S> {
@@ -23,7 +24,7 @@ pub struct SymmetricMotion<S> {
     span: (f64, f64),
     solution: SymmetricSolution<S>,
     given_from_principal: Matrix3<S>,
-    /// Real parts of the start in the frame of the solution.
+    /// Real parts of the initial values in the frame of the solution.
     start: Start,
     symmetry: SymmetryOfTensor,
     neglected_torque: f64,
@@ -40,7 +41,7 @@ struct Start {
     rates: EulerRates<f64>,
 }
 
-/// Least sine of the inclination along a motion: nearer to a pole the Euler rates lose the digits of `L`.
+/// Smallest allowed sine of the inclination along a motion: closer to a pole the Euler rates lose the digits of `L`.
 const NEAREST_TO_POLE: f64 = 1e-9;
 
 impl<S: Real> SymmetricMotion<S> {
@@ -48,7 +49,7 @@ impl<S: Real> SymmetricMotion<S> {
     ///
     /// # Errors
     /// [`Error::Domain`] for a tensor that is not symmetric, for a state within 1e-9 of a pole of the symmetry axis at the start or
-    /// at any time, and for what [`SymmetricSolution::new`] refuses. Eigenvalues that differ are not refused: see
+    /// at any time, and for problems that [`SymmetricSolution::new`] refuses. Eigenvalues that differ are not refused: see
     /// [`truncation`](Self::truncation). [`Error::Unsupported`] for a star with a bulge.
     pub fn new(problem: &Problem<S>, span: (f64, f64)) -> Result<Self, Error> {
         problem.require_rigid()?;
@@ -90,11 +91,12 @@ impl<S: Real> SymmetricMotion<S> {
         })
     }
 
-    /// Bound on the components of `n` and `L` of what the difference of the two eigenvalues does within a time; zero where they
-    /// are equal within rounding, which [`Motion::error_estimate`] counts.
+    /// Bound on the effect, within a time, of the difference of the two eigenvalues on the components of `n` and `L`; zero if
+    /// they are equal within rounding, which [`Motion::error_estimate`] includes.
     ///
-    /// With `T` the torque left out and `D` the largest one, `|dn|' <= |dL| / I^xx` and `|dL|' <= 2 D |dn| + T`, hence
-    /// `|dn| <= T (cosh(k t) - 1) / (2 D)` with `k^2 = 2 D / I^xx` (Gronwall): rigorous, and useless over many times `1 / k`.
+    /// With the neglected torque `T` and the largest torque `D`, `|dn|' <= |dL| / I^xx` and `|dL|' <= 2 D |dn| + T`, hence
+    /// `|dn| <= T (cosh(k t) - 1) / (2 D)` with `k^2 = 2 D / I^xx` (Gronwall). This is rigorous, but useless over many times
+    /// `1 / k`.
     pub fn truncation(&self, elapsed: f64) -> f64 {
         if self.symmetry.is_symmetric_within_rounding() {
             return 0.0;
@@ -105,19 +107,19 @@ impl<S: Real> SymmetricMotion<S> {
         let push = self.neglected_torque / body.inertia_xx;
         let axis = push * ((k * t).cosh() - 1.0) / (k * k);
         let size = self.turning_rate + (self.neglected_torque / body.inertia_xx).sqrt();
-        // Nor may L differ by more than the torques of both motions make of it.
+        // Nor can L differ by more than the change due to the torques of both motions.
         let momentum = (push * (k * t).sinh() / k).min(2.0 * largest / body.inertia_xx * t) / size;
         momentum.max((axis * (1.0 + self.turning_rate * t)).min(2.0))
     }
 
-    /// Rounding of the initial values and parameters, grown by the derivatives of the solution itself, and of the phase, with what
-    /// cancels in the turning points of the inclination and beside the poles. Where the two eigenvalues are equal within rounding, what is left of their
-    /// difference counts here.
+    /// Rounding error: that of the initial values and parameters, amplified by the derivatives of the solution itself, and that of the phase,
+    /// including cancellation in the turning points of the inclination and near the poles. If the two eigenvalues are equal within rounding, their
+    /// remaining difference is included here.
     pub fn rounding(&self, elapsed: f64) -> f64 {
         let by = |seed: fn(&mut EulerAngles<Dual64>, &mut EulerRates<Dual64>)| self.sensitivity(elapsed, seed);
         let by_angle = by(|angles, _| angles.beta.eps = 1.0);
         let by_rates = by(|_, rates| rates.beta.eps = 1.0) + by(|_, rates| rates.alpha.eps = 1.0);
-        // Initial rates are rounded by their own size, and by that of what they are differences of.
+        // Initial rates are rounded relative to their own size, and to the size of the terms whose difference they are.
         let rates = &self.start.rates;
         let size = self.turning_rate + self.swing_rate + rates.alpha.abs() + rates.beta.abs();
         let phase = (self.turning_rate + self.swing_rate) * elapsed.abs();
@@ -131,7 +133,8 @@ impl<S: Real> SymmetricMotion<S> {
         rounding + left_out
     }
 
-    /// Largest component of the derivative of `n`, `L` and `e_x` by an initial value; infinite where it does not exist.
+    /// Largest component of the derivative of `n`, `L` and `e_x` with respect to an initial value; infinite where it does
+    /// not exist.
     fn sensitivity(&self, elapsed: f64, seed: fn(&mut EulerAngles<Dual64>, &mut EulerRates<Dual64>)) -> f64 {
         let Start { spheroid, coefficients, angles, rates } = &self.start;
         let dual = Dual64::from_re;
@@ -154,7 +157,8 @@ fn state_of<S: Real>(spheroid: &RigidSpheroid<S>, solution: &SymmetricSolution<S
     BodyState::from_angles(spheroid, &solution.angles(t), &solution.rates(t))
 }
 
-/// The precession angle and the rotation angle are sums of the same two integrals: the third angle costs nothing here.
+/// The precession angle and the rotation angle are sums of the same two integrals, so the third angle costs nothing extra
+/// here.
 impl<S: Real> Motion<S> for SymmetricMotion<S> {
     type State = BodyState<S>;
 
@@ -176,7 +180,8 @@ impl<S: Real> Motion<S> for SymmetricMotion<S> {
         Ok(state.rotated(&self.given_from_principal))
     }
 
-    /// [`truncation`](SymmetricMotion::truncation) and [`rounding`](SymmetricMotion::rounding); some evaluations of the solution.
+    /// Sum of [`truncation`](SymmetricMotion::truncation) and [`rounding`](SymmetricMotion::rounding); takes some evaluations of
+    /// the solution.
     fn error_estimate(&self, t: f64) -> f64 {
         let elapsed = t - self.span.0;
         self.truncation(elapsed) + self.rounding(elapsed)
@@ -194,7 +199,7 @@ mod tests {
         SymmetricMotion::new(&problem, (0.0, 10.0))
     }
 
-    /// Within a short time the torque left out changes `L` in proportion to it, and `n` by the square.
+    /// Within a short time the neglected torque changes `L` in proportion to the time, and `n` to its square.
     #[test]
     fn what_is_left_out_begins_with_the_momentum() {
         let moving = motion([0.1, 0.1 + 1e-9, -0.2], 0.7, [1.4, 0.1, 0.2]).unwrap();

@@ -10,7 +10,8 @@ use crate::propagation::Motion;
 use crate::propagation::input::check_time;
 use crate::solutions::torus::{TorusDerivative, TorusSolution};
 
-/// A motion by [`TorusSolution`]: any scene without isotropic `s`, any time, at the same cost.
+/// A motion by [`TorusSolution`], for any anisotropic `s` off the separatrix; the cost of an evaluation does not depend on
+/// the time.
 #[derive(Debug, Clone)]
 pub struct TorusMotion {
     problem: Problem<f64>,
@@ -19,7 +20,7 @@ pub struct TorusMotion {
 }
 
 impl TorusMotion {
-    /// The motion from the initial state at `span.0`, with the largest error wanted.
+    /// The motion from the initial state at `span.0`, with the error tolerance `tolerance`.
     ///
     /// # Errors
     /// As for [`TorusSolution::new`].
@@ -27,7 +28,7 @@ impl TorusMotion {
         Ok(Self { problem: *problem, span, solution: TorusSolution::new(problem, tolerance, span.1 - span.0)? })
     }
 
-    /// The series and their angles; times count from the initial state.
+    /// The series and their angles; times are counted from the initial state.
     pub fn solution(&self) -> &TorusSolution {
         &self.solution
     }
@@ -44,7 +45,7 @@ impl TorusMotion {
         Ok(move |t| Ok(derivative.state(self.elapsed(t)?)))
     }
 
-    /// Since the start, of a time that is one number.
+    /// Time since the start, for a time that is a single number.
     fn since(&self, t: f64) -> Result<[f64; 2], Error> {
         check_time(self.span, t)?;
         Ok(DoubleDouble::sum(t, -self.span.0).into())

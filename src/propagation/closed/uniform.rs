@@ -1,4 +1,4 @@
-//! Motions in which the symmetry axis and the angular momentum turn uniformly about one direction. Eqs. (26), (48).
+//! Motions in which the symmetry axis and the angular momentum rotate uniformly about one direction. Eqs. (26), (48).
 
 use core::f64::consts::TAU;
 
@@ -24,23 +24,23 @@ pub struct UniformMotion<S> {
     /// `g = (Omega - p).n`.
     body_rate: S,
     momentum_is_constant: bool,
-    /// Largest torque that the motion leaves out.
+    /// Largest torque that the motion neglects.
     neglected_torque: f64,
-    /// Bound on the rate over `|L|` at which a bulge, which the motion leaves out, turns everything.
+    /// Bound on the rate over `|L|` at which the neglected bulge rotates everything.
     neglected_bulge: f64,
-    /// By how much a rounding of the initial state counts.
+    /// Condition number of the motion with respect to rounding of the initial state.
     condition: f64,
-    /// Rate at which the state leaves the uniform motion: what a steady one was accepted with.
+    /// Rate at which the state departs from the uniform motion: the residual with which a steady one was accepted.
     residual: f64,
 }
 
 impl<S: Real> UniformMotion<S> {
     /// Free rotation from the initial state at `span.0`, Eq. (48) `[angfreqfre]`: exact where `s^IJ` is isotropic, otherwise an
-    /// approximation that leaves the torque out and bounds what that does.
+    /// approximation that neglects the torque and bounds its effect.
     ///
-    /// With `T` the largest torque ([`largest_torque`]), `|dL| <= T t`, and since free rotation keeps the length of what it
-    /// turns, `|dn| <= T t^2 / (2 I^xx)` and `|d e_x| <= T t^2 / (2 I^xx) (1 + |epsilon Omega^z| t / 3)`: these bounds are
-    /// rigorous and part of the error estimate. A bulge turns everything together, at `2 |b| |s| |L|` at most, by as much as which all of them are off.
+    /// With `T` the largest torque ([`largest_torque`]), `|dL| <= T t`, and since free rotation preserves lengths, `|dn| <= T t^2 / (2 I^xx)` and
+    /// `|d e_x| <= T t^2 / (2 I^xx) (1 + |epsilon Omega^z| t / 3)`: these bounds are rigorous and part of the error estimate. A bulge rotates
+    /// everything together, at a rate of at most `2 |b| |s| |L|`, and this rotation is added to all the errors.
     pub fn free(problem: &Problem<S>, span: (f64, f64)) -> Self {
         let (spheroid, initial) = (problem.spheroid(), problem.initial());
         let s = problem.coefficients().map(S::re);
@@ -64,9 +64,9 @@ impl<S: Real> UniformMotion<S> {
     /// tensor with two equal eigenvalues, or, for any tensor, a body whose axis is a principal one and along `L`.
     ///
     /// # Errors
-    /// [`Error::Domain`] unless the state satisfies `p x n = L x n / I^xx` and `p x L = Gamma` for some `p` along the symmetry
-    /// axis to 32 roundings of the turning rate, and where that precession is not stable (rounding would grow
-    /// exponentially). A body that neither turns its axis nor feels a torque must do so exactly. [`Error::Unsupported`] for a star with a bulge.
+    /// [`Error::Domain`] unless the state satisfies `p x n = L x n / I^xx` and `p x L = Gamma` for some `p` along the symmetry axis to 32
+    /// roundings of the turning rate, and if that precession is not stable (rounding would grow exponentially). A body whose axis stays at rest
+    /// and that feels no torque must satisfy this exactly. [`Error::Unsupported`] for a star with a bulge.
     pub fn steady(problem: &Problem<S>, span: (f64, f64)) -> Result<Self, Error> {
         problem.require_rigid()?;
         let (spheroid, s, initial) = (problem.spheroid(), problem.coefficients(), problem.initial());
@@ -126,18 +126,18 @@ impl<S: Real> UniformMotion<S> {
         Ok(t - S::from_f64(self.span.0))
     }
 
-    /// Bound on the components of `n`, `L` and `e_x` of what the torque and the bulge left out do within a time.
+    /// Bound on the effect, within a time, of the neglected torque and bulge on the components of `n`, `L` and `e_x`.
     pub fn truncation(&self, elapsed: f64) -> f64 {
         let (inertia, t) = (self.problem.spheroid().inertia_xx.re(), elapsed.abs());
         let momentum = real_part(&self.problem.initial().momentum).norm();
-        // L grows by the torque times the time at most.
+        // L grows at most by the torque times the time.
         let turned = self.neglected_bulge * (momentum + self.neglected_torque * t) * t;
         if self.neglected_torque == 0.0 {
             return turned.min(2.0);
         }
         let size = momentum + (inertia * self.neglected_torque).sqrt();
         let axes = self.neglected_torque * t * t / (2.0 * inertia) * (1.0 + self.body_rate.re().abs() * t / 3.0);
-        // Directions are at most two apart.
+        // The distance of two directions is at most two.
         (axes + turned).min(2.0).max(self.neglected_torque * t / size + turned)
     }
 
@@ -149,7 +149,8 @@ impl<S: Real> UniformMotion<S> {
 }
 
 impl UniformMotion<f64> {
-    /// The rotation vector of `n` and `L`, and the rate of `e_x` about `n`: all of it where `n` stays.
+    /// The rotation vector of `n` and `L`, and the rate of `e_x` about `n`, which is the whole rotation if `n` stays at
+    /// rest.
     fn turns(&self) -> (Vector3<f64>, f64) {
         let axis = &self.problem.initial().axis;
         if self.turn.cross(axis) == Vector3::zeros() {
@@ -159,18 +160,18 @@ impl UniformMotion<f64> {
         }
     }
 
-    /// Rates (rad per unit of time) of the turn of `n` and `L`, of nothing, and of `e_x` about `n`.
+    /// Rates (rad per unit of time): of the rotation of `n` and `L`, zero, and of the rotation of `e_x` about `n`.
     pub(crate) fn rates(&self) -> [f64; 3] {
         let (turn, about_axis) = self.turns();
         [turn.norm(), 0.0, about_axis]
     }
 
-    /// The axis of the angles `alpha` and `gamma`: what `L` goes round, or Z if it stays.
+    /// The axis of the angles `alpha` and `gamma`: the axis that `L` circles, or Z if it stays fixed.
     pub(crate) fn pole(&self) -> Vector3<f64> {
         if self.momentum_is_constant { Vector3::z() } else { self.turn.try_normalize(0.0).unwrap_or_else(Vector3::z) }
     }
 
-    /// The state after turns of both angles since the start.
+    /// The state after given turns of both angles since the start.
     pub(crate) fn state_after_turns(&self, [turn, about_axis]: [f64; 2]) -> BodyState<f64> {
         let BodyState { axis, momentum, equatorial_axis } = self.problem.initial();
         let (sin, cos) = (TAU * about_axis).sin_cos();
@@ -243,7 +244,7 @@ impl<S: Real> Motion<S> for UniformMotion<S> {
         Ok(AxisState { axis: rotated_by(&turn, axis), momentum })
     }
 
-    /// [`truncation`](UniformMotion::truncation) and [`rounding`](UniformMotion::rounding).
+    /// Sum of [`truncation`](UniformMotion::truncation) and [`rounding`](UniformMotion::rounding).
     fn error_estimate(&self, t: f64) -> f64 {
         let elapsed = t - self.span.0;
         self.truncation(elapsed) + self.rounding(elapsed)
@@ -259,7 +260,8 @@ mod tests {
     use crate::dynamics::fixture::STAR;
     use crate::solutions::steady::fixture::steady_precession;
 
-    /// The axis lies in the equator of `s` and precesses about its pole at the rate 1/4 without torque; a spin would need one.
+    /// The axis lies in the equator of `s` and precesses about its pole at the rate 1/4 without torque; with a spin it would
+    /// require one.
     #[test]
     fn a_steady_motion_is_one_to_32_roundings() {
         let star = RigidSpheroid { inertia_xx: 4.0, inertia_zz: 2.0, constant_c: 1.0 };
@@ -277,7 +279,7 @@ mod tests {
         assert_relative_eq!(value / f64::EPSILON, 32.4, max_relative = 1e-9);
     }
 
-    /// Without torque: about `L` at the rate `|L| / I^xx`, against which the axis resists by its spin of either sign.
+    /// Without torque: precession about `L` at the rate `|L| / I^xx`, which the axis resists by its spin of either sign.
     #[test]
     fn the_condition_of_a_steady_motion_is_the_same_for_both_senses_of_spin() {
         let (sin, cos) = 0.7_f64.sin_cos();
@@ -313,7 +315,8 @@ mod tests {
         })
     }
 
-    /// The squared frequency of the inclination about a steady precession is the second derivative of its effective potential over `I^xx`, both momenta fixed; here by differences.
+    /// The squared frequency of the inclination about a steady precession is the second derivative of its effective potential over `I^xx`, with both
+    /// momenta fixed; here by finite differences.
     #[test]
     fn the_condition_of_a_steady_motion_goes_by_its_stiffness() {
         for (motion, rate, spin, beta) in steady() {
@@ -347,7 +350,7 @@ mod tests {
         }
     }
 
-    /// Where `n` stays, all of the rotation is about it.
+    /// If `n` stays at rest, the whole rotation is about it.
     #[test]
     fn a_star_that_spins_about_its_axis_turns_about_it_alone() {
         let axis = Vector3::new(0.6, 0.0, 0.8);
@@ -361,7 +364,7 @@ mod tests {
         assert_eq!((quarter.axis, quarter.momentum), (axis, axis * 2.2));
     }
 
-    /// Also of a slow one, about any axis, in either sense.
+    /// Also for a slow motion, about any axis, in either sense.
     #[test]
     fn the_pole_is_what_the_momentum_goes_round() {
         let turn = nalgebra::Rotation3::from_euler_angles(0.3, 1.1, -0.4).into_inner();

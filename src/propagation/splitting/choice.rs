@@ -1,4 +1,4 @@
-//! Which scheme, and which step, for a tolerance.
+//! Choice of the scheme and the step for a tolerance.
 
 use crate::dynamics::{Problem, RotationState};
 use crate::error::Error;
@@ -12,20 +12,20 @@ use crate::propagation::splitting::schemes::{
     SRKN_14A, STRANG,
 };
 
-/// What a scheme's error is after turning by `W T`, in the components of `n` and of `L / I^xx W`:
+/// Model of the error of a scheme after rotation by `W T`, in the components of `n` and of `L / I^xx W`:
 ///
 /// ```text
 /// W T sum_k constants[k] epsilon^(k+1) (W h)^orders[k],    epsilon = 2 |C| (s_max - s_min) / (I^xx W^2)
 /// ```
 ///
-/// with `W` the bound of `|L| / I^xx` by the energy. The constants are quantiles over random motions with `W T = 300` and `epsilon`
-/// from 1e-6 to 0.5; the middle half of these motions lies within a factor of ten of the formula.
+/// with `W` the bound of `|L| / I^xx` from the energy. The constants are quantiles over random motions with `W T = 300` and
+/// `epsilon` from 1e-6 to 0.5; the middle half of these motions lies within a factor of ten of the formula.
 struct Model {
     scheme: &'static Scheme,
     constants: [f64; 3],
-    /// Time of one stage over that of a stage without force gradient.
+    /// Time of one stage relative to a stage without force gradient.
     stage_cost: f64,
-    /// Largest turn (rad) per stage for which the formula holds.
+    /// Largest rotation (rad) per stage for which the formula holds.
     largest_turn: f64,
 }
 
@@ -53,10 +53,10 @@ static MODELS: [Model; 9] = [
     model(&GRADIENT_8_8_6, [1.9e-8, 6.8e-7, 1.6e-6]),
 ];
 
-/// The error wanted over the error that the model gives: motions differ by that much.
+/// Ratio of the tolerance to the error predicted by the model: motions differ by that much.
 const SAFETY: f64 = 10.0;
 
-/// Largest turn (rad) per stage: beyond, higher powers of the step than those of the formula exceed it by more than
+/// Largest rotation (rad) per stage: beyond it, higher powers of the step than those of the formula exceed it by more than
 /// [`SAFETY`] for one random motion in a hundred.
 const LARGEST_TURN: f64 = 0.3;
 
@@ -66,14 +66,15 @@ impl Model {
         turn * (0..3).map(|k| self.constants[k] * epsilon.powi(k as i32 + 1) * step.powi(orders[k] as i32)).sum::<f64>()
     }
 
-    /// Error of a derivative by `epsilon`, over the angle by which the derivative itself grows: the slope of [`error`](Self::error) over
-    /// the turn. It does not vanish with `epsilon`. Over few turns it is larger: what oscillates has not averaged out.
+    /// Error of a derivative with respect to `epsilon`, divided by the angle by which the derivative itself grows: the slope of
+    /// [`error`](Self::error) divided by the rotation angle. It does not vanish with `epsilon`. Over few turns it is larger, because
+    /// oscillating terms have not averaged out.
     fn error_of_derivative(&self, epsilon: f64, step: f64) -> f64 {
         let orders = self.scheme.orders;
         (0..3).map(|k| (k + 1) as f64 * self.constants[k] * epsilon.powi(k as i32) * step.powi(orders[k] as i32)).sum()
     }
 
-    /// Largest step, as an angle (rad), that is good enough: errors rise with it.
+    /// Largest step, as an angle (rad), that is accurate enough; errors increase with the step.
     fn longest(&self, is_good: impl Fn(f64) -> bool) -> f64 {
         let largest = self.largest_turn * self.scheme.stages() as f64;
         if is_good(largest) {
@@ -87,7 +88,7 @@ impl Model {
         low
     }
 
-    /// Time of one step over that of a stage without force gradient.
+    /// Time of one step relative to a stage without force gradient.
     fn step_cost(&self) -> f64 {
         self.stage_cost * self.scheme.stages() as f64
     }
@@ -97,18 +98,18 @@ impl Model {
     }
 }
 
-/// What steps are chosen for.
+/// The quantity whose error determines the steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Goal {
     /// The state.
     State,
-    /// The state with its derivatives by parameters. They cost several times what the motion does, so that the steps are for the error of the
-    /// model itself: what more motions exceed.
+    /// The state with its derivatives with respect to parameters. They cost several times as much as the motion, so the steps are chosen for
+    /// the error of the model itself, which more motions exceed.
     Derivatives,
 }
 
 impl Goal {
-    /// The error that counts against the tolerance.
+    /// The error that is compared with the tolerance.
     fn error(self, model: &Model, epsilon: f64, turn: f64, step: f64) -> f64 {
         let error = model.error(epsilon, turn, step);
         match self {
@@ -117,13 +118,13 @@ impl Goal {
         }
     }
 
-    /// Largest step, as an angle (rad), at which that is within the tolerance.
+    /// Largest step, as an angle (rad), for which that error is within the tolerance.
     fn step(self, model: &Model, epsilon: f64, turn: f64, tolerance: f64) -> f64 {
         model.longest(|step| self.error(model, epsilon, turn, step) <= tolerance)
     }
 
-    /// Share of random motions whose error stays below it: of 10,000 with strong torques 0.6 % and 3.5 % were above, of 3,000 of every kind 0.5 % and 0.9 %
-    /// (`docs/plans.md`).
+    /// Fraction of random motions whose error stays below it: 0.6 % and 3.5 % of 10,000 motions with strong torques were above, and 0.5 % and 0.9 %
+    /// of 3,000 of every kind (`docs/plans.md`).
     fn coverage(self) -> f64 {
         match self {
             Self::State => 0.99,
@@ -132,22 +133,22 @@ impl Goal {
     }
 }
 
-/// What [`Problem::splitting`] will do.
+/// Prediction for [`Problem::splitting`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SplittingForecast {
-    /// The scheme that the model finds cheapest.
+    /// The cheapest scheme according to the model.
     pub scheme: &'static Scheme,
     /// Length of its steps, in the unit of time of the scene.
     pub step: f64,
     /// Number of its steps.
     pub steps: f64,
-    /// Error at the end, rounding apart, that the share [`coverage`](Self::coverage) of random motions stays below: a multiple of what the model
-    /// gives for these steps. Zero without torque, where the flows are exact.
+    /// Error at the end, excluding rounding, that the fraction [`coverage`](Self::coverage) of random motions stays below: a multiple of the
+    /// model's error for these steps. Zero without torque, where the flows are exact.
     pub truncation: f64,
-    /// That share.
+    /// This fraction.
     pub coverage: f64,
-    /// What [`error_estimate`](crate::propagation::Motion::error_estimate) will take for rounding at the end, but for what an
-    /// instability makes of it.
+    /// The rounding error that [`error_estimate`](crate::propagation::Motion::error_estimate) will report at the end, without
+    /// its growth by an instability.
     pub rounding: f64,
 }
 
@@ -160,7 +161,7 @@ impl<X: RotationState<f64>> Problem<f64, X> {
         self.splitting_forecast_for(Goal::State, span, tolerance)
     }
 
-    /// The same for a goal.
+    /// The same for a given goal.
     ///
     /// # Errors
     /// As for [`splitting_forecast`](Self::splitting_forecast), and for derivatives on a processor without the instructions for tangent maps.
@@ -180,7 +181,7 @@ impl<X: RotationState<f64>> Problem<f64, X> {
     }
 }
 
-/// Parameters whose tangent maps go along with one motion: four registers of four doubles.
+/// Number of parameters whose tangent maps are carried along with one motion: four registers of four doubles.
 pub(crate) const TANGENTS_AT_ONCE: usize = 16;
 
 /// Refuses derivatives on a processor without the instructions for tangent maps.
@@ -192,7 +193,7 @@ pub(crate) fn require_tangent_maps() -> Result<(), Error> {
     if detect_fused().is_some() { Ok(()) } else { Err(refused) }
 }
 
-/// The scheme that costs least with its largest step for the goal.
+/// The scheme with the lowest cost at its largest step for the goal.
 pub(super) fn cheapest<const V: usize>(
     scene: &PrincipalProblem<V>,
     span: (f64, f64),
@@ -217,25 +218,25 @@ pub(super) fn cheapest<const V: usize>(
     }
 }
 
-/// How splitting would reach the samples of a motion.
+/// Prediction for computing the samples of a motion by splitting.
 #[cfg(target_arch = "x86_64")]
 pub(super) struct SampledForecast {
     pub(super) scheme: &'static Scheme,
     /// Largest step.
     pub(super) step: f64,
-    /// Number of steps, cut so that every sample is at one.
+    /// Number of steps, such that every sample is at the end of one.
     pub(super) steps: u64,
 }
 
-/// Smallest tolerance over the angle turned (rad) at which truncation, not rounding, is the error of splitting.
+/// Smallest tolerance over the rotation angle (rad) at which truncation, not rounding, dominates the error of splitting.
 #[cfg(target_arch = "x86_64")]
 const LEAST_TOLERANCE_PER_ANGLE: f64 = 1e-16;
 
-/// Most stages per radian at which splitting takes less time than series do.
+/// Largest number of stages per radian at which splitting takes less time than series.
 #[cfg(target_arch = "x86_64")]
 const MOST_STAGES_PER_ANGLE: f64 = 150.0;
 
-/// The cheapest scheme and step for samples at `times`, none where a Taylor series is better.
+/// The cheapest scheme and step for samples at `times`; `None` if a Taylor series is better.
 #[cfg(target_arch = "x86_64")]
 pub(super) fn sampled_forecast<const V: usize>(
     scene: &PrincipalProblem<V>,
@@ -292,7 +293,7 @@ mod tests {
         }
     }
 
-    /// A body that turns at most at `rate`, the torque making up the part `epsilon` of its square.
+    /// A body that rotates at most at `rate`, with the torque contributing the fraction `epsilon` of its square.
     fn scene(rate: f64, epsilon: f64) -> PrincipalProblem<2> {
         let difference = epsilon * rate * rate * 1.3 / (2.0 * 0.7);
         let s = tensor([0.5 * difference, 0.1 * difference, -0.5 * difference]);
@@ -338,21 +339,21 @@ mod tests {
             sampled_forecast(&scene(4.0, 1e-9), 3.0, &times, 1e-2).map(|forecast| forecast.steps)
         };
         assert_eq!((steps(299), steps(301)), (Some(299), None));
-        // One sample is reached by the scheme and the step of a motion up to there.
+        // A single sample is reached with the scheme and the step of a motion up to that time.
         for (epsilon, tolerance) in [(0.1, 1e-6), (0.01, 1e-9), (1e-4, 1e-11)] {
             let scene = scene(4.0, epsilon);
             let found = sampled_forecast(&scene, 3.0, &[53.0], tolerance).unwrap();
             let motion = cheapest(&scene, (3.0, 53.0), tolerance, Goal::State);
             assert_eq!((found.scheme, found.step, found.steps as f64), (motion.scheme, motion.step, motion.steps));
         }
-        // Nothing moves, or hardly.
+        // Nothing moves, or hardly anything.
         let steps = |scene: PrincipalProblem<2>, times: &[f64]| {
             sampled_forecast(&scene, 3.0, times, 1e-2).map(|found| found.steps)
         };
         assert_eq!(steps(scene(4.0, 1e-9), &[3.0, 3.0]), None);
         assert_eq!(steps(scene(0.0, 0.0), &[5.0]), None);
         assert_eq!(steps(scene(4.0, 1e-9), &[3.02]), Some(1));
-        // Of 1e-16 is left what half a radian rounds off, but not what two do.
+        // For a tolerance of 1e-16, half a radian of rotation leaves room for its rounding, but two radians do not.
         let reached = |turn: f64| sampled_forecast(&scene(4.0, 1e-12), 3.0, &[3.0 + turn / 4.0], 1e-16).is_some();
         assert!(reached(0.5) && !reached(2.0));
     }

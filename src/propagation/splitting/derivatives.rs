@@ -1,4 +1,4 @@
-//! States at given times with their derivatives by parameters of the scene.
+//! States at given times with their derivatives with respect to parameters of the scene.
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
@@ -17,7 +17,7 @@ use crate::propagation::splitting::stepper::{Steps, angles};
 use crate::propagation::splitting::tangents::{Tangents, WithTangents};
 use crate::propagation::third_angle::{body_state, rate_about_axis};
 
-/// What the flows need of the derivatives of a problem, in the principal frame.
+/// The derivatives of a problem that the flows need, in the principal frame.
 struct Seed<const V: usize> {
     vectors: [Vector3<f64>; V],
     tensor: Matrix3<f64>,
@@ -26,12 +26,12 @@ struct Seed<const V: usize> {
 /// Register for four directions; the number of registers follows from that of the directions.
 const LANES: usize = 4;
 
-/// The states at `times` (in the order in which the motion reaches them) with their derivatives by the parameter of each of the `seeded`
-/// problems, which have the same values; `e_x` is zero where it is not carried. None where the processor lacks the instructions, and of no scenes
-/// or times.
+/// The states at `times` (in the order in which the motion reaches them) with their derivatives with respect to the parameter of each of the
+/// `seeded` problems, which have the same values; `e_x` is zero if it is not carried. `None` if the processor lacks the instructions, or if there
+/// are no scenes or times.
 ///
-/// One motion by splitting is done for every [`TANGENTS_AT_ONCE`] parameters, with the tangent map of each of its flows: its derivatives are
-/// those of the numerical motion to rounding.
+/// One motion by splitting is computed for every [`TANGENTS_AT_ONCE`] parameters, with the tangent map of each of its flows: its derivatives
+/// are those of the numerical motion to rounding.
 ///
 /// # Errors
 /// As for [`Problem::splitting`].
@@ -60,7 +60,7 @@ fn states_of<X: RotationState<Dual64>, const V: usize>(
     check_request((start, *last), tolerance)?;
     let scene = PrincipalProblem::<V>::new(&first.map(|value| value.re))?;
     let SplittingForecast { scheme, step, steps, .. } = cheapest(&scene, (start, *last), tolerance, Goal::Derivatives);
-    // Each of the times may cut a step in two.
+    // Each of the times may split a step in two.
     let count = steps + times.len() as f64;
     Error::ensure(count <= SPLITTING_STEP_LIMIT, "number of steps", count, "at most 1e10")?;
     let mut found = vec![Vec::with_capacity(seeded.len()); times.len()];
@@ -79,7 +79,7 @@ fn states_of<X: RotationState<Dual64>, const V: usize>(
     Ok(Some(found))
 }
 
-/// A motion to be followed with its derivatives.
+/// A motion to be computed with its derivatives.
 struct Derivatives<'a, X, const V: usize> {
     scene: &'a PrincipalProblem<V>,
     scheme: &'static Scheme,
@@ -180,7 +180,7 @@ mod tests {
     use crate::dynamics::RigidSpheroid;
     use crate::solutions::free::rotated_by;
 
-    /// A scene with derivatives of all its numbers, others for each `direction`.
+    /// A scene with derivatives of all its numbers, different for each `direction`.
     fn seeded(direction: usize, s: f64, momentum: f64) -> Problem<Dual64> {
         let slope = |place: usize| ((7 * direction + 3 * place + 1) as f64).sin();
         let dual = |value: f64, place: usize| Dual64::new(value, slope(place));
@@ -210,7 +210,7 @@ mod tests {
         }
     }
 
-    /// Without torque the flows are exact: each time costs no more than rounding, however large the angles of a step.
+    /// Without torque the flows are exact: at each time the only error is rounding, however large the angles of a step.
     #[test]
     fn free_rotation_and_its_derivatives_are_exact_both_ways() {
         let seeded = seeded(3, 0.0, 15.0);

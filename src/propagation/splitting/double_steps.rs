@@ -1,4 +1,4 @@
-//! Steps of one motion, with fused multiply-add where the processor has it.
+//! Steps of one motion, with fused multiply-add if the processor has it.
 
 use crate::numerics::fused::{Fused, detect_fused, run_fused};
 use crate::numerics::ring::{Double, FusedDouble};
@@ -6,7 +6,8 @@ use crate::propagation::splitting::flows::{Field, Moving};
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::splitting::stepper::{Steps, angles};
 
-/// Steps of one scheme and one length, by the instructions there are. States are opened, advanced and closed as by [`Steps`].
+/// Steps of one scheme and one length, with the available instructions. States are opened, advanced and closed as by
+/// [`Steps`].
 #[derive(Debug, Clone)]
 #[allow(clippy::large_enum_variant, reason = "both are of one size but for the proof of the instructions")]
 pub(super) enum DoubleSteps {
@@ -14,7 +15,7 @@ pub(super) enum DoubleSteps {
     Fused(Fused, Steps<FusedDouble>),
 }
 
-/// Something done with either kind of steps, compiled for their instructions.
+/// Applies an expression to either kind of steps, compiled for their instructions.
 macro_rules! by {
     ($one:expr, $steps:ident => $work:expr) => {
         match $one {
@@ -63,7 +64,7 @@ impl DoubleSteps {
         by!(self, steps => on(state, #[inline(always)] |state| steps.advance(state, Double::of(casimir), count)));
     }
 
-    /// Whole steps of an open state, which is written down after every `stride` of them, `count` times.
+    /// Whole steps of an open state, which is recorded after every `stride` of them, `count` times.
     pub(super) fn keep<const V: usize>(
         &self,
         state: &mut Moving<f64, V>,
@@ -84,7 +85,7 @@ impl DoubleSteps {
     }
 }
 
-/// Does `work` on a state in another kind of doubles.
+/// Does `work` on a state in another type of doubles.
 #[inline(always)]
 fn on<S: Double, const V: usize>(state: &mut Moving<f64, V>, work: impl FnOnce(&mut Moving<S, V>)) {
     let mut moving = state.convert();

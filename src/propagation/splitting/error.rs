@@ -1,44 +1,47 @@
-//! The error of a motion by splitting, from the same motion by a better scheme.
+//! The error of a motion by splitting, from the same motion by a more accurate scheme.
 
 use crate::propagation::splitting::GRADIENT_8_8_6;
 use crate::propagation::splitting::double_steps::DoubleSteps;
 use crate::propagation::splitting::flows::{Field, Moving, RATE};
 use crate::propagation::splitting::motion::KeptStates;
 
-/// Most times at which the two motions are compared.
+/// Largest number of times at which the two motions are compared.
 const COMPARISONS: u64 = 256;
 
-/// Estimate over difference. Where the leading terms of the two errors nearly cancel, or the error has another size between the
-/// times compared, the difference is less than the error: by a factor of 3.4 at most in 160,000 random comparisons.
+/// Ratio of the estimate to the difference. If the leading terms of the two errors nearly cancel, or the error has another size
+/// between the times compared, the difference is less than the error: by a factor of at most 3.4 in 160,000 random comparisons.
 const SAFETY: f64 = 6.0;
 
-/// Roundings by which the start of the better motion is off, in an arbitrary direction.
+/// Displacement of the start of the more accurate motion, in roundings, in an arbitrary direction.
 const OFF: [f64; 3] = [8.3, -6.1, 7.7];
 
-/// The same of another motion by the same steps, in a direction normal to it: an instability may leave one of them as it is. In its field the
-/// eigenvalues of `s` are off by their own roundings, which are large beside nearly equal ones.
+/// The same for another motion with the same steps, in a direction normal to it, because an instability may leave one of them unchanged. In
+/// its field the eigenvalues of `s` are displaced by their own roundings, which are large relative to the difference of nearly equal ones.
 const OFF_ACROSS: [f64; 3] = [9.4, 8.9, -3.1];
 const EIGENVALUES_OFF: [f64; 3] = [3.7, -5.3, 4.1];
 
-/// Rounding of `s`, of the initial state and of the step, which both motions share, in units in the last place for each radian turned.
+/// Rounding of `s`, of the initial state and of the step, which both motions share, in units in the last place for each radian of
+/// rotation.
 const SHARED: f64 = 8.0;
 
-/// What reading the state off rounds.
+/// Rounding error of the evaluation of the state.
 const READING: f64 = 4.0 * f64::EPSILON;
 
-/// Longest step of the better motion, in radians of the rotation: beyond, the orders of a scheme do not say how its error falls.
+/// Longest step of the more accurate motion, in radians of the rotation: beyond it, the order of a scheme does not describe how
+/// its error decreases.
 const LONGEST_STEP: f64 = 1.0;
 
-/// Most steps of the better motion for two of the other: of steps longer still nothing is known, and the estimate is infinite.
+/// Largest number of steps of the more accurate motion for two of the other. For even longer steps nothing is known, and the
+/// estimate is infinite.
 const MOST_FINER: f64 = 1e4;
 
-/// Six times the difference from the motion by [`GRADIENT_8_8_6`] with stages half as long or shorter, the largest so far, at
-/// equal distances in time.
+/// Six times the difference from the motion by [`GRADIENT_8_8_6`] with stages half as long or shorter: the largest difference
+/// so far, at equally spaced times.
 ///
 /// That motion is far more accurate than those of the other schemes, so that the difference is their error. For the scheme
-/// itself the difference is `1 - (1/2)^6 = 0.98` of the error. (The same scheme with other steps is no measure for the others:
-/// where two terms of an error cancel, two steps can have the same one.) Both motions feel the same instability near the
-/// middle axis, so that no model of its growth is needed.
+/// itself the difference is `1 - (1/2)^6 = 0.98` of the error. (The same scheme with other steps does not serve for the
+/// others: if two terms of an error cancel, two steps can have the same error.) Both motions have the same instability near
+/// the middle axis, so that no model of its growth is needed.
 #[derive(Debug, Clone)]
 pub(super) struct ErrorEstimate {
     interval: f64,
@@ -64,7 +67,8 @@ impl ErrorEstimate {
         let finer = other(2.0 * motion.step / per_two as f64);
         let half_back = other(-0.5 * motion.step);
         let half_forth = DoubleSteps::new(motion.scheme, &scene.field, 0.5 * motion.step, scene.largest_rate);
-        // From a start that is off by a rounding: so the difference knows what an instability makes of those that both motions share.
+        // The start is displaced by a rounding, so that the difference includes the growth by an instability of the rounding that
+        // both motions share.
         let mut state = off(&scene.start, OFF, scene.largest_rate);
         let mut beside = off(&scene.start, OFF_ACROSS, scene.largest_rate);
         finer.open(&mut state);
@@ -84,7 +88,7 @@ impl ErrorEstimate {
             let mut grown = beside;
             along.close(&mut grown);
             let grown = largest_difference(&grown, &there, scene.largest_rate);
-            // In the middle of a step as well: there the error is another.
+            // Also in the middle of a step, where the error differs.
             half_back.single(&mut closed, scene.casimir);
             let mut between = motion.after(2 * done - 1);
             half_forth.single(&mut between, scene.casimir);
@@ -108,20 +112,21 @@ impl ErrorEstimate {
     }
 }
 
-/// What the estimate takes for rounding after a turn by the angle `turn` (rad) without instability: that of the numbers both motions share, and
-/// what the start that is off makes: its part along `w`, a third of its square on average, changes the rate.
+/// The contribution of rounding to the estimate after a rotation by the angle `turn` (rad) without instability: the rounding of the numbers
+/// that both motions share, and the effect of the displaced start, whose component along `w`, a third of its square on average, changes the
+/// rate.
 pub(super) fn expected_rounding(turn: f64) -> f64 {
     let off = OFF.iter().map(|x| x * x).sum::<f64>();
     READING + f64::EPSILON * (SHARED * turn + SAFETY * (off / 3.0).sqrt() * (1.0 + turn))
 }
 
-/// Eigenvalues that are off by [`EIGENVALUES_OFF`] roundings of the largest.
+/// Eigenvalues displaced by [`EIGENVALUES_OFF`] roundings of the largest.
 fn rounded(eigenvalues: [f64; 3]) -> [f64; 3] {
     let largest = eigenvalues.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
     core::array::from_fn(|k| eigenvalues[k] + EIGENVALUES_OFF[k] * f64::EPSILON * largest)
 }
 
-/// A start that is off by so many roundings.
+/// A start displaced by a number of roundings.
 fn off<const V: usize>(start: &Moving<f64, V>, parts: [f64; 3], rate: f64) -> Moving<f64, V> {
     let mut state = *start;
     for v in 0..V {
@@ -213,7 +218,7 @@ mod tests {
         }
     }
 
-    /// By some roundings of the largest, whatever their own size, and each difference by more than one.
+    /// Each is displaced by some roundings of the largest, whatever its own size, and each difference by more than one.
     #[test]
     fn eigenvalues_are_off_by_roundings_of_the_largest() {
         for size in [1.0, 1e-9] {

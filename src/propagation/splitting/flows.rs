@@ -6,45 +6,46 @@
 //! dn/dt = w x n,    dw_x/dt = d_x n_y n_z    (cyclic)
 //! ```
 //!
-//! and its Hamiltonian `H = T(L) + V(n)`, `T = L.L / (2 I^xx)`, `V = C n.(s n)`, has two parts that are each solved exactly:
-//! `T` turns `n` about the constant `w`, `V` changes `w` at constant `n`. The double bracket of both is a function of `n` alone,
+//! and its Hamiltonian `H = T(L) + V(n)`, `T = L.L / (2 I^xx)`, `V = C n.(s n)`, has two parts that are each solved exactly: `T`
+//! rotates `n` about the constant `w`, `V` changes `w` at constant `n`. The double bracket of both is a function of `n` alone,
 //!
 //! ```text
 //! {V, {T, V}} = Gamma.Gamma / I^xx,    Gamma = -2 C n x (s n)
 //! ```
 //!
-//! so that it, too, only kicks `w` (Chin 1997 for particles; here the metric is that of the sphere). On the unit sphere and
+//! so that it also only kicks `w` (Chin 1997 for particles; here the metric is that of the sphere). On the unit sphere and
 //! with traceless `s` the kick by `b V - c tau^2 Gamma.Gamma / I^xx` over a time `tau` is
 //!
 //! ```text
 //! w_x += tau d_x n_y n_z [ b + 2 c tau^2 (2 C / I^xx) (s^XX + 2 n.(s n)) ]    (cyclic)
 //! ```
 //!
-//! which costs eight operations more than the plain one.
+//! which costs eight operations more than the kick without gradient.
 
 use crate::numerics::ring::{Double, Ring};
 use crate::numerics::rounding::quick_two_sum;
 
-/// Place of `n` among the vectors of a state.
+/// Index of `n` among the vectors of a state.
 pub(super) const AXIS: usize = 0;
 
-/// Place of `w = L / I^xx`.
+/// Index of `w = L / I^xx`.
 pub(super) const RATE: usize = 1;
 
-/// Place of a vector normal to `n` that turns about `w` as `n` does, where it is carried: `e_x` follows from it.
+/// Index of a vector normal to `n` that rotates about `w` like `n`, if it is carried; `e_x` follows from it.
 pub(super) const COMPANION: usize = 2;
 
-/// What the flows move.
+/// The quantities that the flows act on.
 pub(super) trait Moved<S>: Copy {
-    /// Turns about `w` by the angle `|w| tau`, which must be among the `angles`.
+    /// Rotates about `w` by the angle `|w| tau`, which must be among the `angles`.
     fn rotate(&mut self, tau: S, angles: Angles);
     /// Kicks `w` at constant `n`.
     fn kick(&mut self, kick: &Kick<S>);
-    /// Takes rounding out of what every flow keeps: `n.n = 1`, `w.n = casimir`.
+    /// Removes rounding from the constants of every flow: `n.n = 1`, `w.n = casimir`.
     fn project(&mut self, casimir: S);
 }
 
-/// `n`, `w = L / I^xx` and, with `V = 3`, the vector carried along, in the principal frame, with what their last additions lost.
+/// `n`, `w = L / I^xx` and, with `V = 3`, the vector carried along, in the principal frame, with the rounding errors of their
+/// last additions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Moving<S, const V: usize = 2> {
     pub(super) vectors: [[S; 3]; V],
@@ -62,7 +63,8 @@ pub(super) struct Kick<S> {
     pub(super) of_bracket: S,
 }
 
-/// A rotation by the vector `theta = w tau`, by its effect on any vector: `v + theta x v sine + theta x (theta x v) versine`.
+/// A rotation by the vector `theta = w tau`, given by its action on any vector:
+/// `v + theta x v sine + theta x (theta x v) versine`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Turn<S> {
     pub(super) angle: [S; 3],
@@ -74,7 +76,8 @@ pub(super) struct Turn<S> {
     pub(super) versine: S,
 }
 
-/// Largest angle (rad) at which the series below are full: their first omitted terms are `x^8 / 17!`, 1e-17 at `x = 0.49`.
+/// Largest angle (rad) at which the series below are accurate: their first omitted terms are `x^8 / 17!`, 1e-17 at
+/// `x = 0.49`.
 const LARGEST_ANGLE: f64 = 0.7;
 
 /// Inverse factorials `1 / (2k+1)!` with alternating signs: `sin(theta) / theta` in powers of `theta^2`.
@@ -101,7 +104,7 @@ pub(super) const VERSINE: [f64; 8] = [
     -1.0 / 20_922_789_888_000.0,
 ];
 
-/// How rotations find sine and cosine: alike for all motions side by side.
+/// The evaluation of sine and cosine in rotations, identical for all motions side by side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Angles {
     /// Halvings of the angle before the series, and doublings after them.
@@ -110,12 +113,12 @@ pub(super) struct Angles {
     pub(super) terms: u32,
 }
 
-/// An angle of so many halvings has a square near the largest number.
+/// The square of an angle with this many halvings is near the largest double.
 const MOST_HALVINGS: f64 = 512.0;
 
 impl Angles {
-    /// For angles up to `longest` (rad). Fewer than eight terms are taken where what they omit is below 1e-19; of angles without any
-    /// digit, infinite ones among them, nothing finite will come.
+    /// For angles up to `longest` (rad). Fewer than eight terms are used if the omitted ones are below 1e-19. Angles without any
+    /// significant digit, including infinite ones, give no finite result.
     pub(super) fn up_to(longest: f64) -> Self {
         let halvings = (longest / LARGEST_ANGLE).log2().ceil().clamp(0.0, MOST_HALVINGS) as u32;
         let terms = match longest {
@@ -127,7 +130,7 @@ impl Angles {
     }
 }
 
-/// A polynomial in `x`, in pairs of its powers (Estrin): a chain of operations half as long as Horner's.
+/// A polynomial in `x`, evaluated in pairs of its powers (Estrin): a chain of operations half as long as Horner's.
 #[inline(always)]
 fn polynomial<S: Ring>(c: &[f64; 8], terms: u32, x: S, x2: S, x4: S) -> S {
     let low = x2.mul_add(x.mul_add(x.like(c[3]), x.like(c[2])), x.mul_add(x.like(c[1]), x.like(c[0])));
@@ -179,7 +182,7 @@ impl<S: Ring> Turn<S> {
         Self { angle, square: x, sine, versine }
     }
 
-    /// Turns a vector, with what its additions lose.
+    /// Rotates a vector, including the rounding errors of its additions.
     #[inline(always)]
     pub(super) fn apply(&self, vector: &mut [S; 3], low: &mut [S; 3]) {
         let turn = cross(&self.angle, vector);
@@ -197,7 +200,7 @@ impl<S: Ring, const V: usize> Moving<S, V> {
         Self { vectors, low: [zero; V] }
     }
 
-    /// The same numbers of another kind.
+    /// The same numbers in another type.
     #[inline(always)]
     pub(super) fn convert<T: Double>(&self) -> Moving<T, V>
     where
@@ -213,7 +216,7 @@ impl<S: Ring, const V: usize> Moving<S, V> {
         moving
     }
 
-    /// Turns by a rotation about `w`.
+    /// Applies a rotation about `w`.
     #[inline(always)]
     pub(super) fn turn(&mut self, turn: &Turn<S>) {
         turn.apply(&mut self.vectors[AXIS], &mut self.low[AXIS]);
@@ -253,14 +256,15 @@ impl<S: Ring, const V: usize> Moved<S> for Moving<S, V> {
     }
 }
 
-/// Weight of a change of `w` beside one of `n`, where the value of `w.n` is mended.
+/// Weight of a change of `w` relative to one of `n` when the value of `w.n` is corrected.
 const SHARE_OF_RATE: f64 = 1e-4;
 
-/// Takes out what rounding did to `n.n = 1` and `w.n = casimir`, both constant along every flow, and to the vector carried along,
-/// of length one and normal to `n`. First order is enough: the defects are of the size of rounding.
+/// Corrects the effect of rounding on `n.n = 1` and `w.n = casimir`, both constant along every flow, and on the vector carried
+/// along, which has length one and is normal to `n`. First order is sufficient, because the defects are of the size of rounding.
 ///
-/// The rotations round in the same sense step after step, to `n` across `w`. So `n` is mended, in the plane of both; a change of
-/// `w` would feed the energy step by step. Where `n` is nearly along `w` that alone would enlarge the rounding, and `w` takes a share.
+/// The rotations round in the same sense step after step, from `n` to the direction perpendicular to `w`. Therefore `n` is corrected,
+/// in the plane of both; a change of `w` would add energy step by step. If `n` is nearly along `w`, correcting `n` alone would amplify
+/// the rounding, and `w` takes a share.
 #[inline(always)]
 fn project<S: Ring, const V: usize>(state: &mut Moving<S, V>, casimir: S) {
     let (n, w) = (state.vectors[AXIS], state.vectors[RATE]);
@@ -273,7 +277,7 @@ fn project<S: Ring, const V: usize>(state: &mut Moving<S, V>, casimir: S) {
         across[i] = w[i] - n[i] * n_w;
     }
     let share = w_w * casimir.like(SHARE_OF_RATE);
-    // Nothing to mend where the body does not turn.
+    // No correction if the body does not rotate.
     let part = missing.over(dot(&across, &across) + share);
     for i in 0..3 {
         state.low[AXIS][i] = state.low[AXIS][i] + (n[i] * grow + across[i] * part);
@@ -288,7 +292,7 @@ fn project<S: Ring, const V: usize>(state: &mut Moving<S, V>, casimir: S) {
     }
 }
 
-/// What the motion depends on: `2 C / I^xx`, the traceless eigenvalues of `s^IJ`, and `d`.
+/// The parameters of the motion: `2 C / I^xx`, the traceless eigenvalues of `s^IJ`, and `d`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Field<S> {
     pub(super) strength: S,
@@ -297,14 +301,14 @@ pub(super) struct Field<S> {
 }
 
 impl Field<f64> {
-    /// From `2 C / I^xx` and the eigenvalues of `s^IJ`. An isotropic part exerts no torque and is taken off.
+    /// From `2 C / I^xx` and the eigenvalues of `s^IJ`. An isotropic part exerts no torque and is subtracted.
     pub(super) fn new(strength: f64, s: [f64; 3]) -> Self {
         let mean = (s[0] + s[1] + s[2]) / 3.0;
         let torque = [s[1] - s[2], s[2] - s[0], s[0] - s[1]].map(|difference| difference * strength);
         Self { strength, tensor: s.map(|value| value - mean), torque }
     }
 
-    /// The same numbers of another kind.
+    /// The same numbers in another type.
     pub(super) fn convert<T: Double>(&self) -> Field<T> {
         Field { strength: T::of(self.strength), tensor: self.tensor.map(T::of), torque: self.torque.map(T::of) }
     }

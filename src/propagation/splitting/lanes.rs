@@ -14,9 +14,9 @@ use crate::propagation::{SampledProblem, Samples};
 
 type Outcome = Result<Samples<AxisState<f64>>, Error>;
 
-/// A motion ready for a lane.
+/// A motion prepared for a lane.
 pub(in crate::propagation) struct Ready<'t> {
-    /// Its place among the outcomes.
+    /// Its index among the results.
     index: usize,
     scene: PrincipalProblem,
     start: f64,
@@ -29,10 +29,10 @@ pub(in crate::propagation) struct Ready<'t> {
 }
 
 impl<'t> Ready<'t> {
-    /// The motion of a scene whose times are in order, where splitting reaches its tolerance.
+    /// The prepared motion of a scene whose times are in order; `None` if splitting does not reach its tolerance.
     ///
     /// # Errors
-    /// What is wrong with the scene.
+    /// The reason why the scene is not valid.
     pub(in crate::propagation) fn new(index: usize, motion: &SampledProblem<'t>) -> Result<Option<Self>, Error> {
         let SampledProblem { problem, start, times, tolerance } = motion;
         let span = (*start, times.last().copied().unwrap_or(*start));
@@ -45,7 +45,7 @@ impl<'t> Ready<'t> {
         Ok(Some(Self { index, scene, start: *start, times, scheme, step, steps, angles }))
     }
 
-    /// Length and number of the equal steps to the time of a sample from the one before it.
+    /// Length and number of the equal steps from the previous sample to the time of a sample.
     fn steps_to(&self, sample: usize) -> (f64, u64) {
         let before = if sample == 0 { self.start } else { self.times[sample - 1] };
         let interval = self.times[sample] - before;
@@ -54,13 +54,13 @@ impl<'t> Ready<'t> {
     }
 }
 
-/// Carries the motions to their times by the lanes of `register` and writes down their states.
+/// Carries the motions to their times in the lanes of `register` and records their states.
 pub(in crate::propagation) fn propagate_in_lanes<R: Register>(
     register: R,
     mut ready: Vec<Ready<'_>>,
     outcomes: &mut [Option<Outcome>],
 ) {
-    // Motions side by side share the scheme and take about as many steps.
+    // Motions side by side share the scheme and have similar numbers of steps.
     ready.sort_by_key(|ready| (ready.scheme.name, ready.angles, ready.steps));
     for alike in ready.chunk_by(|a, b| a.scheme == b.scheme && a.angles == b.angles) {
         for motions in alike.chunks(SideBySide::<R, 2>::COUNT) {
@@ -75,24 +75,24 @@ pub(in crate::propagation) fn propagate_in_lanes<R: Register>(
     }
 }
 
-/// Where a motion is.
+/// The position of a motion in its steps.
 struct Progress<'r, 't> {
     ready: &'r Ready<'t>,
     states: Vec<AxisState<f64>>,
-    /// Steps to the next sample.
+    /// Number of steps to the next sample.
     left: u64,
 }
 
-/// Carries at most as many motions as there are lanes; a lane that has arrived runs on unheeded.
+/// Carries at most as many motions as there are lanes; a lane that has finished runs on, and its results are ignored.
 ///
-/// A motion's steps, and the steps after which its rounding is taken out, are counted from its own start, which is that of all.
+/// The steps of a motion, and the steps after which its rounding is removed, are counted from its own start, which all share.
 #[inline(always)]
 fn propagate_side_by_side<R: Register, const N: usize>(
     register: R,
     motions: &[Ready<'_>],
     outcomes: &mut [Option<Outcome>],
 ) {
-    // A lane without a motion has a copy of the first.
+    // A lane without a motion computes a copy of the first.
     let at = |place: usize| motions.get(place).unwrap_or(&motions[0]);
     let (scheme, angles) = (motions[0].scheme, motions[0].angles);
     let field = Field::<SideBySide<R, N>>::gather(register, |place| &at(place).scene.field);
@@ -122,7 +122,7 @@ fn propagate_side_by_side<R: Register, const N: usize>(
             }
             continue;
         }
-        // Every motion at a sample is written down, and begins the steps to its next one.
+        // Every motion at a sample is recorded, and begins the steps to its next one.
         let mut opened = state;
         steps.close(&mut opened);
         let mut turning = Vec::new();
@@ -163,7 +163,7 @@ fn propagate_side_by_side<R: Register, const N: usize>(
 }
 
 impl<R: Register, const N: usize, const V: usize> Moving<SideBySide<R, N>, V> {
-    /// The states of motions, by their places.
+    /// The states of motions, by index.
     #[inline(always)]
     pub(crate) fn gather<'m>(register: R, state: impl Fn(usize) -> &'m Moving<f64, V>) -> Self {
         let vector = |v: usize| SideBySide::gather_vector(register, |place| state(place).vectors[v]);
@@ -190,7 +190,7 @@ impl<R: Register, const N: usize, const V: usize> Moving<SideBySide<R, N>, V> {
 }
 
 impl<R: Register, const N: usize> Field<SideBySide<R, N>> {
-    /// The fields of motions, by their places.
+    /// The fields of motions, by index.
     #[inline(always)]
     pub(crate) fn gather<'f>(register: R, field: impl Fn(usize) -> &'f Field<f64>) -> Self {
         Field {
@@ -249,7 +249,7 @@ mod tests {
         assert_eq!([0, 1, 2, 3].map(|sample| ready.steps_to(sample)), [(0.0, 0), (0.25, 1), (0.0, 0), (-0.25, 5)]);
     }
 
-    /// One motion with the same fused operations takes its rounding out after every 64 steps as well.
+    /// A single motion with the same fused operations also removes its rounding after every 64 steps.
     #[test]
     fn a_lane_gives_the_bits_of_one_motion_alone() {
         let Some(register) = V3::try_new() else { return };

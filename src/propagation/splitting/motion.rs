@@ -1,4 +1,4 @@
-//! A motion kept as states at the steps of a splitting scheme.
+//! A motion stored as states at the steps of a splitting scheme.
 
 use core::marker::PhantomData;
 use std::sync::OnceLock;
@@ -18,28 +18,28 @@ use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::third_angle::{body_state, rate_about_axis};
 use crate::propagation::{Motion, TOLERANCE_RANGE};
 
-/// Most steps of one motion.
+/// Largest number of steps of one motion.
 pub const SPLITTING_STEP_LIMIT: f64 = 1e10;
 
-/// Most states that one motion keeps: 100 bytes each.
+/// Largest number of states stored for one motion: 100 bytes each.
 const MOST_STATES: u64 = 100_000;
 
 /// A problem in the principal frame of `s^IJ`, with the `V` vectors that the flows move.
 #[derive(Debug, Clone)]
 pub(super) struct PrincipalProblem<const V: usize = 2> {
     pub(super) field: Field<f64>,
-    /// Of `s^IJ`, in descending order.
+    /// Eigenvalues of `s^IJ`, in descending order.
     pub(super) eigenvalues: [f64; 3],
     pub(super) inertia: f64,
     pub(super) principal_from_given: Matrix3<f64>,
     pub(super) start: Moving<f64, V>,
-    /// Rate at which `e_x` turns about `n` against the vector carried along.
+    /// Rate at which `e_x` rotates about `n` relative to the vector carried along.
     pub(super) rate_about_axis: f64,
     /// `w.n`, constant.
     pub(super) casimir: f64,
-    /// `2 |C| (s_max - s_min) / I^xx`, the most that `|w|^2` can change.
+    /// `2 |C| (s_max - s_min) / I^xx`, the largest possible change of `|w|^2`.
     pub(super) spread: f64,
-    /// Bound of `|w|` by the energy.
+    /// Bound of `|w|` from the energy.
     pub(super) largest_rate: f64,
 }
 
@@ -78,7 +78,7 @@ impl<const V: usize> PrincipalProblem<V> {
         })
     }
 
-    /// `n`, `L` and the vector carried along, in the frame of the tensor given.
+    /// `n`, `L` and the vector carried along, in the frame of the given tensor.
     fn given(&self, moving: &Moving<f64, V>) -> [Vector3<f64>; V] {
         let back = self.principal_from_given.transpose();
         let mut vectors = moving.vectors.map(|v| back * Vector3::from(v));
@@ -99,10 +99,10 @@ impl PrincipalProblem<3> {
     }
 }
 
-/// A motion by a splitting scheme, kept as states at its steps: [`Problem::splitting`].
+/// A motion by a splitting scheme, stored as states at its steps: [`Problem::splitting`].
 ///
-/// Between two kept states the motion is found by whole steps and one partial step of the same scheme; no more than one
-/// whole step for spans below 100,000 steps, and in any case a number that does not depend on the time asked.
+/// Between two stored states the motion is computed by whole steps and one partial step of the same scheme: at most one
+/// whole step for spans below 100,000 steps, and in any case a number that does not depend on the requested time.
 #[derive(Debug, Clone)]
 pub struct SplittingMotion<X = BodyState<f64>> {
     pub(crate) scheme: &'static Scheme,
@@ -119,7 +119,7 @@ enum Kept {
     Body(KeptStates<3>),
 }
 
-/// Something done with the states of either.
+/// Applies an expression to either kind of states.
 macro_rules! of_either {
     ($motion:expr, $states:ident => $work:expr) => {
         match &$motion.kept {
@@ -139,33 +139,33 @@ pub(super) struct KeptStates<const V: usize> {
     pub(super) scene: PrincipalProblem<V>,
     pub(super) step: f64,
     pub(super) step_count: u64,
-    /// Whole steps between two kept states.
+    /// Number of whole steps between two stored states.
     stride: u64,
     steps: DoubleSteps,
     /// Open states, every `stride` steps from the start.
     states: Vec<Moving<f64, V>>,
-    /// Found when it is first asked for.
+    /// Computed at the first request.
     estimate: OnceLock<ErrorEstimate>,
 }
 
-/// Which steps a motion takes.
+/// The steps of a motion.
 #[derive(Clone, Copy)]
 enum Steps {
-    /// Those of a scheme, no longer than a length.
+    /// Steps of a given scheme with a largest length.
     Of(&'static Scheme, f64),
-    /// The cheapest ones for a tolerance.
+    /// The cheapest steps for a tolerance.
     For { tolerance: f64 },
 }
 
 impl<X: RotationState<f64>> Problem<f64, X> {
-    /// The motion from the initial state at `span.0` to `span.1` (forwards or backwards), by equal steps of `scheme` no longer than `step`;
-    /// their number is even, for the sake of the error estimate.
+    /// The motion from the initial state at `span.0` to `span.1` (forwards or backwards), by equal steps of `scheme` no longer than `step`.
+    /// Their number is even, as the error estimate requires.
     ///
-    /// Every step is a composition of exact flows, so that `|n|` and `L.n` keep their values to rounding for any number of
-    /// steps and the energy has no secular error. The third angle costs little beside the axis, which does not wait for it.
+    /// Every step is a composition of exact flows, so that `|n|` and `L.n` are conserved to rounding for any number of steps
+    /// and the energy has no secular error. The third angle adds little cost, because the axis does not depend on it.
     ///
     /// # Errors
-    /// [`Error::Domain`] for a span that is not finite, a step that is not above zero, or so long that the numbers of the
+    /// [`Error::Domain`] for a span that is not finite, a step that is not above zero or is so long that the numbers of the
     /// motion overflow (several radians), and more than [`SPLITTING_STEP_LIMIT`] steps.
     pub fn splitting_by(
         &self,
@@ -180,8 +180,8 @@ impl<X: RotationState<f64>> Problem<f64, X> {
     /// The motion by the scheme and the step that a model of cost and error chooses for `tolerance` at the end of the
     /// span (components of `n`, and of `L` in units of `|L| + sqrt(2 I^xx C |s|)`), between 1e-16 and 1e-2.
     ///
-    /// The model is one formula for all motions. It does not foresee the growth of errors near the unstable middle axis;
-    /// [`error_estimate`](Motion::error_estimate) does. Rounding limits what can be reached to some 1e-16 times the angle turned.
+    /// The model is one formula for all motions. It does not predict the growth of errors near the unstable middle axis;
+    /// [`error_estimate`](Motion::error_estimate) does. Rounding limits the accuracy to some 1e-16 times the rotation angle.
     ///
     /// # Errors
     /// As for [`splitting_by`](Self::splitting_by), and for a tolerance out of range.
@@ -259,7 +259,7 @@ impl<const V: usize> KeptStates<V> {
         let elapsed = t - self.span.0;
         let whole = ((elapsed / self.step).floor().max(0.0) as u64).min(self.step_count);
         let mut state = self.after(whole);
-        // The time of the step without the rounding of its product.
+        // The time of the step, including the rounding error of its product.
         let (time, lost) = two_product(whole as f64, self.step);
         let offset = (elapsed - time) - lost;
         if offset != 0.0 {
@@ -321,8 +321,8 @@ impl<X: RotationState<f64>> Motion<f64> for SplittingMotion<X> {
         of_either!(self, states => Ok(states.scene.state(&states.at(t)?)))
     }
 
-    /// Six times the difference from a motion by a better scheme, found when it is first asked for: that motion takes at least
-    /// two and a half times as long as this one.
+    /// Six times the difference from a motion by a more accurate scheme. It is computed at the first request: that motion
+    /// takes at least two and a half times as long as this one.
     fn error_estimate(&self, t: f64) -> f64 {
         of_either!(self, states => states.error_estimate(t))
     }
@@ -360,7 +360,7 @@ mod tests {
     #[test]
     fn the_number_of_steps_is_the_least_even_one_but_for_rounding() {
         let count = |duration: f64, step: f64| motion((0.0, duration), step).unwrap().step_count;
-        // 1.1 / 0.1 / 2 and the like are a rounding above a whole number.
+        // 1.1 / 0.1 / 2 and the like exceed an integer by a rounding.
         for (duration, step, expected) in [(1.0, 7.0, 2), (1.0, 0.3, 4), (0.6, 0.1, 6), (2.2, 0.1, 22), (6.6, 1.1, 6)] {
             assert_eq!(count(duration, step), expected, "{duration} / {step}");
             assert_eq!(count(-duration, step), expected, "{duration} / {step}");
@@ -369,7 +369,7 @@ mod tests {
         assert_eq!([count(8.0 * above, 1.0), count(8.0 + 8e-12, 1.0)], [8, 10]);
     }
 
-    /// 200,002 steps are kept at every third of them, with room for no more.
+    /// Of 200,002 steps every third state is stored, and the storage has exactly this size.
     #[test]
     fn long_motions_keep_some_of_their_states() {
         let (step, count) = (0.01, 200_002);
@@ -389,7 +389,7 @@ mod tests {
         assert_relative_eq!(motion.axis_state(step * count as f64).unwrap().axis.norm(), 1.0, max_relative = 1e-12);
     }
 
-    /// What the product of the number of steps and their length loses is known by a fused product here.
+    /// The rounding error of the product of the number of steps and their length is computed here with a fused product.
     #[test]
     fn the_time_of_a_step_is_taken_without_its_rounding() {
         let motion = motion((0.0, 700.0), 0.7).unwrap();

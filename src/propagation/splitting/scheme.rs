@@ -11,12 +11,12 @@ pub enum Ends {
 
 /// A symmetric splitting scheme for `H = T(L) + V(n)`.
 ///
-/// One step over the time `h` turns `n` about `L` for the times `rotations[i] h`, alternating with kicks of `L` by the
-/// potential `kicks[i] V - gradients[i] h^2 Gamma.Gamma / I^xx` over `h` (`Gamma` the torque), first at the end named by `ends`. Every list is
+/// One step over the time `h` rotates `n` about `L` for the times `rotations[i] h`, alternating with kicks of `L` by the potential
+/// `kicks[i] V - gradients[i] h^2 Gamma.Gamma / I^xx` over `h` (`Gamma` the torque), beginning with the flow named by `ends`. Every list is
 /// symmetric, and the first two sum to one each.
 ///
-/// Its error after a fixed time is a sum of terms of the size `s^k h^orders[k-1]` with `s` the size of `s^IJ`, the last entry standing for
-/// all higher powers of `s` as well.
+/// Its error after a fixed time is a sum of terms of the size `s^k h^orders[k-1]` with `s` the size of `s^IJ`; the last entry also covers
+/// all higher powers of `s`.
 #[derive(Debug, PartialEq)]
 pub struct Scheme {
     /// Short name.
@@ -29,9 +29,9 @@ pub struct Scheme {
     pub rotations: &'static [f64],
     /// Weights of the kicks.
     pub kicks: &'static [f64],
-    /// Weights of the force gradient in the kicks, none for a scheme without.
+    /// Weights of the force gradient in the kicks, empty for a scheme without it.
     pub gradients: &'static [f64],
-    /// Where the weights were published, or how they were found.
+    /// Publication of the weights, or the way they were found.
     pub source: &'static str,
 }
 
@@ -46,7 +46,7 @@ impl Scheme {
         self.gradients.get(kick).copied().unwrap_or(0.0)
     }
 
-    /// Rotations per step, where the last flow of a step and the first of the next are done in one.
+    /// Rotations per step, if the last flow of a step is merged with the first of the next.
     pub fn stages(&self) -> usize {
         self.rotations.len().min(self.kicks.len())
     }

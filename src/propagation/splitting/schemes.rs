@@ -1,6 +1,6 @@
 //! The schemes, from the cheapest per step to the highest order.
 
-// The weights stand with the digits that were published or computed.
+// The weights are given with the digits that were published or computed.
 #![allow(clippy::excessive_precision)]
 
 use crate::propagation::splitting::scheme::{Ends, Scheme};
@@ -91,7 +91,7 @@ const KAHAN_LI: [f64; 9] = [
     -0.60550853383003451169892108,
 ];
 
-/// Kicks of a composition of 17 Strang steps: neighbouring halves together.
+/// Kicks of a composition of 17 Strang steps, with neighbouring halves merged.
 const fn composed_kicks() -> [f64; 18] {
     let weights: [f64; 17] = mirrored::<9, 17>(KAHAN_LI);
     let mut kicks = [0.0; 18];
@@ -214,7 +214,7 @@ pub static GRADIENT_8_8_6: Scheme = Scheme {
     source: "order conditions solved in verify/oracles/mpmath/splitting_schemes.py; the kind is that of Blanes, Casas and Ros 2000",
 };
 
-/// Every scheme.
+/// All schemes.
 pub static SCHEMES: [&Scheme; 9] = [
     &STRANG,
     &SRKN_6B,

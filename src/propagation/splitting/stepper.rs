@@ -4,15 +4,15 @@ use crate::numerics::ring::Ring;
 use crate::propagation::splitting::flows::{Angles, Field, Kick, Moved};
 use crate::propagation::splitting::scheme::{Ends, Scheme};
 
-/// Most rotations of a scheme, its ends taken together.
+/// Largest number of rotations of a scheme, with its ends merged.
 pub(super) const MOST_STAGES: usize = 17;
 
-/// Whole steps after which the rounding of the Casimirs `n.n` and `L.n` is taken out.
+/// Number of whole steps after which the rounding of the Casimirs `n.n` and `L.n` is removed.
 pub(super) const STEPS_BETWEEN_PROJECTIONS: u64 = 64;
 
-/// A scheme made ready for one body, one `s^IJ` and one step.
+/// A scheme prepared for one body, one `s^IJ` and one step.
 ///
-/// Steps are taken "open": the flow at the end of a step and the same flow at the beginning of the next are one, so that a
+/// Steps are taken "open": the flow at the end of a step is merged with the same flow at the beginning of the next, so that a
 /// step is [`Scheme::stages`] pairs of rotation and kick. [`open`](Self::open) and [`close`](Self::close) shift by that flow.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Steps<S> {
@@ -28,7 +28,7 @@ enum End<S> {
     Kick { forth: Kick<S>, back: Kick<S> },
 }
 
-/// The angles of the rotations of a scheme where a whole step turns by at most `turn`.
+/// The angles of the rotations of a scheme in which a whole step rotates by at most `turn`.
 pub(super) fn angles(scheme: &Scheme, turn: f64) -> Angles {
     let at_ends = if scheme.ends == Ends::Rotations { 2.0 * scheme.rotations[0].abs() } else { 0.0 };
     let longest = scheme.rotations.iter().fold(at_ends, |most, rotation| most.max(rotation.abs()));
@@ -36,7 +36,7 @@ pub(super) fn angles(scheme: &Scheme, turn: f64) -> Angles {
 }
 
 impl<S: Ring> Steps<S> {
-    /// With those [`angles`] of its rotations, or smaller ones.
+    /// With the [`angles`] of its rotations, or smaller ones.
     #[inline(always)]
     pub(super) fn turning(scheme: &Scheme, field: &Field<S>, step: S, angles: Angles) -> Self {
         let stages = scheme.stages();
@@ -101,7 +101,7 @@ impl<S: Ring> Steps<S> {
         }
     }
 
-    /// Whole steps of an open state, without taking out rounding.
+    /// Whole steps of an open state, without removing rounding.
     #[inline(always)]
     pub(super) fn run<M: Moved<S>>(&self, state: &mut M, steps: u64) {
         let mut moving = *state;
@@ -125,7 +125,7 @@ mod tests {
     fn the_longest_rotation_is_that_of_two_ends_together() {
         let Scheme { name, orders, kicks, gradients, source, .. } = STRANG;
         let scheme = |ends| Scheme { ends, rotations: &[-0.45, 0.1, -0.45], name, orders, kicks, gradients, source };
-        // Up to 0.09 rad, up to 0.19 and beyond the series have five terms, six and eight.
+        // The series have five terms up to 0.09 rad, six up to 0.19 and eight beyond.
         let terms = |ends, turn| angles(&scheme(ends), turn).terms;
         assert_eq!((terms(Ends::Rotations, 0.19), terms(Ends::Kicks, 0.19)), (6, 5));
         assert_eq!((terms(Ends::Rotations, 0.22), terms(Ends::Kicks, 0.22)), (8, 6));

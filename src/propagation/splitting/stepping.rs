@@ -1,4 +1,4 @@
-//! Steps without a record, for runs of any length.
+//! Steps without storage, for runs of any length.
 
 use crate::dynamics::{AxisState, Problem, RotationState};
 use crate::error::Error;
@@ -9,7 +9,7 @@ use crate::propagation::splitting::flows::Moving;
 use crate::propagation::splitting::motion::PrincipalProblem;
 use crate::propagation::splitting::scheme::Scheme;
 
-/// A motion of `n` and `L` that keeps its present state only: equal steps of one scheme, without allocation.
+/// A motion of `n` and `L` that stores only its current state: equal steps of one scheme, without allocation.
 ///
 /// ```
 /// use nalgebra::{Matrix3, Vector3};
@@ -32,7 +32,7 @@ pub struct Splitting {
 }
 
 impl Splitting {
-    /// From the initial state of a problem; a step below zero goes backwards in time.
+    /// From the initial state of a problem; a negative step goes backwards in time.
     ///
     /// # Errors
     /// As for [`Problem::splitting_by`], and for a step that is zero or not finite.

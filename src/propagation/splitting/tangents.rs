@@ -1,25 +1,25 @@
-//! The tangent maps of the exact flows: derivatives of a state in many directions, moved along with it.
+//! The tangent maps of the exact flows: derivatives of a state in many directions, carried along with it.
 //!
-//! With the turn `v -> v + p a x v + q a x (a x v)` of [`Turn`] by the vector `a = w tau`, and `dp = p' (a.da)`, `dq = q' (a.da)`, a rotation
-//! moves the derivative of a vector that it turns by
+//! With the rotation `v -> v + p a x v + q a x (a x v)` of [`Turn`] by the vector `a = w tau`, and `dp = p' (a.da)`, `dq = q' (a.da)`, the
+//! derivative of a rotated vector changes by
 //!
 //! ```text
 //! dv -> R dv + M da,    R = 1 - q a^2 + p [a] + q a a^T
 //!                       M = q (a.v) - [p v + q c] + (p' c + q' b - q v) a^T,    c = a x v,  b = a x c
 //! ```
 //!
-//! and with `sigma = 2 C s / I^xx` a kick `w -> w + P x n`, `P = A sigma n + B (2 (n.sigma n) sigma n - sigma^2 n)`, moves `dw` by
-//! `dP x n + P x dn`. Body and surroundings enter the motion of `n` and `w` by `sigma` alone.
+//! and with `sigma = 2 C s / I^xx` a kick `w -> w + P x n`, `P = A sigma n + B (2 (n.sigma n) sigma n - sigma^2 n)`, changes `dw`
+//! by `dP x n + P x dn`. The motion of `n` and `w` depends on the body and the field only through `sigma`.
 
 use crate::numerics::ring::{FusedDouble, Ring};
 use crate::propagation::splitting::flows::{AXIS, Angles, Kick, Moved, Moving, RATE, SINE, Turn, VERSINE};
 
-/// Derivatives in several directions, one in each place of `T`.
+/// Derivatives in several directions, one at each position of `T`.
 #[derive(Clone, Copy)]
 pub(super) struct Tangents<T, const V: usize> {
-    /// Of the vectors of a state.
+    /// Derivatives of the vectors of a state.
     pub(super) vectors: [[T; 3]; V],
-    /// Of `sigma`, constant: the components xx, yy, zz, yz, zx, xy.
+    /// Derivatives of `sigma`, constant: the components xx, yy, zz, yz, zx, xy.
     pub(super) tensor: [T; 6],
 }
 
@@ -46,7 +46,7 @@ impl<T: Ring, const V: usize> Moved<FusedDouble> for WithTangents<T, V> {
         self.state.kick(kick);
     }
 
-    /// The derivatives are not touched: their rounding is relative to their size.
+    /// The derivatives are left unchanged: their rounding is relative to their size.
     #[inline(always)]
     fn project(&mut self, casimir: FusedDouble) {
         self.state.project(casimir);
@@ -66,7 +66,8 @@ fn of_cross(v: [f64; 3]) -> Matrix {
     [[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]]
 }
 
-// Loops and functions, not closures: those given to `map` are compiled apart, without the instructions of the registers.
+// Loops and functions, not closures: closures given to `map` are compiled separately, without the instructions of the
+// registers.
 
 /// `to + matrix v`.
 #[inline(always)]
@@ -79,13 +80,13 @@ fn add_product<T: Ring>(mut to: [T; 3], matrix: &Matrix, v: &[T; 3]) -> [T; 3] {
     to
 }
 
-/// `v.w` for numbers `w`.
+/// `v.w` for doubles `w`.
 #[inline(always)]
 fn product<T: Ring>(v: &[T; 3], w: &[f64; 3]) -> T {
     v[2].mul_add(v[2].like(w[2]), v[1].mul_add(v[1].like(w[1]), v[0] * v[0].like(w[0])))
 }
 
-/// `sum k c_k x^(k-1)`: the slope of the polynomial of those coefficients, as many as the polynomial itself takes.
+/// `sum k c_k x^(k-1)`: the slope of the polynomial of those coefficients, with as many terms as the polynomial itself.
 #[inline(always)]
 fn slope(c: &[f64; 8], x: f64, terms: u32) -> f64 {
     let x2 = x * x;
@@ -96,7 +97,7 @@ fn slope(c: &[f64; 8], x: f64, terms: u32) -> f64 {
     (x2 * x2).mul_add((7.0 * c[7]).mul_add(x2, (6.0 * c[6]).mul_add(x, 5.0 * c[5])), low)
 }
 
-/// Derivatives by `theta^2` of `sin(theta) / theta` and `(1 - cos(theta)) / theta^2`.
+/// Derivatives with respect to `theta^2` of `sin(theta) / theta` and `(1 - cos(theta)) / theta^2`.
 #[inline(always)]
 fn slopes(turn: &Turn<FusedDouble>, terms: u32) -> [f64; 2] {
     let (x, sine, versine) = (turn.square.0, turn.sine.0, turn.versine.0);
@@ -119,7 +120,7 @@ fn plain_dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     a[2].mul_add(b[2], a[1].mul_add(b[1], a[0] * b[0]))
 }
 
-/// `M`, by which the derivative of `w tau` enters that of a vector `v` that is turned.
+/// `M`, the matrix by which the derivative of `w tau` enters that of a rotated vector `v`.
 #[inline(always)]
 fn by_angle(v: &[f64; 3], turn: &Turn<FusedDouble>, [p_slope, q_slope]: [f64; 2]) -> Matrix {
     let (a, p, q) = (&doubles(&turn.angle), turn.sine.0, turn.versine.0);
@@ -218,7 +219,8 @@ mod tests {
 
     use super::*;
 
-    /// By `d/dx sin(t)/t = (cos(t) - sin(t)/t) / (2 x)` and `d/dx (1 - cos(t))/x = (sin(t)/t - 2 (1 - cos(t))/x) / (2 x)`, `x = t^2`.
+    /// Uses `d/dx sin(t)/t = (cos(t) - sin(t)/t) / (2 x)` and `d/dx (1 - cos(t))/x = (sin(t)/t - 2 (1 - cos(t))/x) / (2 x)`,
+    /// `x = t^2`.
     #[test]
     fn slopes_of_the_sine_and_the_versine_meet_where_the_series_end() {
         for angle in [0.2, 0.5, 0.699_999, 0.700_001, 0.9, 1.7, 3.0, 7.0_f64] {

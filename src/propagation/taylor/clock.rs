@@ -1,9 +1,9 @@
-//! Where a motion is: time and number of steps.
+//! Progress of a motion: time and number of steps.
 
 use crate::error::Error;
 use crate::numerics::compensated::Compensated;
 
-/// Time since the start of a motion, positive in either direction, and what has been done to get there.
+/// Time since the start of a motion, positive in either direction, and the steps taken so far.
 pub(super) struct Clock {
     elapsed: Compensated,
     pub(super) steps: usize,
@@ -26,7 +26,7 @@ impl Interval {
     }
 }
 
-/// Most steps that a motion may have, in numbers and in words.
+/// Largest number of steps of a motion, as a number and in words.
 #[derive(Clone, Copy)]
 pub(super) struct StepLimit {
     pub(super) steps: usize,
@@ -38,7 +38,7 @@ impl Clock {
         Self { elapsed: Compensated::new(0.0), steps: 0 }
     }
 
-    /// The next step, of the length `wanted` or what is left of `duration`.
+    /// The next step, of the length `wanted` or up to the end of `duration`.
     #[inline(always)]
     pub(super) fn advance(&mut self, wanted: f64, duration: f64, limit: StepLimit) -> Result<Interval, Error> {
         check_length(self.steps, limit, self.elapsed.high, duration)?;
@@ -59,7 +59,7 @@ impl Clock {
     }
 }
 
-/// Refuses a motion that has too many steps, or that has shown within its first steps that it will have.
+/// Refuses a motion that has too many steps, or whose first steps show that it will have.
 fn check_length(steps: usize, limit: StepLimit, elapsed: f64, duration: f64) -> Result<(), Error> {
     let foreseen = steps as f64 * duration / elapsed.max(f64::MIN_POSITIVE);
     let hopeless = steps >= 256 && foreseen > 2.0 * limit.steps as f64;

@@ -1,27 +1,28 @@
-//! How errors made on the way have grown by a later time.
+//! Growth of errors up to a later time.
 
 use nalgebra::{Matrix3, Vector3};
 
 use crate::propagation::taylor::linearised_flow::LinearMap;
 
-/// Factor of safety on what is known: the defects are their leading term, the linearised flow is good to some per cent.
+/// Safety factor for errors of known sign: the defects are given by their leading term, the linearised flow is accurate to
+/// some per cent.
 const KNOWN_SAFETY: f64 = 3.0;
 
-/// Standard deviations of what is known by its size alone: 2e-9 is the probability of more for an error in one direction, which is what
-/// a growing one becomes.
+/// Number of standard deviations for errors known only by their size: 2e-9 is the probability of more for an error in one direction,
+/// and a growing error approaches one direction.
 const UNKNOWN_SAFETY: f64 = 6.0;
 
-/// What a step rounds of the covariance, relative.
+/// Rounding of the covariance in a step, relative.
 const COVARIANCE_ROUNDING: f64 = 32.0 * f64::EPSILON;
 
-/// What reading the state off rounds: some units in the last place of one.
+/// Rounding of the evaluation of the state: some units in the last place of one.
 pub(super) const READING: f64 = 4.0 * f64::EPSILON;
 
 /// No error is larger: components of `n` and `e_x` differ by two at most, and `|L|` stays below 1.2 times its unit, since
 /// `L.L <= L_0.L_0 + 2 sqrt(2) I^xx C |s|`.
 const LARGEST: f64 = 2.5;
 
-/// A difference of two rotations that are close to each other: an error.
+/// A difference of two rotations that are close to each other, that is, an error.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Difference {
     /// Small rotation of the body about an inertial vector (rad).
@@ -30,19 +31,19 @@ pub(super) struct Difference {
     pub(super) momentum: Vector3<f64>,
     /// Relative difference of the length of `n`.
     pub(super) length: f64,
-    /// Relative difference of the length of the vector carried along, and of its cosine with `n`: both are constant.
+    /// Relative difference of the length of the vector carried along, and of its cosine with `n`; both are constant.
     pub(super) off_frame: [f64; 2],
 }
 
 impl Difference {
-    /// Its size, the momentum in the given unit.
+    /// Its size, with the momentum in the given unit.
     pub(super) fn size(&self, momentum_unit: f64) -> f64 {
         let momentum = self.momentum / momentum_unit;
         let lengths = self.length * self.length + self.off_frame.iter().map(|x| x * x).sum::<f64>();
         (self.rotation.norm_squared() + momentum.norm_squared() + lengths).sqrt()
     }
 
-    /// Carried along by a map.
+    /// Carries the difference along by a map.
     pub(super) fn carry(&mut self, map: &LinearMap) {
         let Self { rotation, momentum, length, .. } = self;
         match map {
@@ -56,18 +57,18 @@ impl Difference {
     }
 }
 
-/// The error of one motion by now.
+/// The accumulated error of one motion.
 ///
-/// Of what goes wrong at a step, the part known with its sign (truncation) is carried along the motion as a
-/// [`Difference`] by the linearised flow; the part of which only the size is known (rounding) as the covariance of one; and
-/// what does not grow is summed up. One call of [`carry`](Self::carry) for each [`LinearMap`] of a step, then one of
+/// The part of the error of a step that is known with its sign (truncation) is carried along the motion as a [`Difference`]
+/// by the linearised flow; the part whose size only is known (rounding) as the covariance of one; and errors that do not
+/// grow are summed. Each step requires one call of [`carry`](Self::carry) for each [`LinearMap`], then one of
 /// [`add`](Self::add), then [`estimate`](Self::estimate).
 #[derive(Debug, Clone)]
 pub(super) struct ErrorGrowth {
     momentum_unit: f64,
     known: Difference,
     covariance: Covariance,
-    /// Once an error is of order one the linearised flow says no more about what becomes of it.
+    /// Once an error is of order one, the linearised flow no longer describes its growth.
     lost: bool,
 }
 
@@ -81,18 +82,18 @@ struct Covariance {
     /// `<theta rho>` and `<w rho>`.
     with_length: [Vector3<f64>; 2],
     length: f64,
-    /// Of both of what is off the frame.
+    /// Variances of both components of `off_frame`.
     off_frame: f64,
 }
 
 impl ErrorGrowth {
-    /// No error yet; `momentum_unit` is that of `L / I^xx` in which errors count.
+    /// No error yet; `momentum_unit` is the unit of `L / I^xx` in which errors count.
     pub(super) fn none(momentum_unit: f64) -> Self {
         let (known, covariance) = (Difference::default(), Covariance::default());
         Self { momentum_unit, known, covariance, lost: false }
     }
 
-    /// Carries the errors made so far along the motion.
+    /// Carries the errors accumulated so far along the motion.
     pub(super) fn carry(&mut self, map: &LinearMap) {
         self.known.carry(map);
         match map {
@@ -107,8 +108,8 @@ impl ErrorGrowth {
         }
     }
 
-    /// Adds an error made now: `known` with its sign; one of unknown sign and direction with standard deviations
-    /// `[rotation, momentum]` of each component, the rotation's for the lengths as well.
+    /// Adds a new error: `known` with its sign, and one of unknown sign and direction with standard deviations
+    /// `[rotation, momentum]` of each component; the rotation's is used for the lengths as well.
     pub(super) fn add(&mut self, known: &Difference, deviations: [f64; 2]) {
         self.known.rotation += known.rotation;
         self.known.momentum += known.momentum;
@@ -118,7 +119,7 @@ impl ErrorGrowth {
         }
         let squared_unit = self.momentum_unit * self.momentum_unit;
         let Covariance { rotation, momentum, length, off_frame, .. } = &mut self.covariance;
-        // What rounding makes of the covariance itself must not outweigh what is left after a contraction.
+        // The rounding of the covariance itself must not exceed the remainder after a contraction.
         let rounded = COVARIANCE_ROUNDING * (rotation.trace() + momentum.trace() / squared_unit);
         let variances = deviations.map(|x| x * x);
         *rotation += Matrix3::from_diagonal_element(variances[0] + rounded);
@@ -127,7 +128,7 @@ impl ErrorGrowth {
         *off_frame += 2.0 * variances[0];
     }
 
-    /// The estimated error by now. Where only the `axis` is followed, a rotation about it is no error.
+    /// The current error estimate. If only the `axis` is followed, a rotation about it is not an error.
     pub(super) fn estimate(&mut self, axis: Option<&Vector3<f64>>) -> f64 {
         let Covariance { rotation, momentum, length, off_frame, .. } = &self.covariance;
         let mut known = self.known;
@@ -143,19 +144,19 @@ impl ErrorGrowth {
         if self.lost { LARGEST } else { error }
     }
 
-    /// An error of this size, added now, as [`estimate`](Self::estimate) would count it.
+    /// An error of this size, added now, in the way [`estimate`](Self::estimate) would count it.
     pub(super) fn counted(size: f64) -> f64 {
         KNOWN_SAFETY * size
     }
 
-    /// The same of one with this standard deviation.
+    /// The same for an error with this standard deviation.
     pub(super) fn counted_deviation(deviation: f64) -> f64 {
         UNKNOWN_SAFETY * deviation
     }
 }
 
 impl Covariance {
-    /// Of `w + K theta + k rho` instead of `w`.
+    /// Replaces `w` by `w + K theta + k rho`.
     fn kick(&mut self, from_rotation: &Matrix3<f64>, from_length: &Vector3<f64>) {
         let [rotation, momentum] = &mut self.with_length;
         let across = from_rotation * self.mixed + from_length * momentum.transpose();
@@ -167,14 +168,14 @@ impl Covariance {
         *momentum += change;
     }
 
-    /// Of `A theta + B w` instead of `theta`.
+    /// Replaces `theta` by `A theta + B w`.
     fn rotate(&mut self, from_rotation: &Matrix3<f64>, from_momentum: &Matrix3<f64>) {
         let [rotation, momentum] = &mut self.with_length;
         let turned = from_rotation * self.rotation + from_momentum * self.mixed.transpose();
         let mixed = from_rotation * self.mixed + from_momentum * self.momentum;
         *rotation = from_rotation * *rotation + from_momentum * *momentum;
         let rotation = turned * from_rotation.transpose() + mixed * from_momentum.transpose();
-        // What rounding makes asymmetric would be kicked with the wrong sign by `kick`, and grow exponentially.
+        // `kick` would apply an asymmetry due to rounding with the wrong sign, and it would grow exponentially.
         self.rotation = (rotation + rotation.transpose()) * 0.5;
         self.mixed = mixed;
     }
@@ -190,7 +191,7 @@ mod tests {
         Matrix3::from_fn(|i, j| (seed + 1.7 * i as f64 - 0.9 * j as f64 + (i * j) as f64).sin())
     }
 
-    /// What is left after a contraction holds the rounding of what was there: 32 units of all of it.
+    /// The remainder after a contraction contains the rounding of the earlier covariance: 32 units of all of it.
     #[test]
     fn the_rounding_of_a_covariance_is_added() {
         let unit = 3.7;
@@ -203,7 +204,7 @@ mod tests {
         assert_relative_eq!(growth.covariance.rotation[(1, 1)], rounded, epsilon = 0.0, max_relative = 1e-13);
         assert_relative_eq!(growth.covariance.momentum[(2, 2)], 4.0 + rounded * unit * unit, max_relative = 1e-16);
         assert_eq!((growth.covariance.length, growth.covariance.off_frame), (1.0, 2.0));
-        // And that of the rotation itself.
+        // The rounding of the rotation itself is added too.
         let mut growth = ErrorGrowth::none(unit);
         growth.add(&Difference::default(), [1.0, 0.0]);
         growth.add(&Difference::default(), [0.0, 0.0]);
@@ -229,7 +230,7 @@ mod tests {
         assert_eq!(growth.estimate(None), 2.5);
     }
 
-    /// What rounding makes asymmetric is taken away: `kick` would carry it with the wrong sign.
+    /// An asymmetry due to rounding is removed: `kick` would carry it with the wrong sign.
     #[test]
     fn a_covariance_is_symmetric_after_a_rotation() {
         let given = matrix(0.7);

@@ -1,4 +1,4 @@
-//! The error of a motion by Taylor series: what each step leaves out and rounds, carried to the end of every step.
+//! The error of a motion by Taylor series: the truncation and rounding of each step, carried to the end of every step.
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
@@ -14,23 +14,23 @@ use crate::propagation::taylor::shared_rounding::{SHARES, SharedRounding, excess
 /// The vectors of a series in real numbers, by columns.
 type Columns<const V: usize> = SMatrix<f64, 3, V>;
 
-/// Standard deviation of what rounding makes of a change of the state, in units in the last place of the change.
+/// Standard deviation of the rounding of a change of the state, in units in the last place of the change.
 pub(super) const ROUNDING: f64 = 0.5;
 
-/// Part of the truncation of a step that its leading term misses.
+/// Fraction of the truncation of a step that its leading term misses.
 const UNCERTAIN: f64 = 0.04;
 
-/// Rounding of the angle by which `e_x` has turned about `n`, when it is read off, relative: half a unit in the last place.
+/// Relative rounding, at evaluation, of the angle by which `e_x` has turned about `n`: half a unit in the last place.
 const ANGLE_ROUNDING: f64 = 0.5 * f64::EPSILON;
 
 /// The estimated error within one step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StepError {
-    /// Of what was made before it, the larger of both ends.
+    /// Error made before the step, the larger of both ends.
     carried: f64,
-    /// Of what the step leaves out by its end.
+    /// Truncation error of the step at its end.
     local: f64,
-    /// Of what it rounds by its end.
+    /// Rounding error of the step at its end.
     rounded: f64,
 }
 
@@ -41,13 +41,13 @@ impl StepError {
     }
 }
 
-/// Goes through the steps of a motion in their order.
+/// Processes the steps of a motion in order.
 pub(super) struct TaylorErrors<const V: usize> {
     spheroid: RigidSpheroid<f64>,
     tensor: Matrix3<f64>,
     flow: LinearisedFlow,
     shared: SharedRounding,
-    /// Relative, of each coefficient from the first on.
+    /// Relative excess of each coefficient, starting with the first.
     excess: [Columns<V>; SHARES],
     growth: ErrorGrowth,
     /// Unit of time of the series.
@@ -55,16 +55,16 @@ pub(super) struct TaylorErrors<const V: usize> {
     /// `L / I^xx` of the momentum's unit, in the unit of time.
     momentum_unit: f64,
     before: f64,
-    /// Bound of what the angle of `e_x` about `n` rounds.
+    /// Bound of the rounding of the angle of `e_x` about `n`.
     of_angle: f64,
-    /// Of `e_x` about `n`, in the unit of time of the series; zero where only the axis is followed.
+    /// Rate of `e_x` about `n`, in the unit of time of the series; zero if only the axis is followed.
     rate_about_axis: f64,
-    /// The step at work.
+    /// The current step.
     series: Vec<Columns<V>>,
 }
 
 impl<const V: usize> TaylorErrors<V> {
-    /// At the start of a motion.
+    /// The state at the start of a motion.
     pub(super) fn of<S: Real>(setup: &ScaledProblem<S, V>) -> Self {
         let (scale, spheroid) = (&setup.scale, setup.spheroid.map(S::re));
         let tensor = setup.frame.tensor.map(S::re);
@@ -100,7 +100,8 @@ impl<const V: usize> TaylorErrors<V> {
         }
     }
 
-    /// The next step, of signed length `h` in units of its series. `vector` makes the vectors of the coefficients real.
+    /// Processes the next step, of signed length `h` in units of its series. `vector` makes the vectors of the coefficients
+    /// real.
     pub(super) fn step<T>(&mut self, series: &[[T; V]], vector: impl Fn(&T) -> Vector3<f64>, h: f64) -> StepError {
         let mut columns = core::mem::take(&mut self.series);
         columns.clear();
@@ -123,12 +124,12 @@ impl<const V: usize> TaylorErrors<V> {
 
         let known = self.truncation(series, h, end);
         let size = known.size(self.momentum_unit);
-        // What is rounded is the changes without the cancellation between their first two terms or within a cross product.
+        // Rounding applies to the changes without the cancellation between their first two terms or within a cross product.
         let changes = (series[1].abs() + series[2].abs() * h.abs()) * h.abs();
         let turned = (0..V).filter(|column| *column != MOMENTUM).map(|column| changes.column(column).norm());
         let turned = turned.fold(start.1.norm() * h.abs(), f64::max);
         let kicked = (self.flow.strength() * h.abs()).max(changes.column(MOMENTUM).norm() * rate);
-        // Within a step the momentum feels what the torque makes of the defect of the axis, too.
+        // Within a step the momentum also depends on the torque from the defect of the axis.
         let uncertain = UNCERTAIN * (known.momentum.norm() + size * kicked.min(self.momentum_unit));
         let [turned, kicked] = [turned, kicked].map(|change| ROUNDING * f64::EPSILON * change);
         let deviations = [turned + UNCERTAIN * size, kicked + uncertain];
@@ -140,10 +141,10 @@ impl<const V: usize> TaylorErrors<V> {
         StepError { carried, local: ErrorGrowth::counted(size), rounded }
     }
 
-    /// What the step leaves out, and what rounding of the factors of its recurrences makes of it.
+    /// The truncation error of the step, and the effect of rounded factors in its recurrences.
     ///
     /// It is the integral of the defect `d = x' - f(x)` of the series, which grows as `tau^order`, carried to the end of the
-    /// step: the Gauss-Jacobi rule of one node for that weight, and the linearised flow from the node on.
+    /// step: the one-node Gauss-Jacobi rule for that weight, followed by the linearised flow from the node on.
     fn truncation(&self, series: &[Columns<V>], h: f64, end: &Columns<V>) -> Difference {
         let order = series.len() - 1;
         let node = (order + 1) as f64 / (order + 2) as f64;
@@ -154,7 +155,7 @@ impl<const V: usize> TaylorErrors<V> {
         }
         let weight = h / ((order + 1) as f64 * node.powi(order as i32));
         let truncated = (slope - self.rates(&value)) * weight;
-        // The factors of the recurrences are rounded, too. Most of what they make comes from late in the step as well.
+        // The factors of the recurrences are rounded, too. Most of their effect also comes from late in the step.
         let terms = series[1..].iter().zip(&self.excess).rev();
         let rounded = terms.fold(Columns::zeros(), |sum, (term, excess)| (sum + term.component_mul(excess)) * h);
         let error = truncated + rounded;
@@ -180,7 +181,8 @@ impl<const V: usize> TaylorErrors<V> {
     }
 }
 
-/// Small differences of the vectors at `state` as one of motions; `rate` is `1 / I^xx` in the unit of time.
+/// Small differences of the vectors at `state`, converted to a difference of motions; `rate` is `1 / I^xx` in the unit of
+/// time.
 fn difference<const V: usize>(state: &Columns<V>, small: &Columns<V>, rate: f64) -> Difference {
     let vector = |of: &Columns<V>, column: usize| -> Vector3<f64> { of.column(column).into() };
     let (n, of_axis) = (vector(state, AXIS), vector(small, AXIS));
@@ -204,7 +206,8 @@ mod tests {
 
     const SPHEROID: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.8 };
 
-    /// A free star, and the Taylor series of the rotation of `n` and of what is carried about a constant `L` at the rate `|L| / I^xx`, in the scaled unit of time.
+    /// A free star, and the Taylor series of the rotation of `n` and of the vector carried along about a constant `L` at the rate `|L| / I^xx`, in
+    /// the scaled unit of time.
     fn rotating<const V: usize>(momentum: Vector3<f64>) -> (TaylorErrors<V>, Vec<Columns<V>>) {
         let vectors = [Vector3::x(), momentum, Vector3::y()];
         let problem = Problem::unchecked(SPHEROID, Matrix3::zeros(), BodyState::from_vectors(vectors));
@@ -227,7 +230,7 @@ mod tests {
         series.iter().rev().fold(Columns::zeros(), |sum, term| sum * h + term)
     }
 
-    /// Each coefficient is more by its share of what the factors of all before it are more, here of the first two: `h c_1 e_1 + h^2 c_2 e_2`.
+    /// Each coefficient has an excess from the excess of the factors of all previous ones, here of the first two: `h c_1 e_1 + h^2 c_2 e_2`.
     #[test]
     fn rounded_factors_add_to_the_coefficients() {
         let (mut errors, series) = rotating::<3>(Vector3::new(0.3, -0.5, 1.2));
@@ -249,7 +252,7 @@ mod tests {
         }
     }
 
-    /// The rounding of the angle about `n` adds up over the steps, beside all else.
+    /// The rounding of the angle about `n` accumulates over the steps, in addition to the other errors.
     #[test]
     fn the_rounding_of_the_angle_about_the_axis_is_carried() {
         let h = 0.1;
@@ -264,7 +267,8 @@ mod tests {
         assert_relative_eq!(with_twice - twice, ANGLE_ROUNDING * 2e5, max_relative = 1e-9);
     }
 
-    /// What is rounded is the change of `n`, both of its first terms without their signs: at a right angle to `L` and by half a radian `x` and `x^2 / 2`.
+    /// Rounding applies to the change of `n`, with both of its first terms taken without their signs: at a right angle to `L` and by half a radian
+    /// these are `x` and `x^2 / 2`.
     #[test]
     fn the_change_of_the_axis_is_rounded() {
         let (mut errors, series) = rotating::<2>(Vector3::new(0.0, 0.0, 1.3));

@@ -1,4 +1,4 @@
-//! What a numerical motion will take, from its first step.
+//! Predicted cost of a numerical motion, from its first step.
 
 use crate::dynamics::{Problem, RotationState};
 use crate::error::Error;
@@ -9,24 +9,24 @@ use crate::propagation::taylor::scaled_problem::ScaledProblem;
 use crate::propagation::taylor::series::COMPANION;
 use crate::propagation::taylor::{fused_for, work_of};
 
-/// What [`Problem::taylor`] will do, from its first step.
+/// Prediction for [`Problem::taylor`], from its first step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TaylorForecast {
     /// Order of the series.
     pub order: usize,
-    /// Steps, if all are as long as the first; at least one.
+    /// Number of steps, if all are as long as the first; at least one.
     pub steps: f64,
-    /// What [`error_estimate`](crate::propagation::Motion::error_estimate) will take for rounding at the end, as far as the start
-    /// tells: for steps alike, a torque as large as it can be, and constants each rounded by half a unit in the last place of a rate. Of
-    /// a motion beside the unstable middle axis it does not know the growth.
+    /// The rounding error that [`error_estimate`](crate::propagation::Motion::error_estimate) will report at the end, as far as the
+    /// start determines it: for equal steps, the largest possible torque, and constants each rounded by half a unit in the last place of
+    /// a rate. It does not include the growth near the unstable middle axis.
     pub rounding: f64,
 }
 
 impl<X: RotationState<f64>> Problem<f64, X> {
-    /// What [`taylor`](Self::taylor) will do over a `duration`: the work of one step tells it.
+    /// Predicted cost and rounding of [`taylor`](Self::taylor) over a `duration`, from the work of one step.
     ///
     /// # Errors
-    /// As for [`taylor`](Self::taylor), but for the number of steps.
+    /// As for [`taylor`](Self::taylor), except that the number of steps is not limited.
     pub fn taylor_forecast(&self, duration: f64, tolerance: f64) -> Result<TaylorForecast, Error> {
         if const { X::VECTORS == 3 } {
             forecast::<X, 3>(self, duration, tolerance)
@@ -51,21 +51,24 @@ fn forecast<X: RotationState<f64>, const V: usize>(
     Ok(TaylorForecast { order: setup.order, steps, rounding })
 }
 
-/// What [`ErrorGrowth`] will make of the rounding of `steps` alike, over a turn by the angle `turn` with `vectors` carried.
+/// Prediction of [`ErrorGrowth`] for the rounding of equal `steps`, over a rotation by the angle `turn` with `vectors`
+/// carried.
 ///
-/// Each step rounds what it turns, `q = turn / steps`, and the momentum, `strength q`, by deviations of half a unit in the last place. A
-/// difference of directions changes the torque, so that it grows as `1 + strength x` over a turn by `x`; that of the momentum along itself
-/// as `x`. The sum over evenly spaced steps is the integral over `x`. The rounding that all steps share goes with the turn.
+/// Each step rounds the rotation, `q = turn / steps`, and the momentum, `strength q`, with deviations of half a unit in the last place. A
+/// difference of directions changes the torque, so that it grows as `1 + strength x` over a rotation by `x`; a difference of the momentum
+/// along itself grows as `x`. The sum over evenly spaced steps is the integral over `x`. The rounding that all steps share is proportional
+/// to the rotation.
 fn expected_rounding(turn: f64, steps: f64, strength: f64, vectors: usize) -> f64 {
     let deviation = ROUNDING * f64::EPSILON * turn / steps;
     let pulled = strength * turn;
     let of_torque = 1.0 + pulled + pulled * pulled / 3.0;
-    // Rotation, lengths and cosines of what is carried; a rotation about the axis alone is none of it.
+    // Rotation, lengths and cosines of the vectors carried; without a carried vector a rotation about the axis does not
+    // count.
     let directions = if vectors > COMPANION { 6.0 } else { 3.0 };
     let variance = (directions + 3.0 * strength * strength) * of_torque + pulled * pulled / 3.0;
     let shared = ErrorGrowth::counted(ROUNDING * f64::EPSILON * turn);
     let rounding = READING + shared + ErrorGrowth::counted_deviation(deviation * (steps * variance).sqrt());
-    // Where squares overflow nothing is left of the state.
+    // If squares overflow no digit of the state is left.
     if rounding.is_nan() { f64::INFINITY } else { rounding }
 }
 

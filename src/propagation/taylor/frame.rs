@@ -7,12 +7,12 @@ use crate::lorentz_violation::principal_frame;
 use crate::numerics::arithmetic::{LoadStore, Padded};
 use crate::numerics::scalar::Real;
 
-/// The tensor `s^IJ` without its isotropic part, in the frame of a series, and the way back.
+/// The tensor `s^IJ` without its isotropic part, in the frame of a series, and the transformation back.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SeriesFrame<S> {
     pub(super) tensor: Matrix3<S>,
     is_principal: bool,
-    /// Rotation from the principal frame, where that is the frame of the series and not the given one.
+    /// Rotation from the principal frame, if that is the frame of the series and not the given one.
     given_from_series: Option<Matrix3<f64>>,
 }
 
@@ -24,19 +24,20 @@ impl<S: Real> SeriesFrame<S> {
             return Ok(Self { tensor: *anisotropic, is_principal: principal, given_from_series: None });
         }
         let frame = principal_frame(&anisotropic.map(S::re))?;
-        // A step of Newton's method makes the axes orthonormal to rounding: what goes in by them comes out by them.
+        // A step of Newton's method makes the axes orthonormal to rounding, so that the transformation and its inverse
+        // agree.
         let back = frame.principal_from_given.transpose();
         let back = back * (Matrix3::identity() * 1.5 - back.transpose() * back * 0.5);
         let tensor = frame.coefficients.tensor().map(S::from_f64);
         Ok(Self { tensor, is_principal: true, given_from_series: Some(back) })
     }
 
-    /// Whether it is the principal frame that is computed in, or the given one by whole tensors.
+    /// Whether the series is computed in the principal frame, or in the given one with full tensors.
     pub(super) fn is_principal(&self) -> bool {
         self.is_principal
     }
 
-    /// Rotation from the frame of the series, where that is not the given one.
+    /// Rotation from the frame of the series, if that is not the given one.
     pub(super) fn given_from_series(&self) -> Option<Matrix3<f64>> {
         self.given_from_series
     }
@@ -50,7 +51,7 @@ impl<S: Real> SeriesFrame<S> {
         self.given_from_series.map_or(*v, |back| back.map(S::from_f64) * v)
     }
 
-    /// The same, by the instructions of the series.
+    /// The same, with the instructions of the series.
     #[inline(always)]
     pub(super) fn turned_to_given<A: LoadStore<Scalar = S>>(&self, a: A, v: A::Vector) -> A::Vector {
         match &self.given_from_series {

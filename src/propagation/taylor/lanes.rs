@@ -21,7 +21,7 @@ type Lanes<R> = SideBySide<R, 1>;
 
 type Outcome = Result<Samples<AxisState<f64>>, Error>;
 
-/// A motion ready for a lane.
+/// A motion prepared for a lane.
 struct Ready<'t> {
     scene: usize,
     times: &'t [f64],
@@ -55,13 +55,13 @@ pub(in crate::propagation) fn axis_states_in_lanes<R: Register>(
     outcomes
 }
 
-/// What a lane is at.
+/// The progress of a lane.
 struct Lane<'r> {
     ready: &'r Ready<'r>,
     clock: Clock,
 }
 
-/// Carries motions of one order through the lanes; a lane whose motion has ended takes the next one.
+/// Carries motions of one order through the lanes; a lane whose motion has ended starts the next one.
 #[inline(always)]
 fn propagate_alike<R: Register>(a: Componentwise<Lanes<R>>, motions: &[Ready<'_>], outcomes: &mut [Outcome]) {
     let order = motions[0].setup.order;
@@ -161,10 +161,10 @@ mod tests {
             assert_eq!((found.step_count, found.order), (alone.step_count, alone.order));
             assert!(found.step_count > 3 && found.states.len() == times.len());
             for (state, [axis, momentum]) in found.states.iter().zip(alone.states) {
-                // Vectors of the length one and of about that, after some ten steps of rounding.
+                // Vectors of length one and of about that length, after some ten steps of rounding.
                 assert!((state.axis - axis).amax() < 1e-14 && (state.momentum - momentum).amax() < 1e-14);
             }
-            // And to the bit, whatever was in its lane before.
+            // The same bits, whatever was in its lane before.
             assert_eq!(axis_states_in_lanes(register, &[*motion]), [Ok(found)]);
         }
     }

@@ -1,7 +1,7 @@
-//! The linearised flow of the rotation: what small differences of two motions become over one step.
+//! The linearised flow of the rotation: the evolution of small differences of two motions over one step.
 //!
-//! A step is split into rotations at constant `L` and kicks of `L` at constant `n`, in the weights of Simpson's rule, so that
-//! the linear map is accurate to some per cent over a radian and keeps the structure of the motion over any time.
+//! A step is split into rotations at constant `L` and kicks of `L` at constant `n`, with the weights of Simpson's rule, so
+//! that the linear map is accurate to some per cent over a radian and preserves the structure of the motion over any time.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -11,13 +11,13 @@ use crate::propagation::taylor::shared_rounding::SharedRounding;
 /// Longest part of a step, in radians of the rotation.
 const LONGEST_PART: f64 = 0.5;
 
-/// A linear map of differences `(theta, w, rho)`: the small rotation `theta` of what turns with
-/// `L / I^xx` (`n`, and the vector from which `e_x` follows at a constant rate), the difference `w` of
-/// `L / I^xx`, and the relative difference `rho` of the length of `n`.
+/// A linear map of differences `(theta, w, rho)`: the small rotation `theta` of the vectors that rotate with `L / I^xx`
+/// (`n`, and the vector from which `e_x` follows at a constant rate), the difference `w` of `L / I^xx`, and the relative
+/// difference `rho` of the length of `n`.
 pub(super) enum LinearMap {
-    /// `w += from_rotation theta + from_length rho`; `made` is added to what is known.
+    /// `w += from_rotation theta + from_length rho`; `made` is added to the known error.
     Kick { from_rotation: Matrix3<f64>, from_length: Vector3<f64>, made: Vector3<f64> },
-    /// `theta = from_rotation theta + from_momentum w`, and the same.
+    /// `theta = from_rotation theta + from_momentum w`, with `made` as above.
     Rotation { from_rotation: Matrix3<f64>, from_momentum: Matrix3<f64>, made: Vector3<f64> },
 }
 
@@ -26,9 +26,9 @@ pub(super) enum LinearMap {
 pub(super) struct LinearisedFlow {
     /// `2 C s^IJ / I^xx`, in units of the squared rate.
     pull: Matrix3<f64>,
-    /// What the motion itself follows differs from the equations by this.
+    /// The difference between the equations that the computed motion follows and the exact ones.
     shared: SharedRounding,
-    /// `L / I^xx` of a unit of `L`, in the unit of time.
+    /// `L / I^xx` for one unit of `L`, in the unit of time.
     rate: f64,
 }
 
@@ -40,12 +40,12 @@ impl LinearisedFlow {
         Self { pull, shared, rate: unit / inertia_xx }
     }
 
-    /// Largest rate at which `L / I^xx` is turned.
+    /// Largest rate at which the torque changes `L / I^xx`.
     pub(super) fn strength(&self) -> f64 {
         self.pull.norm()
     }
 
-    /// Calls `apply` with the maps of the time `h` from `start` to `end`, each `(n, L / I^xx)`, in their order.
+    /// Calls `apply` with the maps over the time `h` from `start` to `end`, each `(n, L / I^xx)`, in order.
     pub(super) fn over(
         &self,
         start: (Vector3<f64>, Vector3<f64>),
@@ -76,7 +76,7 @@ impl LinearisedFlow {
         }
     }
 
-    /// The same for a small part of a step, between two states at hand.
+    /// The same for a small part of a step, between two given states.
     pub(super) fn over_little(
         &self,
         ends: [(Vector3<f64>, Vector3<f64>); 2],
@@ -156,7 +156,8 @@ mod tests {
         LinearisedFlow::new(&spheroid, &violation, 1.0, SharedRounding::of(&setup).0)
     }
 
-    /// The rotation by `w h` and its mean from the time zero to `h`, on both sides of the angle of a thousandth where the series end.
+    /// The rotation by `w h` and its mean from the time zero to `h`, on both sides of the angle of a thousandth up to which the
+    /// series are used.
     #[test]
     fn rotations_and_their_means_are_those_of_any_angle() {
         let flow = flow();
@@ -168,7 +169,7 @@ mod tests {
             let exact = |share: f64| Rotation3::new(w * h * share).into_inner();
             assert!((from_rotation - exact(1.0)).amax() < 2e-16 + 1e-13 * angle * angle, "{angle}");
             assert_relative_eq!(turned, exact(1.0) * n, epsilon = 1e-15);
-            // Three points of Gauss and Legendre in each of eight parts.
+            // Three Gauss-Legendre points in each of eight parts.
             let mut mean = Matrix3::zeros();
             for part in 0..8 {
                 for (place, weight) in [(-0.6_f64.sqrt(), 5.0 / 18.0), (0.0, 8.0 / 18.0), (0.6_f64.sqrt(), 5.0 / 18.0)]
@@ -183,7 +184,7 @@ mod tests {
         }
     }
 
-    /// `(x - sin x) / x^3` stands alone in the symmetric part of the mean.
+    /// `(x - sin x) / x^3` is the only term in the symmetric part of the mean.
     #[test]
     fn the_series_of_the_mean_of_a_rotation_has_its_second_term() {
         let w = Vector3::new(0.3, -0.5, 1.2);
@@ -229,8 +230,8 @@ mod tests {
         }
     }
 
-    /// Against derivatives of `n' = w x n`, `w' = (S n) x n` by Runge and Kutta's method in small steps: what is left is of the fifth order in
-    /// the step, and would be of the third with another correction of the kick in the middle.
+    /// Compared with derivatives of `n' = w x n`, `w' = (S n) x n` by the Runge-Kutta method with small steps: the remainder is of the fifth
+    /// order in the step, and would be of the third with another correction of the middle kick.
     #[test]
     fn maps_are_those_of_the_linearised_equations_to_the_fourth_order() {
         let pull = Matrix3::from_diagonal(&Vector3::new(0.9, -0.2, -0.7));

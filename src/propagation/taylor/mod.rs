@@ -48,7 +48,7 @@ use step_size::Work;
 /// Smallest and largest tolerance of a numerical motion.
 pub const TOLERANCE_RANGE: (f64, f64) = (1e-16, 1e-2);
 
-/// Most steps that one motion may keep: each holds about 2 kB of coefficients for `f64`.
+/// Largest number of stored steps of one motion: each has about 2 kB of coefficients for `f64`.
 pub const STEP_LIMIT: usize = 500_000;
 
 const LIMIT: StepLimit = StepLimit {
@@ -56,7 +56,7 @@ const LIMIT: StepLimit = StepLimit {
     allowed: "at most 500,000 steps: take a shorter span (and go on from its end) or a larger tolerance",
 };
 
-/// A motion kept as Taylor series on adjoining steps: [`Problem::taylor`].
+/// A motion stored as Taylor series on adjoining steps: [`Problem::taylor`].
 #[derive(Debug, Clone)]
 pub struct TaylorMotion<S, X = BodyState<S>> {
     /// Number of steps.
@@ -74,7 +74,7 @@ enum Kept<S> {
     Body(KeptSeries<S, 3>),
 }
 
-/// Something done with the series of either.
+/// Applies an expression to either kind of series.
 macro_rules! of_either {
     ($motion:expr, $series:ident => $work:expr) => {
         match &$motion.kept {
@@ -84,15 +84,15 @@ macro_rules! of_either {
     };
 }
 
-/// The series of the `V` vectors `n`, `L` and, with `V = 3`, a vector normal to `n` from which `e_x` follows by a turn about `n` at a
-/// constant rate.
+/// The series of the `V` vectors `n`, `L` and, with `V = 3`, a vector normal to `n` from which `e_x` follows by a rotation about `n`
+/// at a constant rate.
 #[derive(Debug, Clone)]
 struct KeptSeries<S, const V: usize> {
     setup: ScaledProblem<S, V>,
-    /// The instructions by which the series are summed, for doubles.
+    /// The instructions for summing the series, for doubles.
     fused: Option<Fused>,
     steps: Steps<S, V>,
-    /// Estimated error of each step, found when first asked for: most motions never are.
+    /// Estimated error of each step, computed at the first request, because most motions never need it.
     errors: OnceLock<Vec<StepError>>,
 }
 
@@ -101,13 +101,13 @@ struct KeptSeries<S, const V: usize> {
 struct Steps<S, const V: usize> {
     /// Start of each step: time since the start of the motion, positive in either direction.
     starts: Vec<Compensated>,
-    /// Those of each step, and places for more.
+    /// Coefficients of each step, with spare capacity.
     coefficients: Vec<Vectors<Padded<S>, V>>,
-    /// Coefficients of one step, `order + 1`.
+    /// Number of coefficients of one step, `order + 1`.
     length: usize,
 }
 
-/// By a loop rather than `map`, which is not always inlined and then leaves the instructions of `a`.
+/// A loop rather than `map`, which is not always inlined and then loses the instructions of `a`.
 #[inline(always)]
 fn stored<A: LoadStore, const V: usize>(a: A, vectors: &Vectors<A::Vector, V>) -> Vectors<Padded<A::Scalar>, V> {
     let mut stored = [Padded::zero(); V];
@@ -132,7 +132,7 @@ impl<S: Real, const V: usize> Steps<S, V> {
         let mut steps = Self { starts: Vec::new(), coefficients: Vec::new(), length: setup.order + 1 };
         setup.drive().run(a, LIMIT, |step, series| {
             if let [_] = steps.starts.as_slice() {
-                // Steps of one motion are much alike: room for all of them at once.
+                // Steps of one motion have similar lengths, so memory for all of them is reserved at once.
                 steps.reserve(setup.duration() / step.start.high, series.len());
             }
             steps.keep(a, step.start, series);
@@ -158,13 +158,13 @@ impl<S: Real, const V: usize> Steps<S, V> {
         }
     }
 
-    /// None, with places for `count`.
+    /// No steps, with capacity for `count`.
     fn with_places(count: usize, order: usize) -> Self {
         let length = order + 1;
         Self { starts: Vec::with_capacity(count), coefficients: vec![[Padded::zero(); V]; count * length], length }
     }
 
-    /// Forgets the steps, and keeps the places.
+    /// Removes the steps and keeps the capacity.
     fn clear(&mut self) {
         self.starts.clear();
     }
@@ -178,14 +178,14 @@ impl<S: Real, const V: usize> Steps<S, V> {
         &self.coefficients[step * self.length..][..self.length]
     }
 
-    /// Room for some more steps than `count`, if that is not out of proportion.
+    /// Reserves memory for some more steps than `count`, if that is not excessive.
     fn reserve(&mut self, count: f64, coefficients: usize) {
         let count = (1.2 * count).min(STEP_LIMIT as f64 / 50.0) as usize;
         self.starts.reserve(count);
         self.coefficients.reserve(count * coefficients);
     }
 
-    /// The vectors at the time `t` by the series of one step, in the given frame.
+    /// The vectors at the time `t` from the series of one step, in the given frame.
     #[inline(always)]
     fn sum<A: LoadStore<Scalar = S>>(&self, setup: &ScaledProblem<S, V>, a: A, step: usize, t: S) -> [Padded<S>; V] {
         let series = self.series(step);
@@ -198,8 +198,8 @@ impl<S: Real, const V: usize> Steps<S, V> {
         )
     }
 
-    /// Index of the step that holds a time since the start. Steps are much alike, so that it is near to where it would be
-    /// if they were equal; from there it is bracketed by strides that double.
+    /// Index of the step that contains a time since the start. Steps have similar lengths, so the search begins where the
+    /// step would be if they were equal; from there it is bracketed by strides that double.
     fn index_at(&self, elapsed: f64, duration: f64) -> usize {
         let starts = &self.starts;
         let guess = ((elapsed / duration * starts.len() as f64) as usize).min(starts.len() - 1);
@@ -214,7 +214,7 @@ impl<S: Real, const V: usize> Steps<S, V> {
         low + starts[low..high].partition_point(|start| start.high <= elapsed).max(1) - 1
     }
 
-    /// The same, quick where it is the step `near` or one not far from it.
+    /// The same, fast if it is the step `near` or one close to it.
     fn index_near(&self, near: usize, elapsed: f64, duration: f64) -> usize {
         let starts = &self.starts;
         let mut step = near;
@@ -231,12 +231,12 @@ impl<S: Real, const V: usize> Steps<S, V> {
     }
 }
 
-/// The instructions for doubles, where the processor has them and `S` is `f64`, which is known when this is compiled.
+/// The instructions for doubles, if the processor has them and `S` is `f64`, which is known at compile time.
 fn fused_for<S: Real>() -> Option<Fused> {
     if TypeId::of::<S>() == TypeId::of::<f64>() { detect_fused() } else { None }
 }
 
-/// Whether the series is computed in the principal frame, and how its work grows, by those instructions or without.
+/// Whether the series is computed in the principal frame, and how its work grows, with those instructions or without.
 fn work_of(fused: Option<Fused>) -> (bool, Work) {
     if fused.is_some() { (true, Work::Waiting) } else { (false, Work::Quadratic) }
 }
@@ -258,7 +258,7 @@ impl<S: Real, const V: usize> KeptSeries<S, V> {
         Ok(Self { setup, fused: None, steps, errors: OnceLock::new() })
     }
 
-    /// Index of the step that holds the time `t`, and the time since the start.
+    /// Index of the step that contains the time `t`, and the time since the start.
     fn step_at(&self, t: f64) -> Result<(usize, f64), Error> {
         let elapsed = self.setup.elapsed(t)?;
         Ok((self.steps.index_at(elapsed, self.setup.duration()), elapsed))
@@ -309,13 +309,14 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
     /// The numerical motion from the initial state at `span.0` to `span.1` (forwards or backwards), by Taylor series. Without `e_x` a third
     /// of the work is saved.
     ///
-    /// `tolerance` is the truncation error wanted in the components of `n`, `e_x` and of `L` in units of `|L| + sqrt(2 I^xx C |s|)` at the
-    /// end of the span, in [`TOLERANCE_RANGE`]; rounding adds about `2e-16 sqrt(steps)` and its growth, see [`Motion::error_estimate`]. A
-    /// truncation below rounding costs little: the order of the series rises by one for each factor of four.
+    /// `tolerance` is the truncation error allowed in the components of `n`, `e_x` and of `L` in units of `|L| + sqrt(2 I^xx C |s|)` at
+    /// the end of the span, in [`TOLERANCE_RANGE`]; rounding adds about `2e-16 sqrt(steps)` and its growth, see
+    /// [`Motion::error_estimate`]. A truncation error below rounding costs little: the order of the series rises by one for each factor of
+    /// four.
     ///
-    /// Step sizes and order follow from the real parts alone, so that derivatives (duals) are those of the motion and not of
-    /// the choice of steps. Motion in doubles uses fused multiply-add and vector instructions where the processor has them: the
-    /// last digits may differ between processors, never between runs.
+    /// Step sizes and order depend on the real parts alone, so that derivatives (duals) are those of the motion and not of the
+    /// choice of steps. Motion in doubles uses fused multiply-add and vector instructions if the processor has them: the last
+    /// digits may differ between processors, but never between runs.
     ///
     /// # Errors
     /// [`Error::Domain`] for a tolerance out of range, a span that is not finite, and one that needs more than [`STEP_LIMIT`] steps.
@@ -366,14 +367,14 @@ impl<S: Real, X: RotationState<S>> Motion<S> for TaylorMotion<S, X> {
         Ok(AxisState { axis, momentum })
     }
 
-    /// The truncation of each step by its defect and the rounding that all steps share (of the constants, of the frame), with their
-    /// signs, and the other rounding of each step by its size, carried along the motion by the linearised equations: linear
-    /// growth of phases and exponential growth near the unstable middle axis alike. Found for all steps at the first call, which
-    /// takes longer than the propagation.
+    /// The truncation of each step from its defect and the rounding that all steps share (of the constants, of the frame), with
+    /// their signs, and the size of the other rounding of each step, are carried along the motion by the linearised equations. This
+    /// covers both the linear growth of phases and the exponential growth near the unstable middle axis. The estimate is computed
+    /// for all steps at the first call, which takes longer than the propagation.
     ///
-    /// Over 50,000 random motions, drawn as `docs/accuracy.md` tells, it is most often three to thirty times the true error, in 0.7 % above a
-    /// hundred times, and in none of them below. Where it reaches one,
-    /// nothing more is known of the phase and it is 2.5 from there on.
+    /// Over 50,000 random motions, drawn as described in `docs/accuracy.md`, it is most often three to thirty times the true error, in 0.7 %
+    /// of them above a hundred times, and in none of them below. Once it reaches one, the phase is no longer known, and the estimate is 2.5
+    /// from there on.
     fn error_estimate(&self, t: f64) -> f64 {
         of_either!(self, series => series.error_estimate(t))
     }
@@ -393,7 +394,7 @@ mod tests {
     use super::*;
     use crate::dynamics::fixture::{AXIS_STATE, axis_problem};
 
-    /// Also for a time that rounding puts before the first of the steps that are kept.
+    /// Also for a time that rounding puts before the first of the stored steps.
     #[test]
     fn the_step_of_a_time_does_not_depend_on_that_before() {
         let starts = [3.0, 5.0, 6.0, 9.0].map(Compensated::new).to_vec();
@@ -417,7 +418,7 @@ mod tests {
         }
     }
 
-    /// What a step leaves out grows with the time since its start, to the power of the order.
+    /// The truncation error of a step grows with the time since its start, to the power of the order.
     #[test]
     fn the_error_within_a_step_begins_with_what_is_carried() {
         let motion = axis_problem([0.02, 0.01, -0.03]).taylor((0.0, 3.0), 1e-5).unwrap();
@@ -427,11 +428,12 @@ mod tests {
         let at = |part: f64| motion.error_estimate(part * length);
         assert!(at(0.0) < 1e-15 && at(0.3) < at(0.6) && at(0.6) < at(0.9), "{:?}", [0.0, 0.3, 0.6, 0.9].map(at));
         assert!(at(0.9) > 1e3 * at(0.3) && length < 1.0 && series.length(1) < 1.0);
-        // What is carried from there on is the larger of both ends of the step: no less than what has come in.
+        // The error carried from there on is the larger of both ends of the step: no less than the incoming error.
         assert!(motion.error_estimate(second) < 3.0 * at(1.0 - 1e-9), "{:e}", motion.error_estimate(second));
     }
 
-    /// A start that rounding takes out of the time since it: the same steps, and what the turn in the lost time adds.
+    /// A start that is lost in the rounding of the time since it: the steps are the same, and the estimate adds the rotation
+    /// in the lost time.
     #[test]
     fn what_rounding_makes_of_the_time_is_in_the_estimated_error() {
         let problem = axis_problem([0.02, 0.01, -0.03]);

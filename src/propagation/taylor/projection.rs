@@ -11,11 +11,11 @@ use crate::propagation::taylor::Steps;
 use crate::propagation::taylor::scaled_problem::ScaledProblem;
 use crate::propagation::taylor::series::{AXIS, COMPANION, MOMENTUM, change};
 
-/// `m.o` of a vector `m` fixed in the body and a fixed direction `o`, with its time derivatives, at any time of a motion that is kept as
-/// Taylor series in doubles: [`Motion::projection`](crate::propagation::Motion::projection).
+/// `m.o` of a vector `m` fixed in the body and a fixed direction `o`, with its time derivatives, at any time of a motion that is stored
+/// as Taylor series in doubles: [`Motion::projection`](crate::propagation::Motion::projection).
 ///
-/// The same numbers as those from the states, to rounding, for less work: `o` is turned into the frame of the series once, instead
-/// of every state out of it. The same time gives the same digits, whatever was asked for before.
+/// The results agree with those from the states to rounding, for less work: `o` is transformed into the frame of the series once,
+/// instead of every state out of it. The same time always gives the same digits, whatever was requested before.
 #[derive(Debug, Clone)]
 pub struct SeriesProjection<'a> {
     setup: &'a ScaledProblem<f64, 3>,
@@ -23,16 +23,16 @@ pub struct SeriesProjection<'a> {
     fused: Fused,
     /// `o` in the frame of the series.
     direction: Padded<f64>,
-    /// `m` in the body.
+    /// Body-frame components of `m`.
     in_body: Vector3<f64>,
     /// `1 / I^xx`.
     axis_rate: f64,
     /// `2 C (s^YY - s^ZZ, s^ZZ - s^XX, s^XX - s^YY) / I^xx` in the frame of the series, which is principal.
     pull: Padded<f64>,
-    /// The step that was asked for last: the next is often the same or one near by.
+    /// The step of the last request: the next is often the same or a nearby one.
     step: Cell<usize>,
-    /// Whole radians that the body has turned about `n` against the vector carried by the series, and the components of `m` along that
-    /// vector and across it after such a turn.
+    /// Integer number of radians that the body has turned about `n` relative to the vector carried by the series, and the components
+    /// of `m` along that vector and perpendicular to it after such a rotation.
     turned: Cell<(f64, [f64; 2])>,
 }
 
@@ -74,7 +74,7 @@ impl<'a> SeriesProjection<'a> {
         ))
     }
 
-    /// The time in `(after, t]` at which it takes least work, the latest at which a series starts, if that is not `t`.
+    /// The cheapest time in `(after, t]`: the latest at which a series starts, if that is not `t`.
     pub(crate) fn cheapest_time(&self, after: f64, t: f64) -> Option<f64> {
         let step = self.step_near(t).ok()?;
         let direction = self.setup.direction();
@@ -88,9 +88,9 @@ impl<'a> SeriesProjection<'a> {
         Ok(self.steps.index_near(self.step.get(), elapsed, self.setup.duration()))
     }
 
-    /// The components of `m` along the vector carried by the series and across it and `n`, at the time `t`. Sine and cosine of the
-    /// angle are kept for the nearest whole radian, and found anew where that is another one; from there to the angle their series need
-    /// seven terms. The same time gives the same numbers, whatever was asked for before.
+    /// The components of `m` along the vector carried by the series and perpendicular to it and `n`, at the time `t`. Sine and cosine
+    /// of the angle are stored for the nearest integer number of radians, and recomputed if that changes; for the remaining angle their
+    /// series need seven terms. The same time always gives the same numbers, whatever was requested before.
     #[inline(always)]
     fn about_axis(&self, t: f64) -> [f64; 2] {
         let angle = self.setup.rate_about_axis * (t - self.setup.span.0);
@@ -103,7 +103,7 @@ impl<'a> SeriesProjection<'a> {
         }
         let rest = angle - whole;
         let square = rest * rest;
-        // From the last term to the first, each with those after it.
+        // From the last term to the first, each multiplied with the sum of those after it.
         let (mut sine, mut less) = (1.0, 1.0);
         for k in [12.0, 10.0, 8.0, 6.0, 4.0, 2.0] {
             sine = 1.0 - square * (1.0 / (k * (k + 1.0))) * sine;
@@ -115,26 +115,27 @@ impl<'a> SeriesProjection<'a> {
         [x - (y * sin + x * less), y + (x * sin - y * less)]
     }
 
-    /// By the derivatives of `o` as the body sees it, `a_0 = o`, `a_(k+1) = a_k' + a_k x Omega`, those of `m.o` are `a_k . m`:
+    /// With the derivatives of `o` as seen from the body, `a_0 = o`, `a_(k+1) = a_k' + a_k x Omega`, the derivatives of `m.o`
+    /// are `a_k . m`:
     ///
     /// ```text
     /// a_1 = o x Omega,   a_2 = o x Omega' + a_1 x Omega,   a_3 = o x Omega'' + (o x Omega' + a_2) x Omega + a_1 x Omega'
     /// ```
     ///
-    /// They need not wait for `m`, as the derivatives of `m` would.
+    /// They do not depend on `m`, unlike the derivatives of `m`.
     #[inline(always)]
     fn by_step<A: LoadStore<Scalar = f64>>(&self, a: A, step: usize, t: f64) -> [f64; 4] {
         let setup = self.setup;
         let [along_companion, across] = self.about_axis(t);
         let series = self.steps.series(step);
-        // Loops rather than `map`, which is not always inlined and then leaves the instructions of `a`.
+        // Loops rather than `map`, which is not always inlined and then loses the instructions of `a`.
         let coefficient = |k: usize| {
             let [n, l, u] = &series[k];
             [a.load(n), a.load(l), a.load(u)]
         };
         let h = setup.series_time(&self.steps.starts[step], t);
         let first = coefficient(0);
-        // Where a series starts, to the rounding of the time, two of its terms are enough.
+        // At the start of a series, to the rounding of the time, two of its terms are sufficient.
         let change = if h.abs() < 1e-9 {
             let [n, l, u] = coefficient(1);
             let h = a.splat(h);
@@ -148,7 +149,7 @@ impl<'a> SeriesProjection<'a> {
 
         let cross = |u, v| cross(a, u, v);
         let (pull, about) = (a.load(&self.pull), a.splat(setup.rate_about_axis));
-        // What turns n: L / I^xx, and its derivatives.
+        // The rate of rotation of n, L / I^xx, and its derivatives.
         let n = a.permuted(axis);
         let w = a.mul(momentum, a.splat(self.axis_rate));
         let wt = a.permuted(w);
@@ -199,7 +200,7 @@ mod tests {
     use crate::propagation::Motion;
     use nalgebra::Vector3;
 
-    /// The start of a step, at most a step before; and backwards in time the projection is that of the state as well.
+    /// The start of a step, at most one step earlier; backwards in time the projection also agrees with that of the state.
     #[test]
     fn the_cheapest_time_is_the_latest_start_of_a_step() {
         let (beam, n) = (Beam::new(0.7, 0.9, 0.2), Vector3::new(0.36, 0.48, 0.8));
@@ -226,7 +227,8 @@ mod tests {
         Problem::new(spheroid, tensor, start).unwrap().taylor(span, 1e-13).unwrap()
     }
 
-    /// Sine and cosine from the nearest whole radian, to the last places, farthest from it and for the first time asked.
+    /// Sine and cosine from the nearest integer number of radians are accurate to the last digits, also farthest from it and
+    /// at the first request.
     #[test]
     fn the_turn_about_the_axis_has_all_digits() {
         let motion = tumbling((0.0, 8.0));
@@ -238,14 +240,14 @@ mod tests {
                 let (sin, cos) = (projection.setup.rate_about_axis * t).sin_cos();
                 let exact = [x * cos - y * sin, x * sin + y * cos];
                 let error = projection.about_axis(t).iter().zip(exact).fold(0.0_f64, |e, (a, b)| e.max((a - b).abs()));
-                // From a whole radian that is not zero there are two more roundings.
+                // From a nonzero integer number of radians there are two more roundings.
                 let allowed = if angle.abs() < 0.5 { 3e-16 } else { 1e-15 };
                 assert!(error < allowed, "{angle}: {error:e}");
             }
         }
     }
 
-    /// Where two terms are enough, and where they are not any more.
+    /// Where two terms are sufficient, and where they no longer are.
     #[test]
     fn just_after_the_start_of_a_series_the_projection_is_that_of_the_state() {
         let motion = tumbling((0.0, 8.0));

@@ -1,4 +1,4 @@
-//! States at given times, without keeping the motion between them.
+//! States at given times, without storing the motion between them.
 
 use nalgebra::Vector3;
 
@@ -13,17 +13,17 @@ use crate::propagation::taylor::scaled_problem::ScaledProblem;
 use crate::propagation::taylor::{fused_for, work_of};
 use crate::propagation::third_angle::{body_state, rate_about_axis};
 
-/// An hour or so.
+/// About an hour.
 pub(super) const LIMIT: StepLimit =
     StepLimit { steps: 10_000_000_000, allowed: "at most 1e10 steps: take earlier times or a larger tolerance" };
 
-/// States at given times, with what is known of them.
+/// States at given times, with their error estimates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Samples<T> {
-    /// One state for each time asked, in their order.
+    /// One state for each requested time, in order.
     pub states: Vec<T>,
-    /// Estimated error of each, as [`Motion::error_estimate`](crate::propagation::Motion::error_estimate); none if not
-    /// wanted.
+    /// Estimated error of each, as [`Motion::error_estimate`](crate::propagation::Motion::error_estimate); empty if not
+    /// requested.
     pub error_estimates: Vec<f64>,
     /// Number of steps of the motion.
     pub step_count: usize,
@@ -34,20 +34,20 @@ pub struct Samples<T> {
 /// Whether errors are estimated, which takes longer than the states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ErrorEstimates {
-    /// Of every state.
+    /// Errors of all states.
     Wanted,
-    /// None.
+    /// No errors.
     NotWanted,
 }
 
 impl<S: Real, X: RotationState<S>> Problem<S, X> {
-    /// States of the numerical motion that begins at the time `start`, at the `times` asked: the same numbers as those of
-    /// [`taylor`](Self::taylor) over the span from `start` to the last of them, without keeping the motion in between. Memory does not
+    /// States of the numerical motion that begins at the time `start`, at the requested `times`: the same numbers as those of
+    /// [`taylor`](Self::taylor) over the span from `start` to the last of them, without storing the motion in between. Memory does not
     /// grow with the span; a motion may have 1e10 steps.
     ///
     /// # Errors
-    /// As for [`taylor`](Self::taylor) but for the number of steps, and [`Error::Domain`] for no times or
-    /// times that do not lie on one side of `start`, in the order in which the motion reaches them.
+    /// As for [`taylor`](Self::taylor) except for the number of steps, and [`Error::Domain`] if there are no times or if the
+    /// times do not lie on one side of `start`, in the order in which the motion reaches them.
     pub fn taylor_states(
         &self,
         start: f64,
@@ -115,7 +115,7 @@ pub(super) fn visited<A: LoadStore, T, const V: usize>(
 ) -> Result<Samples<T>, Error> {
     let mut samples = Samples::with_room(times.len(), setup.order);
     let mut errors = (estimates == ErrorEstimates::Wanted).then(|| TaylorErrors::of(setup));
-    // A closure that is not inlined is compiled without AVX2, and each vector operation becomes a call.
+    // A closure that is not inlined is compiled without AVX2, and each vector operation then becomes a call.
     setup.drive().run(
         a,
         LIMIT,
@@ -145,12 +145,12 @@ pub(super) fn visited<A: LoadStore, T, const V: usize>(
 }
 
 impl<T> Samples<T> {
-    /// No samples yet, but room for `count`.
+    /// No samples yet, with capacity for `count`.
     pub(super) fn with_room(count: usize, order: usize) -> Self {
         Self { states: Vec::with_capacity(count), error_estimates: Vec::new(), step_count: 0, order }
     }
 
-    /// Takes those of the `times` that lie in a step and have not been taken.
+    /// Evaluates those of the `times` that lie in a step and have not been evaluated.
     #[inline(always)]
     pub(super) fn take<S: Real, const V: usize>(
         &mut self,
@@ -168,7 +168,7 @@ impl<T> Samples<T> {
         }
     }
 
-    /// The errors of what [`take`](Self::take) takes.
+    /// The errors of the states from [`take`](Self::take).
     fn take_errors<S: Real, const V: usize>(
         &mut self,
         setup: &ScaledProblem<S, V>,

@@ -1,4 +1,4 @@
-//! What a motion is computed from, brought to the units and the frame of its series.
+//! The input of a motion, converted to the units and the frame of its series.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -26,14 +26,14 @@ pub(super) struct ScaledProblem<S, const V: usize> {
     budget: f64,
     pub(super) frame: SeriesFrame<S>,
     pub(super) given_start: [Vector3<S>; V],
-    /// In the frame of the series.
+    /// The initial vectors in the frame of the series.
     pub(super) start: Vectors<Padded<S>, V>,
-    /// Rate at which `e_x` turns about `n` against the vector carried along.
+    /// Rate at which `e_x` rotates about `n` relative to the vector carried along.
     pub(super) rate_about_axis: S,
 }
 
 impl<S: Real, const V: usize> ScaledProblem<S, V> {
-    /// `principal_frame` says whether the series is computed in that of `s`.
+    /// `principal_frame` selects whether the series is computed in the principal frame of `s`.
     pub(super) fn new<X: RotationState<S>>(
         (principal_frame, work): (bool, Work),
         problem: &Problem<S, X>,
@@ -44,7 +44,7 @@ impl<S: Real, const V: usize> ScaledProblem<S, V> {
         problem.require_rigid()?;
         let (spheroid, s, start) = (problem.spheroid(), problem.coefficients(), problem.start::<V>());
         let duration = (span.1 - span.0).abs();
-        // An isotropic part of s^IJ exerts no torque; left in, its rounding would.
+        // An isotropic part of s^IJ exerts no torque, but if it were left in, its rounding would.
         let anisotropic = s - Matrix3::from_diagonal_element(s.trace() / 3.0);
         let scale = Scale::of(spheroid, &anisotropic, &start[MOMENTUM]);
         Error::ensure(
@@ -53,8 +53,8 @@ impl<S: Real, const V: usize> ScaledProblem<S, V> {
             scale.turning_rate,
             "within the range of doubles with the squares of L and s^IJ: choose other units",
         )?;
-        // An error made at one time turns into a phase error that grows with the rotation: the budget per unit of time is
-        // what is left of the tolerance after that growth over half of the span on average.
+        // An error made at one time turns into a phase error that grows with the rotation. The error budget per unit of time
+        // is the tolerance divided by that growth, averaged over the span.
         let growth = 1.0 + scale.turning_rate * duration / 2.0;
         let budget = if duration > 0.0 { (tolerance / (duration * growth)).min(f64::MAX) } else { tolerance };
         let order = order_for(budget / scale.turning_rate.max(f64::MIN_POSITIVE), work);
@@ -71,7 +71,7 @@ impl<S: Real, const V: usize> ScaledProblem<S, V> {
         if self.span.1 >= self.span.0 { 1.0 } else { -1.0 }
     }
 
-    /// Error of the vectors for what rounding makes of the time `t` since the start.
+    /// Error of the vectors due to rounding of the time `t` since the start.
     pub(super) fn error_of_time(&self, t: f64) -> f64 {
         two_sum(t, -self.span.0).1.abs() * self.scale.turning_rate
     }
@@ -102,8 +102,8 @@ impl<S: Real, const V: usize> ScaledProblem<S, V> {
         }
     }
 
-    /// Time in units of the series from the start of a step, which is at the time `high + low` after that of the motion, to
-    /// the time `t`.
+    /// Time in units of the series from the start of a step to the time `t`; the step starts at the time `high + low` since
+    /// the start of the motion.
     #[inline(always)]
     pub(super) fn series_time(&self, start: &Compensated, t: S) -> S {
         let direction = self.direction();
@@ -111,7 +111,7 @@ impl<S: Real, const V: usize> ScaledProblem<S, V> {
         (offset - S::from_f64(start.low * direction)) * (1.0 / self.scale.time)
     }
 
-    /// The vectors, in the given frame, at the time `t` by the series of a step.
+    /// The vectors at the time `t` from the series of a step, in the given frame.
     #[inline(always)]
     pub(super) fn sum<A: LoadStore<Scalar = S>>(
         &self,

@@ -1,4 +1,4 @@
-//! The projection of a direction in the body, stretch by stretch, without keeping the motion.
+//! The projection of a direction in the body, segment by segment, without storing the motion.
 
 use nalgebra::Vector3;
 
@@ -10,16 +10,17 @@ use crate::propagation::taylor::samples::{LIMIT, Samples};
 use crate::propagation::taylor::scaled_problem::ScaledProblem;
 use crate::propagation::taylor::{Steps, fused_for, work_of};
 
-/// Steps of one stretch: few enough that their series stay in the fast memory in which they were made.
+/// Number of steps of one segment: few enough that their series stay in the cache.
 const STEPS: usize = 32;
 
-/// Takes the steps of a stretch and the time at which it ends.
+/// Receives the steps of a segment and the time at which it ends.
 type Visit<'a> = dyn FnMut(&Steps<f64, 3>, f64) -> Result<(), Error> + 'a;
 
-/// Follows the numerical motion over a span forwards in time, and gives `visit` the projection on `direction` of the
-/// vector `in_body` over one stretch after another, with the time at which it ends. Returns the state at the end of the span.
+/// Follows the numerical motion over a span forwards in time, and gives `visit` the projection on `direction` of the vector
+/// `in_body` over one segment after another, with the time at which the segment ends. Returns the state at the end of the
+/// span.
 ///
-/// `None` where the series has no projection: on a processor without vector instructions, and backwards in time.
+/// `None` if the series has no projection: on a processor without vector instructions, and backwards in time.
 pub(crate) fn projected_by_segments(
     problem: &Problem<f64>,
     span: (f64, f64),
@@ -31,7 +32,7 @@ pub(crate) fn projected_by_segments(
     let setup = ScaledProblem::new(work_of(Some(fused)), problem, span, tolerance)?;
     let mut kept = Steps::with_places(STEPS, setup.order);
     let mut step_count = 0;
-    // Not inlined: what is done with a stretch would take registers from the series.
+    // Not inlined, because the work on a segment would take registers from the series.
     let visit: &mut Visit =
         &mut |steps, end| visit(&SeriesProjection::new(&setup, steps, fused, in_body, direction), end);
     run_fused(
@@ -65,7 +66,7 @@ mod tests {
     use crate::dynamics::fixture::problem;
     use crate::propagation::Motion;
 
-    /// Every stretch has its 32 steps and no more, and goes on where the last one ended; in all they are the steps of the motion that is kept.
+    /// Every segment has exactly 32 steps, and continues where the last one ended; together they are the steps of the stored motion.
     #[test]
     fn stretches_are_the_steps_of_the_motion() {
         let (problem, span) = (problem([0.02, 0.01, -0.03]), (2.0, 1000.0));
@@ -74,7 +75,7 @@ mod tests {
         let mut ends = vec![span.0];
         let end = projected_by_segments(&problem, span, 1e-8, both, |projection, end| {
             let first = *ends.last().expect("the start");
-            // No series of an earlier stretch is kept.
+            // No series of an earlier segment is stored.
             let earlier = projection.cheapest_time(f64::NEG_INFINITY, first - 1e-9);
             assert!(earlier.is_none() && first < end, "{first} {end} {earlier:?}");
             let kept = motion.projection(both.0, both.1).expect("for doubles");

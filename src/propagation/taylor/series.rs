@@ -2,30 +2,30 @@
 
 use crate::numerics::arithmetic::Arithmetic;
 
-/// What a series carries: `n`, `L` and, with `V = 3`, a vector `u` that turns with `L / I^xx` as `n` does.
+/// The vectors of a series: `n`, `L` and, with `V = 3`, a vector `u` that rotates with `L / I^xx` like `n`.
 pub(super) type Vectors<T, const V: usize> = [T; V];
 
-/// Place of the symmetry axis.
+/// Index of the symmetry axis.
 pub(super) const AXIS: usize = 0;
 
-/// Place of the angular momentum.
+/// Index of the angular momentum.
 pub(super) const MOMENTUM: usize = 1;
 
-/// Place of the vector carried along, where there is one.
+/// Index of the vector carried along, if there is one.
 pub(super) const COMPANION: usize = 2;
 
 /// Largest order of a series.
 pub(super) const MAX_ORDER: usize = 40;
 
-/// First coefficients, to which what their factors `rate / (k + 1)` lose by rounding is added again. It is the same in every step, so that the energy
-/// would drift in proportion to time. Later coefficients are too small to show.
+/// Number of first coefficients to which the rounding error of their factors `rate / (k + 1)` is added back. It is the same in every step, so that
+/// the energy would drift linearly in time. Later coefficients are too small to matter.
 pub(super) const MENDED: usize = 8;
 
-/// Coefficients kept at hand: a power of two, so that a masked index is within bounds without a comparison.
+/// Capacity for coefficients: a power of two, so that a masked index is within bounds without a comparison.
 const PLACES: usize = 64;
 const MASK: usize = PLACES - 1;
 
-/// One factor of the convolutions, for every coefficient so far.
+/// One factor of the convolutions, for all coefficients so far.
 #[repr(align(64))]
 struct Row<T>([T; PLACES]);
 
@@ -66,7 +66,7 @@ pub(super) struct Recurrence<A: Arithmetic, const V: usize> {
     share_of_axis: Box<Row<A::Vector>>,
     /// `2 C unit / (k+1)`, in the principal frame times the differences of eigenvalues.
     share_of_momentum: Box<Row<A::Vector>>,
-    /// What both of them lose by rounding.
+    /// The rounding errors of both.
     rest_of_axis: [A::Vector; MENDED],
     rest_of_momentum: [A::Vector; MENDED],
     /// Columns of `s`.
@@ -117,7 +117,7 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
         recurrence
     }
 
-    /// Other rates from now on.
+    /// Sets other rates from now on.
     #[inline(always)]
     pub(super) fn set_rates(&mut self, axis_rate: A::Vector, momentum_rate: A::Vector) {
         for k in 0..self.order {
@@ -131,8 +131,8 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
         }
     }
 
-    /// What `share` is less than `rate / divisor`. The product of `share` and `divisor` is taken away by powers of two, the largest first: each is at
-    /// least half of what is left, so that every difference is exact.
+    /// The difference between `rate / divisor` and `share`. The product of `share` and `divisor` is subtracted in powers of two, the largest first:
+    /// each is at least half of the remainder, so that every difference is exact.
     #[inline(always)]
     fn rest(&self, rate: A::Vector, share: A::Vector, divisor: usize) -> A::Vector {
         let a = self.arithmetic;
@@ -147,7 +147,8 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
         a.divide(left, divisor as f64)
     }
 
-    /// Whether the factors of coefficient `k + 1` are mended. Those of the first, second, fourth and eighth are exact.
+    /// Whether the factors of coefficient `k + 1` are corrected. The factors of the first, second, fourth and eighth are
+    /// exact.
     #[inline(always)]
     fn is_mended(k: usize) -> bool {
         const INEXACT: u32 = 1 << 2 | 1 << 4 | 1 << 5 | 1 << 6;
@@ -157,7 +158,7 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
     /// Fills `series` (of length `order + 1`) with the coefficients about the state `start`.
     #[inline(always)]
     pub(super) fn expand(&mut self, start: &Vectors<A::Vector, V>, series: &mut [Vectors<A::Vector, V>]) {
-        // Several orders at once share what they read. How many the registers hold depends on the sums of each.
+        // Several orders at once share their loads. How many fit into the registers depends on the sums of each.
         if A::MANY {
             self.expand_by::<1>(start, series);
         } else if const { V > COMPANION } {
@@ -180,11 +181,12 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
         }
     }
 
-    /// Makes coefficients from `k + 1` on and returns how many; `FIRST` if some of their factors may have to be mended.
+    /// Computes coefficients from `k + 1` on and returns how many; `FIRST` if some of their factors may have to be
+    /// corrected.
     #[inline(always)]
     fn advance<const B: usize, const FIRST: bool>(&mut self, k: usize, series: &mut [Vectors<A::Vector, V>]) -> usize {
         if k + 2 >= B && k + B <= self.order {
-            // Orders k to k + B - 1, as far as the coefficients up to k go.
+            // Orders k to k + B - 1, as far as the coefficients up to k determine them.
             let mut sums = [self.zero_sums(); B];
             self.add_common_terms(&mut sums, k);
             for (r, sum) in sums.iter_mut().enumerate() {
@@ -192,7 +194,7 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
                     self.add_term(sum, j, k + r - j);
                 }
             }
-            // Each order finished adds its terms to the next ones.
+            // Each completed order adds its terms to the next ones.
             for (r, sum) in sums.iter_mut().enumerate() {
                 for newer in k + 1..k + r + 1 {
                     self.add_term(sum, newer, k + r - newer);
@@ -217,7 +219,8 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
         Sums { axis: zero, pull: zero, companion: zero }
     }
 
-    /// Adds to the sums of the orders `k` to `k + B - 1` the terms that turn by the coefficients `B - 1` to `k`.
+    /// Adds to the sums of the orders `k` to `k + B - 1` the terms in which the rotating factor has the coefficients `B - 1`
+    /// to `k`.
     #[inline(always)]
     fn add_common_terms<const B: usize>(&self, sums: &mut [Sums<A::Vector>; B], k: usize) {
         let count = k + 2 - B;
@@ -235,7 +238,7 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
         }
     }
 
-    /// Adds the products of coefficient `j` of what turns and coefficient `i` of what is turned.
+    /// Adds the products of coefficient `j` of the rotating factor and coefficient `i` of the rotated vector.
     #[inline(always)]
     fn add_term(&self, sums: &mut Sums<A::Vector>, j: usize, i: usize) {
         let pulled = if A::PRINCIPAL_FRAME { self.axis.at(j) } else { self.pulled.at(j) };
@@ -269,7 +272,7 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
         }
     }
 
-    /// Makes coefficient `k + 1` of the sums of order `k`.
+    /// Computes coefficient `k + 1` from the sums of order `k`.
     #[inline(always)]
     fn finish<const FIRST: bool>(&mut self, k: usize, sums: &Sums<A::Vector>, series: &mut [Vectors<A::Vector, V>]) {
         let a = self.arithmetic;
@@ -311,7 +314,7 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
     }
 }
 
-/// `sum h + next`. A function and not a closure: one that is not inlined is compiled without AVX2.
+/// `sum h + next`. A function rather than a closure: one that is not inlined is compiled without AVX2.
 #[inline(always)]
 fn times_plus<A: Arithmetic, const V: usize>(
     a: A,
@@ -324,8 +327,8 @@ fn times_plus<A: Arithmetic, const V: usize>(
     }
 }
 
-/// Change of the vectors over the time `h` (the same in each component), in units of the series, by its coefficients: the sum
-/// without its constant term, which the caller adds last. `coefficient` gives those up to `order`.
+/// Change of the vectors over the time `h` (the same in each component), in units of the series, from its coefficients: the
+/// sum without its constant term, which the caller adds last. `coefficient` gives the coefficients up to `order`.
 #[inline(always)]
 pub(super) fn change<A: Arithmetic, const V: usize>(
     a: A,
@@ -333,7 +336,7 @@ pub(super) fn change<A: Arithmetic, const V: usize>(
     coefficient: impl Fn(usize) -> Vectors<A::Vector, V>,
     h: A::Vector,
 ) -> Vectors<A::Vector, V> {
-    // Even and odd powers apart: two short chains of products instead of a long one. The largest terms come last.
+    // Even and odd powers separately: two short chains of products instead of a long one. The largest terms come last.
     let zero = [a.zero(); V];
     let (mut even, mut odd) = (zero, zero);
     let square = a.mul(h, h);

@@ -1,8 +1,8 @@
 //! Rounding that all steps of a motion share: of its start, its constants and its frame.
 //!
-//! Each of them is a number that is known: what the rounded operation lost. Over many steps it adds up in one direction, where
-//! the rounding of single steps averages out, and near the separatrix it grows as any other difference does. So it is carried
-//! along the motion with its sign.
+//! Each of them is a known number: the error of the rounded operation. Over many steps it accumulates in one direction,
+//! whereas the rounding of single steps averages out, and near the separatrix it grows like any other difference. So it is
+//! carried along the motion with its sign.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -12,27 +12,27 @@ use crate::numerics::scalar::Real;
 use crate::propagation::taylor::scaled_problem::ScaledProblem;
 use crate::propagation::taylor::series::{AXIS, COMPANION, MENDED, MOMENTUM};
 
-/// Coefficients of which the rounding of the factors matters: the terms of the later ones are small.
+/// Number of coefficients for which the rounding of the factors matters: the terms of the later ones are small.
 pub(super) const SHARES: usize = 12;
 
-/// What the equations and the start that the series solve are more than those given, by real parts, in the frame and the unit
+/// Excess of the equations and the start that the series solve over the given ones, in real parts, in the frame and the unit
 /// of time of the series.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SharedRounding {
-    /// Relative, of `1 / I^xx`.
+    /// Relative excess of `1 / I^xx`.
     pub(super) inverse_inertia: f64,
-    /// Of `2 C s^IJ`, up to a multiple of the identity.
+    /// Excess of `2 C s^IJ`, up to a multiple of the identity.
     tensor: Matrix3<f64>,
-    /// Of `2 C` times the differences of eigenvalues, beyond those of the tensor.
+    /// Excess of `2 C` times the differences of eigenvalues, in addition to that of the tensor.
     differences: Vector3<f64>,
-    /// Of the rate at which `e_x` turns about `n`.
+    /// Excess of the rate at which `e_x` rotates about `n`.
     pub(super) rate_about_axis: f64,
-    /// Of `e_x`, for not being normal to `n` as the turn about `n` takes it to be.
+    /// Error of `e_x` because it is not exactly normal to `n`, as the rotation about `n` assumes.
     pub(super) off_frame: f64,
 }
 
 impl SharedRounding {
-    /// Of a motion, and the difference of its start in `n`, `L` and the vector carried along.
+    /// The excess for a motion, and the difference of its start in `n`, `L` and the vector carried along.
     pub(super) fn of<S: Real, const V: usize>(setup: &ScaledProblem<S, V>) -> (Self, [Vector3<f64>; V]) {
         let spheroid = setup.spheroid.map(S::re);
         let given = setup.tensor.map(S::re);
@@ -44,7 +44,7 @@ impl SharedRounding {
         let isotropic = given.trace() / 3.0;
         let traceless = given.map_with_location(|i, j, x| if i == j { two_sum(x, -isotropic) } else { (x, 0.0) });
         let back = frame.given_from_series().unwrap_or(Matrix3::identity());
-        // The frame turned by: `back` is not quite a rotation, `back (1 - stretch)` is one to much higher order.
+        // The frame after correction: `back` is not exactly a rotation, `back (1 - stretch)` is one to much higher order.
         let stretch = Matrix3::from_fn(|i, j| {
             let unit = if i == j { -1.0 } else { 0.0 };
             sum_of_products(&back.column(i).into(), &back.column(j).into(), unit) / 2.0
@@ -75,7 +75,7 @@ impl SharedRounding {
         let inverse_inertia = (product - setup.scale.time + lost) / setup.scale.time;
         let (mut rate_about_axis, mut off_frame) = (0.0, 0.0);
         if V > COMPANION {
-            // By `|n|` times the angle that is taken.
+            // By `|n|` times the angle that is used.
             let (rate, n) = (setup.rate_about_axis.re(), &start[AXIS]);
             let length = sum_of_products(n, n, -1.0) / 2.0;
             rate_about_axis = (excess_of_rate_about_axis(&spheroid, &start, rate) - rate * length) * setup.scale.time;
@@ -89,16 +89,15 @@ impl SharedRounding {
         (Self { inverse_inertia, tensor, differences, rate_about_axis, off_frame }, at_start)
     }
 
-    /// What it makes of the rate of `L` at the axis `n`.
+    /// Its effect on the rate of `L` at the axis `n`.
     pub(super) fn torque(&self, n: &Vector3<f64>) -> Vector3<f64> {
         let products = Vector3::new(n.y * n.z, n.z * n.x, n.x * n.y);
         (self.tensor * n).cross(n) + self.differences.component_mul(&products)
     }
 }
 
-/// What the rounded factors of the recurrences, `rate / (k + 1)`, are more than that, relative: of `n` (and the vector carried
-/// along) and of the components of `L`, for the coefficients `k + 1 = 1, 2, ...`.
-/// Of the first ones it is mended.
+/// Relative excess of the rounded factors of the recurrences, `rate / (k + 1)`: for `n` (and the vector carried along) and for
+/// the components of `L`, for the coefficients `k + 1 = 1, 2, ...`. For the first ones it has been corrected.
 pub(super) fn excess_of_shares<S: Real, const V: usize>(setup: &ScaledProblem<S, V>) -> [[Vector3<f64>; 2]; SHARES] {
     let rates = setup.drive().rates();
     let of_momentum = if setup.frame.is_principal() { rates.momentum_of_principal } else { [rates.momentum; 3] };
@@ -117,12 +116,12 @@ pub(super) fn excess_of_shares<S: Real, const V: usize>(setup: &ScaledProblem<S,
     })
 }
 
-/// What the rounded `rate` is more than `-(1 / I^xx - 1 / I^zz) L.n`.
+/// Excess of the rounded `rate` over `-(1 / I^xx - 1 / I^zz) L.n`.
 fn excess_of_rate_about_axis<const V: usize>(body: &RigidSpheroid<f64>, start: &[Vector3<f64>; V], rate: f64) -> f64 {
     let [xx, zz] = [body.inertia_xx, body.inertia_zz];
     let (dot, dot_rest) = sum_of_products_with_rest(&start[AXIS], &start[MOMENTUM], 0.0);
     let (difference, difference_rest) = two_sum(zz, -xx);
-    // `rate I^xx I^zz + (I^zz - I^xx) L.n` vanishes but for rounding.
+    // `rate I^xx I^zz + (I^zz - I^xx) L.n` vanishes except for rounding.
     let (once, once_rest) = two_product(rate, xx);
     let (twice, twice_rest) = two_product(once, zz);
     let (product, product_rest) = two_product(difference, dot);
@@ -130,13 +129,13 @@ fn excess_of_rate_about_axis<const V: usize>(body: &RigidSpheroid<f64>, start: &
     ((twice + product) + rest) / xx / zz
 }
 
-/// `a.b + c` as if in twice the digits.
+/// `a.b + c` as if computed with twice the digits.
 fn sum_of_products(a: &Vector3<f64>, b: &Vector3<f64>, c: f64) -> f64 {
     let (high, low) = sum_of_products_with_rest(a, b, c);
     high + low
 }
 
-/// The same with what is lost when it is rounded (Ogita, Rump and Oishi 2005).
+/// The same with its rounding error (Ogita, Rump and Oishi 2005).
 fn sum_of_products_with_rest(a: &Vector3<f64>, b: &Vector3<f64>, c: f64) -> (f64, f64) {
     let (mut sum, mut rest) = (c, 0.0);
     for i in 0..3 {
@@ -196,7 +195,7 @@ mod tests {
         assert!((0..3).any(|i| traceless(i, i).low != 0.0));
     }
 
-    /// `(T n) x n` of a diagonal `T`, by its differences.
+    /// `(T n) x n` for a diagonal `T`, from its differences.
     #[test]
     fn differences_of_eigenvalues_make_the_torque_of_the_tensor() {
         let of = |values: [f64; 3], differences: [f64; 3]| SharedRounding {
@@ -236,7 +235,8 @@ mod tests {
         }
     }
 
-    /// By fused multiplication, of the last of twelve coefficients: those before are mended. A rate of one is not exact in its parts, one of zero is.
+    /// Compared with fused multiplication, for the last of twelve coefficients: the earlier ones are corrected. A rate of one is not exact in its
+    /// parts; a rate of zero is.
     #[test]
     fn shares_of_the_rates_are_rounded() {
         let tensor = Matrix3::from_diagonal(&Vector3::new(0.021, 0.021, -0.042));

@@ -1,4 +1,4 @@
-//! Sizes by which a series is measured, its order and its step.
+//! Sizes relative to which a series is measured, its order and its step.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -7,12 +7,12 @@ use crate::numerics::arithmetic::LoadStore;
 use crate::numerics::scalar::{Real, real_part};
 use crate::propagation::taylor::series::{MAX_ORDER, MOMENTUM, Vectors};
 
-/// Sizes by which errors are measured.
+/// Sizes relative to which errors are measured.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scale {
-    /// Size of the angular momentum, or what the torque makes of it within its own time.
+    /// Size of the angular momentum, including the contribution of the torque within its own time scale.
     pub(super) momentum: f64,
-    /// Upper bound of the rate at which directions turn.
+    /// Upper bound of the rotation rate of directions.
     pub(super) turning_rate: f64,
     /// A power of two near the inverse of that rate.
     pub(super) time: f64,
@@ -22,12 +22,12 @@ impl Scale {
     pub(super) fn of<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, momentum: &Vector3<S>) -> Self {
         let inertia = spheroid.inertia_xx.re();
         let pull = spheroid.constant_c.re().abs() * s.map(S::re).norm();
-        // Two roots, since the product may be out of range where they are not.
+        // Two roots, since the product may be out of range even if they are not.
         let momentum = real_part(momentum).norm() + (2.0 * inertia).sqrt() * pull.sqrt();
         let body_turn = (1.0 - spheroid.inertia_xx.re() / spheroid.inertia_zz.re()).abs();
         let turning_rate = momentum / inertia * (1.0 + body_turn);
         let time = if turning_rate > 0.0 { 2f64.powi(-turning_rate.log2().clamp(-1000.0, 1000.0) as i32) } else { 1.0 };
-        // A body at rest without torque stays so: any unit of momentum does.
+        // A body at rest without torque remains at rest: any unit of momentum is suitable.
         Self { momentum: if momentum > 0.0 { momentum } else { inertia }, turning_rate, time }
     }
 
@@ -54,23 +54,23 @@ impl Scale {
     }
 }
 
-/// How the time of a series grows with its order.
+/// Growth of the time of a series with its order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Work {
     /// As the square of the order.
     Quadratic,
-    /// More slowly: with instructions for whole vectors much of the time is waiting for the order before.
+    /// More slowly: with instructions for whole vectors much of the time is spent waiting for the previous order.
     Waiting,
 }
 
-/// Order of the series for a relative truncation `budget` per radian. If the work grows as the square of the order it is least
-/// near `-ln(budget) / 2` (Jorba and Zou 2005), and at a higher order if it grows more slowly.
+/// Order of the series for a relative truncation `budget` per radian. If the work grows as the square of the order, the
+/// optimum is near `-ln(budget) / 2` (Jorba and Zou 2005); if it grows more slowly, the optimum is higher.
 pub(super) fn order_for(budget: f64, work: Work) -> usize {
     let share = match work {
         Work::Quadratic => 0.5,
         Work::Waiting => 0.75,
     };
-    // One more than a multiple of three, the number of orders that are worked on at once.
+    // One more than a multiple of three, the number of orders that are computed at once.
     let triples = ((-budget.ln() * share - 1.0) / 3.0).round().clamp(2.0, (MAX_ORDER / 3 - 1) as f64);
     3 * triples as usize + 1
 }
@@ -91,8 +91,8 @@ pub(super) fn step_size(sizes: [f64; 2], order: usize, scale: &Scale, budget: f6
     if exponent == f64::NEG_INFINITY { 0.0 } else { coarse_exp2(exponent) * scale.time }
 }
 
-/// Binary logarithm of a positive number, too small by at most 0.09: what its exponent and the mantissa, taken to be linear,
-/// say. A step needs no more, and the library's logarithm takes as long as a tenth of a step.
+/// Binary logarithm of a positive number, too small by at most 0.09: from its exponent and its mantissa, which is taken to
+/// be linear. A step needs no more precision, and the library's logarithm takes as long as a tenth of a step.
 #[inline(always)]
 fn coarse_log2(x: f64) -> f64 {
     if !(f64::MIN_POSITIVE..f64::INFINITY).contains(&x) {
@@ -101,7 +101,7 @@ fn coarse_log2(x: f64) -> f64 {
     (x.to_bits() as f64) / (1u64 << 52) as f64 - 1023.0
 }
 
-/// Power of two, to 0.4 %.
+/// Power of two, accurate to 0.4 %.
 #[inline(always)]
 fn coarse_exp2(x: f64) -> f64 {
     let x = x.clamp(-1020.0, 1020.0);

@@ -1,4 +1,4 @@
-//! The steps of a motion, one after the other.
+//! The successive steps of a motion.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -11,12 +11,12 @@ use crate::propagation::taylor::clock::{Clock, Interval, StepLimit};
 use crate::propagation::taylor::series::{Recurrence, Vectors, change};
 use crate::propagation::taylor::step_size::{Scale, step_size};
 
-/// What the steps follow from.
+/// The data that determine the steps.
 pub(super) struct Stepper<'a, S, const V: usize> {
     pub(super) spheroid: &'a RigidSpheroid<S>,
-    /// Traceless, in the frame of the series.
+    /// The traceless tensor, in the frame of the series.
     pub(super) tensor: &'a Matrix3<S>,
-    /// In the frame of the series.
+    /// The initial vectors, in the frame of the series.
     pub(super) start: &'a Vectors<Padded<S>, V>,
     pub(super) scale: &'a Scale,
     pub(super) order: usize,
@@ -59,7 +59,7 @@ impl<S: Real, const V: usize> Stepper<'_, S, V> {
         Recurrence::new(a, self.order, a.splat(rates.axis), momentum_rate, columns)
     }
 
-    /// Length of the first step, were the span long enough.
+    /// Length of the first step for a sufficiently long span.
     pub(super) fn first_step<A: LoadStore<Scalar = S>>(&self, a: A) -> f64 {
         let mut series = vec![[a.zero(); V]; self.order + 1];
         self.recurrence(a).expand(&self.start.map(|v| a.load(&v)), &mut series);
@@ -67,7 +67,7 @@ impl<S: Real, const V: usize> Stepper<'_, S, V> {
         step_size(sizes, self.order, self.scale, self.budget)
     }
 
-    /// Steps from the start to the end of the span, at most `limit`; `visit` is given each with its series.
+    /// Takes steps from the start to the end of the span, at most `limit`; `visit` receives each with its series.
     #[inline(always)]
     pub(super) fn run<A: LoadStore<Scalar = S>>(
         &self,
@@ -80,12 +80,12 @@ impl<S: Real, const V: usize> Stepper<'_, S, V> {
         let mut series = vec![[a.zero(); V]; order + 1];
         let mut state = CompensatedVectors::new(a, self.start.map(|v| a.load(&v)));
         let mut clock = Clock::new();
-        // Where real parts alone choose the steps, derivatives have more and faster terms than they show: near free rotation
-        // those of the derivative by `s` turn twice as fast.
+        // If real parts alone choose the steps, derivatives have more and faster terms than the real parts show: near free
+        // rotation the derivative with respect to `s` has terms of twice the frequency.
         let longest = if A::PRINCIPAL_FRAME { f64::INFINITY } else { 1.0 / scale.turning_rate };
         loop {
             recurrence.expand(&state.high, &mut series);
-            // Not by `map`, which is not always inlined and then leaves the instructions of `a`.
+            // Not by `map`, which is not always inlined and then loses the instructions of `a`.
             let sizes = [scale.size(a, &series[order]), scale.size(a, &series[order - 1])];
             let step = clock.advance(step_size(sizes, order, scale, budget).min(longest), duration, limit)?;
             visit(&step, &series)?;

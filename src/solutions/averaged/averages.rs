@@ -1,11 +1,11 @@
-//! Averages of Jacobi's functions over a period, by arithmetic-geometric means.
+//! Averages of Jacobi's functions over a period, from arithmetic-geometric means.
 
 use crate::numerics::scalar::Real;
 
-/// Relative difference of the means at which the next step makes them equal, their derivatives too.
+/// Relative difference of the means at which the next step makes them equal, including their derivatives.
 const NEARLY_EQUAL: f64 = 1e-12;
 
-/// Mean of `cn^2`, from `k^2` and `k'`, of which the smaller keeps the digits of the result and of its derivatives.
+/// Mean of `cn^2`, from `k^2` and `k'`, the smaller of which determines the digits of the result and of its derivatives.
 pub(crate) fn mean_of_cn2<S: Real>(parameter: S, complement: S) -> S {
     let one = S::one();
     if parameter.re() > 0.5 {
@@ -15,10 +15,10 @@ pub(crate) fn mean_of_cn2<S: Real>(parameter: S, complement: S) -> S {
     }
 }
 
-/// Mean of `sn^2`, the sum `(1 - E/K) / k^2` of the ladder of means (DLMF 19.8.6), for `k^2 <= 1/2`.
+/// Mean of `sn^2`, the sum `(1 - E/K) / k^2` of the sequence of means (DLMF 19.8.6), for `k^2 <= 1/2`.
 fn mean_of_sn2<S: Real>(parameter: S, complement: S) -> S {
     let (mut a, mut b) = (S::one(), complement);
-    // (c_n / k)^2 of the ladder: c_1 = k^2 / (2 (1 + k')).
+    // (c_n / k)^2 of the sequence: c_1 = k^2 / (2 (1 + k')).
     let first = (S::one() + complement) * 2.0;
     let mut square = parameter / (first * first);
     let (mut sum, mut weight) = (S::from_f64(0.5), 1.0);
@@ -66,7 +66,8 @@ pub(super) fn mean_of_ratio<S: Real>(complement: S, p: S, [a, b]: [S; 2]) -> S {
 mod tests {
     use super::*;
 
-    /// By the sum over the amplitude, which converges exponentially; and close to the separatrix `1 / ln(4 / k')`, to the last digits.
+    /// Compared with the sum over the amplitude, which converges exponentially, and close to the separatrix with `1 / ln(4 / k')`, to
+    /// the last digits.
     #[test]
     fn the_mean_of_cn_squared_has_its_digits_at_any_parameter() {
         for parameter in [0.0, 1e-9, 0.2, 0.49, 0.51, 0.8, 0.93_f64] {

@@ -1,6 +1,7 @@
-//! How far an averaged motion may be from the motion.
+//! Estimated difference between the averaged motion and the exact motion.
 //!
-//! With `x = |C| (s_max - s_min) I^xx / G^2` and the angle turned `theta = G t / I^xx`, order `p` leaves out
+//! With `x = |C| (s_max - s_min) I^xx / G^2` and the rotation angle `theta = G t / I^xx`, the averaged motion of order `p`
+//! neglects
 //!
 //! ```text
 //! periodic parts, in the transformation both ways     of x^2
@@ -10,9 +11,10 @@
 //!
 //! The motion of a bulge alone is exact ([`bulge`](crate::dynamics::bulge)): with one, of strength `y = |b| (s_max - s_min) I^xx`, a power `x^k` becomes `x (x + y)^(k - 1)`.
 //!
-//! What it makes of `l` after a time is the smaller of two: neighbours part at most at the rate `kappa = (k_1 - k_3) / 2` (half the largest
-//! `l.(d x k d)`, for unit `d`), or, as they stay near their own closed curves, by the difference of their periods. The latter is taken from two
-//! tops beside it, towards either axis, and holds only where they are on the same side of the separatrix.
+//! The effect on `l` after a time is the smaller of two estimates. Neighbouring solutions separate at most at the rate `kappa = (k_1 - k_3) / 2`
+//! (half the largest `l.(d x k d)`, for unit `d`). Alternatively, because they stay near their own closed curves, they separate by the
+//! difference of their periods. The latter is computed from two neighbouring tops, shifted towards either axis, and is valid only if they are on
+//! the same side of the separatrix.
 
 use nalgebra::Vector3;
 
@@ -21,34 +23,35 @@ use super::motion::AveragedSolution;
 use super::top::Top;
 use crate::numerics::scalar::{Real, real_part};
 
-/// Coefficients of what is left out, from random motions over the whole domain: see the accuracy of the averaged motion in `docs/`.
+/// Coefficients of the neglected terms, from random motions over the whole domain: see the accuracy of the averaged motion in
+/// `docs/`.
 const PERIODIC: f64 = 4.0;
 const SECULAR: f64 = 4.0;
 const TENSOR: f64 = 1.0;
 
-/// What is wrong with a motion, whose consequence is asked.
+/// An error of a motion, whose consequence is to be estimated.
 struct Fault {
-    /// At any time.
+    /// Error at any time.
     constant: f64,
     /// Growth of the angle of the body about `L`, per unit of time.
     rate: f64,
-    /// Change of the tensor and of the start that moves neighbours apart.
+    /// Change of the tensor and of the start that separates neighbours.
     neighbour: f64,
 }
 
 impl<S: Real> AveragedSolution<S> {
     /// Estimated largest error of `n`, `e_x` and `L / G` at the time `t`: [`truncation`](Self::truncation) and
-    /// [`rounding`](Self::rounding). It grows from the initial state on, also after [`near`](Self::near).
+    /// [`rounding`](Self::rounding). It is counted from the initial state, also after [`near`](Self::near).
     pub fn error_estimate(&self, t: f64) -> f64 {
-        // Directions are at most two apart, and G is off by less than the strength.
+        // The distance of two directions is at most two, and the relative error of G is less than the strength.
         let most = 2.0 * (1.0 + self.relative_strength.re());
         (self.truncation(t) + self.rounding(t)).min(most)
     }
 
-    /// What the order leaves out, at the time `t`.
+    /// The truncation error of the averaging order at the time `t`.
     pub fn truncation(&self, t: f64) -> f64 {
         let (x, y) = (self.relative_strength.re(), self.bulge_strength().re());
-        // The terms of higher order as a geometric series.
+        // The terms of higher order, as a geometric series.
         let series = 1.0 - (x + y);
         let (x, both) = (x / series, (x + y) / series);
         let power = match self.order {
@@ -63,12 +66,13 @@ impl<S: Real> AveragedSolution<S> {
         self.consequence(&fault, self.elapsed(t))
     }
 
-    /// Rounding of the initial state and of what Lorentz violation adds to the phases, at the time `t`. The free rotation itself is known to 32
-    /// digits, but for the length of `n`, which an axis given in doubles has only to rounding: the rate about `n` changes by as much.
+    /// Rounding of the initial state and of the contribution of Lorentz violation to the phases, at the time `t`. The free rotation itself is
+    /// known to 32 digits, except for the length of `n`, which for an axis given in doubles is one only to rounding: the rate about `n` changes
+    /// by as much.
     pub fn rounding(&self, t: f64) -> f64 {
-        // What is added to the phases, of which the slow rate is a part; at c^2 = 1/3 a small one.
+        // The contribution to the phases, which includes the slow rate; at c^2 = 1/3 the slow rate is small.
         let added = self.tensor().map(S::re).amax() + self.relative_strength.re() * self.turning_rate();
-        // Theta functions lose half the digits of k'.
+        // Theta functions lose half of the digits of k'.
         let lost = self.top().complement().sqrt().max(1e-8);
         let fault = Fault {
             constant: 16.0 * f64::EPSILON / lost,
@@ -82,7 +86,7 @@ impl<S: Real> AveragedSolution<S> {
         let k = self.tensor().map(S::re);
         let l = real_part(&self.direction());
         let kappa = (k.max() - k.min()) / 2.0;
-        // e^(kappa t) - 1 over kappa, also where nothing moves.
+        // e^(kappa t) - 1 over kappa, also if nothing moves.
         let grown = kappa * elapsed;
         let integral = if grown > 0.0 { grown.exp_m1() / grown * elapsed } else { elapsed };
         let by_growth = (fault.constant + fault.rate * integral) + fault.constant * (integral * kappa);
@@ -94,7 +98,7 @@ impl<S: Real> AveragedSolution<S> {
     }
 }
 
-/// By how much two neighbours on the sphere part, per unit of time: along their curves, and by the angle about `l`.
+/// Rates at which two neighbours on the sphere separate: along their curves, and in the angle about `l`.
 fn neighbouring_rates(k: &Vector3<f64>, l: &Vector3<f64>, distance: f64) -> [f64; 2] {
     let here = Top::new((*k).into(), l);
     let speed = k.component_mul(l).cross(l).norm().max(here.largest_speed());

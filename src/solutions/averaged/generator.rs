@@ -1,14 +1,14 @@
 //! The near-identity transformation between the averaged motion and the motion itself.
 //!
-//! It is the flow, for the time one, of the generator
+//! It is the flow, over unit time, of the generator
 //!
 //! ```text
 //! W = -(C I^xx / (2 G)) [3 c l + n] . s (l x n),    l = L / G,  G = |L|,  c = n.l
 //! ```
 //!
-//! whose bracket with the kinetic energy takes the part of the potential away that depends on the fast angle: `{W, L.L / (2 I^xx)} = V - <V>`. It
-//! is regular at `c = 1`. A function `F` of `n` and `L` moves them by `dn = F_L x n`, `dL = F_L x L + F_n x n`, and every other axis of
-//! the body by `F_L`.
+//! whose bracket with the kinetic energy removes the part of the potential that depends on the fast angle: `{W, L.L / (2 I^xx)} = V - <V>`. It is
+//! regular at `c = 1`. A function `F` of `n` and `L` changes them by `dn = F_L x n`, `dL = F_L x L + F_n x n`, and every other axis of the body
+//! by `F_L`.
 
 use nalgebra::Vector3;
 
@@ -19,7 +19,7 @@ use crate::numerics::scalar::{Real, length};
 /// Symmetry axis, angular momentum and an equatorial axis of the body.
 pub(super) type Axes<S> = [Vector3<S>; 3];
 
-/// The generator `W`, in the principal frame of `s`, which has the principal values `s`. Units of an action.
+/// The generator `W`, in the principal frame of `s`, which has the principal values `s`. Its unit is that of an action.
 pub fn generator<S: Real>(spheroid: &RigidSpheroid<S>, s: &Vector3<S>, axis: &Vector3<S>, momentum: &Vector3<S>) -> S {
     let size = length(momentum);
     let l = momentum / size;
@@ -27,7 +27,7 @@ pub fn generator<S: Real>(spheroid: &RigidSpheroid<S>, s: &Vector3<S>, axis: &Ve
     -(spheroid.constant_c * spheroid.inertia_xx / size) * along.dot(&s.component_mul(&l.cross(axis))) * 0.5
 }
 
-/// `W_n` and `W_L`, the slopes of the [`generator`] by `n` and `L`.
+/// `W_n` and `W_L`, the slopes of the [`generator`] with respect to `n` and `L`.
 pub fn generator_slopes<S: Real>(
     spheroid: &RigidSpheroid<S>,
     s: &Vector3<S>,
@@ -60,7 +60,7 @@ fn rates<S: Real>(strength: S, s: &Vector3<S>, axes: &Axes<S>) -> Axes<S> {
     [by_momentum.cross(n), by_momentum.cross(momentum) + by_axis.cross(n), by_momentum.cross(equatorial)]
 }
 
-/// By how much the flow of `W` moves the axes in the `time` 1, from mean to osculating ones, or -1, back: one step of the midpoint rule, whose
+/// Change of the axes under the flow of `W` over the `time` 1, from mean to osculating ones, or -1, back: one step of the midpoint rule, whose
 /// error is of third order in `s`.
 pub(super) fn transformation<S: Real>(strength: S, s: &Vector3<S>, axes: &Axes<S>, time: f64) -> Axes<S> {
     let half = rates(strength, s, axes);

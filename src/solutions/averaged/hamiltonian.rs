@@ -11,15 +11,15 @@
 //! The first line's second term is the average of the potential `V`; the next is `<{V + <V>, W}> / 2` with the generator `W`
 //! ([`generator`](super::generator())) and the bracket `{f, g} = L.(f_L x g_L) + n.(f_L x g_n + f_n x g_L)`.
 //!
-//! A centrifugal bulge ([`bulge`](crate::dynamics::bulge)) adds `b G^2 h`. Nothing else: `b L.(s L)` has a vanishing bracket with `L.L`, so that it is its own average, and its bracket with `W`
-//! has none, as `W` has none.
+//! A centrifugal bulge ([`bulge`](crate::dynamics::bulge)) adds `b G^2 h` and nothing else: `b L.(s L)` has a vanishing bracket with `L.L`, so that
+//! it is its own average, and its bracket with `W` has zero average, because `W` has zero average.
 
 use nalgebra::Vector3;
 
 use crate::dynamics::RigidSpheroid;
 use crate::numerics::scalar::Real;
 
-/// How many orders in `s` an averaged motion takes along.
+/// Order of averaging, in powers of `s`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum AveragingOrder {
     /// Rates to first order.
@@ -28,8 +28,8 @@ pub enum AveragingOrder {
     Second,
 }
 
-/// The mean potential of a rigid spheroid to the given order: the mean Hamiltonian without `G^2 / (2 I^xx)`, for traceless principal values `s`, the size `G` of the
-/// angular momentum, `c = n.l` and the direction `l` of the angular momentum in the principal frame.
+/// The mean potential of a rigid spheroid to the given order: the mean Hamiltonian without `G^2 / (2 I^xx)`, for traceless principal values `s`, the
+/// size `G` of the angular momentum, `c = n.l` and the direction `l` of the angular momentum in the principal frame.
 pub fn mean_potential<S: Real>(
     spheroid: &RigidSpheroid<S>,
     s: &Vector3<S>,
@@ -41,14 +41,15 @@ pub fn mean_potential<S: Real>(
     slopes_along(spheroid, s, size, c, direction, order).value
 }
 
-/// The angular velocity `w = <H>_L` at which the averaged motion turns every axis of the body but for the spin about `n`, of the components of `l`
-/// in the principal frame of `s`, as its share along `l`, the tensor (principal values) that is applied to `l`, and its share along `n`:
+/// The angular velocity `w = <H>_L` with which the averaged motion rotates every axis of the body, apart from the spin about `n`. It is a function
+/// of the components of `l` in the principal frame of `s`, given by its component along `l`, the tensor (principal values) that is applied to `l`,
+/// and its component along `n`:
 ///
 /// ```text
 /// w = Lambda l + k l + nu n,    k = (2 / G) (v_h s + v_m s^2),    nu = v_c / G,    Lambda = G / I^xx + v_G - c v_c / G - l.(k l)
 /// ```
 ///
-/// with `v` the [`mean_potential`], `v_G` its slope by `G` where `l` and `c` stay. So `dl/dt = (k l) x l`.
+/// with `v` the [`mean_potential`] and `v_G` its slope with respect to `G` at fixed `l` and `c`. Hence `dl/dt = (k l) x l`.
 pub fn mean_angular_velocity<S: Real>(
     spheroid: &RigidSpheroid<S>,
     s: &Vector3<S>,
@@ -82,7 +83,7 @@ fn slopes_along<S: Real>(
     potential.at(size, c, direction.dot(&pulled), pulled.dot(&pulled))
 }
 
-/// What the mean potential depends on besides `l`.
+/// The quantities on which the mean potential depends besides `l`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct MeanPotential<S> {
     pub(super) order: AveragingOrder,
@@ -96,18 +97,18 @@ pub(super) struct MeanPotential<S> {
     pub(super) square: S,
 }
 
-/// The mean potential and its slopes at one place.
+/// The mean potential and its slopes at one point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct MeanSlopes<S> {
     pub(super) value: S,
-    /// By `h` and `m`.
+    /// With respect to `h` and `m`.
     pub(super) by_h: S,
     pub(super) by_m: S,
-    /// By `c`, and its slopes by `h` and `m`.
+    /// With respect to `c`, and its slopes with respect to `h` and `m`.
     pub(super) by_c: S,
     pub(super) by_c_h: S,
     pub(super) by_c_m: S,
-    /// By `G` where `l` and `c` stay, and its slopes by `h` and `m`.
+    /// With respect to `G` at fixed `l` and `c`, and its slopes with respect to `h` and `m`.
     pub(super) by_size: S,
     pub(super) by_size_h: S,
     pub(super) by_size_m: S,

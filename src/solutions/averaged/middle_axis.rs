@@ -7,19 +7,21 @@ use crate::dynamics::RigidSpheroid;
 use crate::error::Error;
 use crate::lorentz_violation::PrincipalCoefficients;
 
-/// Most corrections of `G`.
+/// Maximum number of corrections of `G`.
 const MOST_CORRECTIONS: usize = 20;
 
-/// Rate at which `L` leaves the middle principal axis, for an energy `E` and a spin `Omega^z`.
+/// Growth rate of the distance of `L` from the middle principal axis, for an energy `E` and a spin `Omega^z`.
 ///
 /// ```text
 /// mu = sqrt((k1 - k2)(k2 - k3)),    k = (2 / G) (v_h s + v_m s^2) with the slopes v_h, v_m of the mean potential at h = s2, m = s2^2
 /// ```
 ///
-/// for traceless `s1 > s2 > s3`; `G` is that of the mean energy. To first order it is `(2 C |P2| / G) sqrt((s1 - s2)(s2 - s3))`.
+/// for traceless `s1 > s2 > s3`; `G` follows from the mean energy. To first order the rate is
+/// `(2 C |P2| / G) sqrt((s1 - s2)(s2 - s3))`.
 ///
 /// # Errors
-/// [`Error::Domain`] where the mean energy determines no `G`, or where `L` does not leave the axis: at and near `P2 = 0`, and for two equal eigenvalues.
+/// [`Error::Domain`] if the mean energy does not determine `G`, or if `L` does not leave the axis: at and near `P2 = 0`, and for two equal
+/// eigenvalues.
 pub fn middle_axis_growth(
     spheroid: &RigidSpheroid<f64>,
     s: &PrincipalCoefficients<f64>,
@@ -57,10 +59,10 @@ pub fn middle_axis_growth(
     Ok(square.sqrt())
 }
 
-/// Time in which `L` goes once round its axis, near the separatrix: `(4 / mu) ln(4 / k')`.
+/// Time in which `L` circles its axis once, near the separatrix: `(4 / mu) ln(4 / k')`.
 ///
-/// `growth` is `mu`, that of [`middle_axis_growth`]; `complement` is `k'^2 = (s1 - s3) |h - s2| / ((s1 - s2)(s2 - s3))`, the distance of `h = l.(s l)` from the
-/// separatrix. The next term is smaller by `k'^2`.
+/// `growth` is `mu`, from [`middle_axis_growth`]; `complement` is `k'^2 = (s1 - s3) |h - s2| / ((s1 - s2)(s2 - s3))`, the distance of `h = l.(s l)`
+/// from the separatrix. The next term is smaller by a factor `k'^2`.
 ///
 /// # Errors
 /// [`Error::Domain`] unless the growth is above zero and `k'^2` within (0, 1].

@@ -1,4 +1,4 @@
-//! The averaged motion in closed form, and the motion that follows from it.
+//! The averaged motion in closed form, and the osculating motion that follows from it.
 
 use core::f64::consts::TAU;
 
@@ -13,19 +13,20 @@ use crate::error::Error;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::scalar::{Real, length};
 
-/// Largest strength of the torque: up to it the energy determined `G` for 4,000 random scenes; at 0.3 it failed for 7.
+/// Largest strength of the torque: up to this strength the energy determined `G` for 4,000 random scenes; at 0.3 it failed
+/// for 7.
 const LARGEST_STRENGTH: f64 = 0.2;
 
-/// Most corrections of `G`: each squares its error.
+/// Maximum number of corrections of `G`; each squares its error.
 const MOST_CORRECTIONS: usize = 12;
 
-/// A motion of a spheroid to a given order in `s^IJ`, at any time at the same cost.
+/// A motion of a spheroid to a given order in `s^IJ`, at any time with the same cost.
 ///
-/// Averaged over the fast rotation of `n` about `L` the direction `l` of `L` moves as that of a free asymmetric top with the tensor
-/// `(2 / G) (by_h s + by_m s^2)`, the slopes of the mean potential by `h = l.(s l)` and `m = |s l|^2`; the body turns as the frame that
-/// `l` carries along, about `l` and about `n`. To second order the slopes are taken at the start: what that leaves out, `(h - h_0)^2`, is of
-/// fourth order in the energy and of third in the rates. All is in the principal frame of `s`. A state at the time zero is the initial one
-/// up to the periodic part that is left out, of the order after the last.
+/// Averaged over the fast rotation of `n` about `L`, the direction `l` of `L` moves like that of a free asymmetric top with the tensor
+/// `(2 / G) (by_h s + by_m s^2)`, the slopes of the mean potential with respect to `h = l.(s l)` and `m = |s l|^2`. The body rotates with
+/// the frame that `l` carries along, about `l` and about `n`. To second order the slopes are evaluated at the start: the neglected term,
+/// `(h - h_0)^2`, is of fourth order in the energy and of third order in the rates. Everything is in the principal frame of `s`. The state
+/// at the time zero is the initial one up to the neglected periodic part, which is of the next higher order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AveragedSolution<S> {
     /// `C I^xx`.
@@ -34,20 +35,20 @@ pub struct AveragedSolution<S> {
     s: Vector3<S>,
     momentum: S,
     top: Top<S>,
-    /// At the start, in the frame of the shape there.
+    /// The axis at the start, in the frame of the shape there.
     axis: Vector3<S>,
     equatorial_axis: Vector3<S>,
     start: TopShape<S>,
     starts: AveragedPhases<S>,
-    /// Rates of the phases (turns per unit of time), the free rotation in 32 digits.
+    /// Rates of the phases (turns per unit of time), with the free rotation to 32 digits.
     turning: [DoubleDouble; 3],
-    /// `n.n - 1` of the initial axis as given.
+    /// `n.n - 1` of the given initial axis.
     excess_of_length: f64,
     pub(crate) rates: AveragedRates<S>,
-    /// Of the angles about `l` and about `n`, by the integral of the top.
+    /// Periodic parts of the angles about `l` and about `n`, per unit of the integral of the top.
     periodic: [S; 2],
     pub(crate) order: AveragingOrder,
-    /// Principal values of the tensor of the asymmetric top as which `l` moves.
+    /// Principal values of the tensor of the asymmetric top that describes the motion of `l`.
     tensor: Vector3<S>,
     pub(crate) relative_strength: S,
     /// `|b| (s_max - s_min) I^xx`.
@@ -77,18 +78,19 @@ impl<S: Real> AveragedSolution<S> {
         self.rates
     }
 
-    /// How many orders are taken along.
+    /// Order of averaging.
     pub fn order(&self) -> AveragingOrder {
         self.order
     }
 
-    /// `|C| (s_max - s_min) I^xx / |L|^2` at the start, whose powers the orders are in: errors are of its size (first order) or of its square
-    /// (second), and grow with its square, or its cube, times the angle turned. That of a bulge is `|b| (s_max - s_min) I^xx`.
+    /// `|C| (s_max - s_min) I^xx / |L|^2` at the start, the expansion parameter: errors are of its size (first order) or of its square
+    /// (second), and grow with its square, or its cube, times the rotation angle. For a bulge the parameter is `|b| (s_max - s_min) I^xx`.
     pub fn relative_strength(&self) -> S {
         self.relative_strength
     }
 
-    /// `|b| (s_max - s_min) I^xx`, of a star with a bulge. It goes with the strength of the torque only: the motion of a bulge alone is exact.
+    /// `|b| (s_max - s_min) I^xx`, for a star with a bulge. It appears only together with the strength of the torque: the motion with a bulge
+    /// alone is exact.
     pub(crate) fn bulge_strength(&self) -> S {
         self.bulge_strength
     }
@@ -96,15 +98,15 @@ impl<S: Real> AveragedSolution<S> {
     /// The motion of a problem in the principal frame of its `s`, from its initial state at the time zero.
     ///
     /// # Errors
-    /// [`Error::Domain`] for `s` that is not diagonal, and where the motion is not a fast rotation with a slow precession:
-    /// `(|C| / |L|^2 + |b|) (s_max - s_min) I^xx` must be below 0.2, and the mean energy must determine `G`. With derivatives (duals), also where `L`
-    /// rests or is on a separatrix: there the elliptic functions have none.
+    /// [`Error::Domain`] for `s` that is not diagonal, and if the motion is not a fast rotation with a slow precession:
+    /// `(|C| / |L|^2 + |b|) (s_max - s_min) I^xx` must be below 0.2, and the mean energy must determine `G`. With derivatives (duals), also if `L`
+    /// rests or is on a separatrix, where the elliptic functions have no derivatives.
     pub fn new(problem: &Problem<S>, order: AveragingOrder) -> Result<Self, Error> {
         Self::with_free_rotation_of(problem.initial(), problem, order)
     }
 
-    /// As [`new`](Self::new), for an initial state that was `given` in another frame. There `|L|` and `L.n` have all their digits, of which a
-    /// rotation loses the last one, and 1e10 turns ten more.
+    /// As [`new`](Self::new), for an initial state that was `given` in another frame. In that frame `|L|` and `L.n` have all their digits,
+    /// whereas a rotation loses the last one, and 1e10 turns ten more.
     ///
     /// # Errors
     /// As for [`new`](Self::new).
@@ -125,7 +127,8 @@ impl<S: Real> AveragedSolution<S> {
         let RigidSpheroid { inertia_xx, inertia_zz, constant_c } = *spheroid;
         let values = problem.coefficients().diagonal();
         let s = values.map(|value| value - (values.x + values.y + values.z) / 3.0);
-        // The rotation from the frame given would bring in its rounding, and that of its derivatives, which are as large as the inverse of `s`.
+        // The rotation from the given frame would introduce its rounding, and that of its derivatives, which are as large as the inverse of
+        // `s`.
         let size = length(&given.momentum);
         let reals = s.map(S::re);
         let spread = reals.max() - reals.min();
@@ -156,8 +159,8 @@ impl<S: Real> AveragedSolution<S> {
         let l = momentum / length(&momentum);
         let (h, m) = (l.dot(&s.component_mul(&l)), s.component_mul(&l).dot(&s.component_mul(&l)));
         let potential = MeanPotential { order, constant_c, inertia: inertia_xx, bulge, square: s.dot(&s) };
-        // G - |L|: small, and known to its own digits. The mean energy is that of the motion, and tells G one order better than the
-        // transformation does. To first order that would only bring in what the mean energy lacks.
+        // G - |L|: small, and known to its own digits. The mean energy equals that of the motion, and determines G to one order
+        // higher than the transformation does. To first order this would only introduce the terms that the mean energy lacks.
         let mut excess = change[1].dot(&(initial.momentum * S::from_f64(2.0) + change[1])) / (length(&momentum) + size);
         let corrections = if order == AveragingOrder::First { 0 } else { MOST_CORRECTIONS };
         let mut last = S::zero();
@@ -199,7 +202,8 @@ impl<S: Real> AveragedSolution<S> {
             about_momentum: free[0] + added.about_momentum,
             about_axis: free[1] + added.about_axis,
         };
-        // dh and dm are those of the integral of the top, times v_m and -v_h and the product: their own sums cancel where v_m is small.
+        // dh and dm are those of the integral of the top, times v_m and -v_h and the product: their direct sums cancel where v_m is
+        // small.
         let product = top.product_of_differences(&s) * 2.0 / g;
         let (by_h, by_m) = (here.by_m * product, -(here.by_h * product));
         let periodic = [
@@ -231,15 +235,16 @@ impl<S: Real> AveragedSolution<S> {
         })
     }
 
-    /// The same motion with the time counted from `t` (see [`turns`](Self::turns)): for many states near an epoch after many turns.
+    /// The same motion with the time counted from `t` (see [`turns`](Self::turns)), for evaluating many states near an epoch after
+    /// many turns.
     pub fn near(&self, t: [f64; 2]) -> Self {
         Self { starts: self.phases_at(t), since_start: self.since_start + (t[0] + t[1]), ..*self }
     }
 
-    /// Refuses a motion that has no derivatives by some of its parameters.
+    /// Refuses a motion that has no derivatives with respect to some of its parameters.
     ///
     /// # Errors
-    /// [`Error::Domain`] where `L` rests or is on a separatrix, and for three equal eigenvalues of `s`.
+    /// [`Error::Domain`] if `L` rests or is on a separatrix, and for three equal eigenvalues of `s`.
     pub fn require_derivatives(&self) -> Result<(), Error> {
         let s = self.s.map(S::re);
         let spread = s.max() - s.min();
@@ -252,17 +257,17 @@ impl<S: Real> AveragedSolution<S> {
         require_round(&self.top)
     }
 
-    /// By how much the rate about `n` is uncertain, since the length of `n` is rounded (rad per unit of time).
+    /// Uncertainty of the rate about `n`, because the length of `n` is rounded (rad per unit of time).
     pub(super) fn rounding_of_rate_about_axis(&self) -> f64 {
         (self.turning[2].high * TAU * self.excess_of_length).abs()
     }
 
-    /// `G / I^xx`, at which the axis turns.
+    /// `G / I^xx`, the rotation rate of the axis.
     pub(super) fn turning_rate(&self) -> f64 {
         self.turning[1].high.abs() * TAU
     }
 
-    /// Time from the initial state to the time `t`, without a sign.
+    /// Absolute time from the initial state to the time `t`.
     pub(super) fn elapsed(&self, t: f64) -> f64 {
         (self.since_start + t).abs()
     }
@@ -280,8 +285,8 @@ impl<S: Real> AveragedSolution<S> {
         self.start.frame.column(2).into()
     }
 
-    /// Phases at the time `t[0] + t[1]`, a sum of two doubles: to some 1e-16 turn, and to 1e-16 of what Lorentz violation adds to them,
-    /// after any number of turns.
+    /// Phases at the time `t[0] + t[1]`, a sum of two doubles: accurate to some 1e-16 turn, and to 1e-16 of the contribution of Lorentz
+    /// violation, after any number of turns.
     pub fn turns(&self, t: [f64; 2]) -> AveragedTurns {
         let time = DoubleDouble::sum(t[0], t[1]);
         let starts = [self.starts.slow, self.starts.about_momentum, self.starts.about_axis];
@@ -332,7 +337,7 @@ impl<S: Real> AveragedSolution<S> {
             let [about_l, about_n] = self.periodic.map(|rate| rate * change);
             (about_momentum, about_axis) = (about_momentum + about_l, about_axis + about_n);
         }
-        // The turn of the frame since the start: the quotient of two complex numbers, times that of the angle.
+        // The rotation of the frame since the start: the quotient of two complex numbers, times the rotation by the angle.
         let ([x, y], [x0, y0]) = (shape.turned, self.start.turned);
         let turn = [x * x0 + y * y0, y * x0 - x * y0];
         let size = (turn[0] * turn[0] + turn[1] * turn[1]).sqrt();
@@ -380,10 +385,10 @@ mod tests {
         about([0.6, 0.0, 0.8], values, momentum)
     }
 
-    /// So weak a tensor that `L` keeps its bits in the transformation to the averaged motion.
+    /// A tensor so weak that `L` keeps its bits in the transformation to the averaged motion.
     const WEAK: [f64; 3] = [1e-17, 0.0, -1e-17];
 
-    /// Against differences of states on both sides.
+    /// Compared with central differences of states.
     #[test]
     fn derivatives_by_the_time_are_rates() {
         let (values, momentum) = ([0.02, 0.01, -0.03], [0.3, -0.5, 2.0]);
@@ -394,7 +399,7 @@ mod tests {
             let slope = (after - before) / (2.0 * h);
             assert!((found.map(|x| x.eps) - slope).amax() < 1e-7, "{found} {slope}");
         }
-        // The torque alone changes L, by some thousandths.
+        // Only the torque changes L, by some thousandths.
         assert!(found.momentum.map(|x| x.eps).amax() > 1e-3);
     }
 
@@ -420,7 +425,7 @@ mod tests {
         }
     }
 
-    /// `16 eps` of a rotation, over the root of `k'`, which counts from `1e-16` on; of `n` and of `L`.
+    /// `16 eps` of a rotation, divided by the root of `k'`, which is taken to be at least `1e-16`; for `n` and for `L`.
     #[test]
     fn rounding_is_magnified_near_the_separatrix() {
         let motion = motion(WEAK, [1.0, 1.0, 1.0]);
@@ -435,7 +440,8 @@ mod tests {
         };
         assert_eq!(refused(about([0.0, 0.0, 1.0], [0.02, 0.01, -0.03], [0.0, 0.0, 2.0])), Some(0.0));
         assert_eq!(refused(motion([0.02, 0.01, -0.03], [0.3, -0.5, 2.0])), None);
-        // What rounding leaves of the traceless part of equal values is equal: no difference, whatever its sign.
+        // The remainders of the traceless part of equal values after rounding are equal: there is no difference, whatever
+        // its sign.
         let left = [0.1, 0.2, 0.3, 0.7, 1.1, 1.7, -0.1, -0.7].map(|value: f64| {
             assert_eq!(refused(motion([value; 3], [0.3, -0.5, 2.0])), Some(0.0), "{value}");
             value - (value + value + value) / 3.0
@@ -453,7 +459,7 @@ mod tests {
         assert_eq!(AveragedSolution { turning, ..motion }.turning_rate(), rate);
     }
 
-    /// The slopes of phases grow with both parts of a time.
+    /// The slopes of phases grow with the sum of both parts of a time.
     #[test]
     fn derivatives_of_phases_take_the_whole_time() {
         let momentum = [Dual64::new(0.3, 1.0), Dual64::from(-0.5), Dual64::new(2.0, 0.5)];

@@ -1,8 +1,8 @@
-//! Phases that grow over many turns, and are known to a fixed part of one.
+//! Phases that grow over many turns, and are known to a fixed fraction of a turn.
 //!
 //! A double has 16 digits: after 1e12 turns the phase of a pulsar has four left. The rates of the fast rotation about `L` and of the
-//! third angle are therefore sums of two doubles, and so is the time; what Lorentz violation adds to them, and the slow rate, are so
-//! much smaller that a double serves them.
+//! third angle are therefore sums of two doubles, and so is the time. The contribution of Lorentz violation to them, and the slow
+//! rate, are so much smaller that a double is sufficient.
 
 use core::f64::consts::TAU;
 
@@ -16,24 +16,24 @@ use crate::numerics::scalar::{Real, real_part};
 /// A phase in turns: `whole + fraction`, the fraction between -1/2 and 1/2.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Turns {
-    /// Whole turns; right below 9e18.
+    /// Whole turns; correct below 9e18.
     pub whole: i64,
-    /// The rest.
+    /// The remainder.
     pub fraction: f64,
 }
 
 impl Turns {
-    /// The rest as an angle (rad).
+    /// The remainder as an angle (rad).
     pub fn angle(&self) -> f64 {
         self.fraction * TAU
     }
 
-    /// At the `time`, from the turns at the time zero (less than one) and a rate in turns.
+    /// The phase at the `time`, from the turns at the time zero (less than one) and a rate in turns.
     #[inline]
     pub(crate) fn at(start: f64, rate: DoubleDouble, time: DoubleDouble) -> Self {
         let DoubleDouble { high, low } = rate * time;
         let (whole, whole_low) = (nearest(high), nearest(low));
-        // The difference is exact; what is added is below two.
+        // The difference is exact; the added term is below two.
         let rest = (high - whole) + (low - whole_low) + start;
         let more = nearest(rest);
         let whole = (whole as i64).saturating_add((whole_low + more) as i64);
@@ -41,7 +41,8 @@ impl Turns {
     }
 }
 
-/// The nearest whole number. Adding and taking away [`WHOLE`] rounds to it, without a call where the processor has no such instruction.
+/// The nearest integer. Adding and subtracting [`WHOLE`] rounds to it, without a function call on processors that have no such
+/// instruction.
 #[inline]
 fn nearest(x: f64) -> f64 {
     if x.abs() < 1e15 { (x + WHOLE) - WHOLE } else { x.round() }
@@ -50,39 +51,39 @@ fn nearest(x: f64) -> f64 {
 /// The phases of a motion in turns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AveragedTurns {
-    /// Of the slow precession of `L`; on a separatrix, where it has no period, `u / (2 pi)`.
+    /// Phase of the slow precession of `L`; on a separatrix, where it has no period, `u / (2 pi)`.
     pub slow: Turns,
-    /// Of the frame about `L`, but for its periodic part.
+    /// Rotation of the frame about `L`, without its periodic part.
     pub about_momentum: Turns,
-    /// Of the body about its symmetry axis against the frame.
+    /// Rotation of the body about its symmetry axis relative to the frame.
     pub about_axis: Turns,
 }
 
 /// Mean rates of a motion (rad per unit of time).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AveragedRates<S> {
-    /// Of the phase of the slow precession, which grows by a turn when `L` goes once round its axis, in either sense; `lambda` on a
-    /// separatrix.
+    /// Rate of the phase of the slow precession, which grows by a turn when `L` circles its axis once, in either sense; `lambda` on
+    /// a separatrix.
     pub slow: S,
-    /// Of the frame about `L`, but for its periodic part.
+    /// Rate of the frame about `L`, without its periodic part.
     pub about_momentum: S,
-    /// Of the body about its symmetry axis against the frame.
+    /// Rate of the body about its symmetry axis relative to the frame.
     pub about_axis: S,
 }
 
-/// Phases of a motion at a time (rad), each modulo a turn if that suits.
+/// Phases of a motion at one time (rad), defined modulo a turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AveragedPhases<S> {
-    /// As [`AveragedRates::slow`], with its start.
+    /// Phase with the rate [`AveragedRates::slow`], including its initial value.
     pub slow: S,
-    /// As [`AveragedRates::about_momentum`].
+    /// Phase with the rate [`AveragedRates::about_momentum`].
     pub about_momentum: S,
-    /// As [`AveragedRates::about_axis`].
+    /// Phase with the rate [`AveragedRates::about_axis`].
     pub about_axis: S,
 }
 
 impl<S: Real> AveragedPhases<S> {
-    /// After some more time.
+    /// The phases after an additional time.
     pub(crate) fn later(&self, rates: &AveragedRates<S>, time: S) -> Self {
         Self {
             slow: self.slow + rates.slow * time,
@@ -92,14 +93,14 @@ impl<S: Real> AveragedPhases<S> {
     }
 }
 
-/// What Lorentz violation adds to the rates of free rotation, and the slow rate.
+/// The contribution of Lorentz violation to the rates of free rotation, and the slow rate.
 pub(super) struct Added<S> {
     pub(super) slow: S,
     pub(super) about_momentum: S,
     pub(super) about_axis: S,
 }
 
-/// Rates in turns: `|L| / I^xx` and `-epsilon Omega^z` to 32 digits, and what is added to them.
+/// Rates in turns: `|L| / I^xx` and `-epsilon Omega^z` to 32 digits, plus the added rates.
 pub(super) fn turning<S: Real>(
     spheroid: &RigidSpheroid<S>,
     initial: &BodyState<S>,
@@ -119,7 +120,7 @@ pub(super) fn turning<S: Real>(
     ]
 }
 
-/// What rounding has made of the length of `n`: `n.n - 1`, to its own digits.
+/// The error of the length of `n` due to rounding: `n.n - 1`, to its own digits.
 pub(super) fn excess_of_length<S: Real>(axis: &Vector3<S>) -> f64 {
     let n = real_part(axis).into();
     (DoubleDouble::dot(&n, &n) + (-1.0).into()).high

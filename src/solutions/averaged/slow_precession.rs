@@ -1,14 +1,14 @@
 //! The slow precession of the angular momentum, to first order in the coefficients for Lorentz violation.
 //!
-//! Averaged over the fast rotation of `n` about `L`, with `l = L/|L|`, `G = |L|`, `c = n.l`, the direction of `L` moves as the
-//! angular velocity of a free asymmetric top does in the body,
+//! Averaged over the fast rotation of `n` about `L`, with `l = L/|L|`, `G = |L|`, `c = n.l`, the direction of `L` moves like
+//! the angular velocity of a free asymmetric top in the body,
 //!
 //! ```text
 //! dl/dt = kappa (s l) x l,     kappa = 2 C P2(c) / G,     P2(c) = (3 c^2 - 1) / 2
 //! ```
 //!
-//! with `h = l.(s l)` constant. With the eigenvalues `s1 >= s2 >= s3` it goes round the axis of `s3` where `h < s2` and round that
-//! of `s1` where `h > s2`; between lies a separatrix through the axis of `s2`.
+//! with `h = l.(s l)` constant. With the eigenvalues `s1 >= s2 >= s3` it circles the axis of `s3` if `h < s2` and the axis of `s1`
+//! if `h > s2`; the two cases are divided by a separatrix through the axis of `s2`.
 
 use nalgebra::Vector3;
 
@@ -18,7 +18,7 @@ use crate::lorentz_violation::PrincipalCoefficients;
 use crate::numerics::elliptic::jacobi::ArithmeticGeometricMean;
 use crate::numerics::scalar::{Real, length};
 
-/// The principal axis that the angular momentum goes round, and how fast.
+/// The principal axis that the angular momentum circles, and the rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlowPrecession<S> {
     /// Index of the principal axis: 0 for X, 1 for Y, 2 for Z.
@@ -27,7 +27,7 @@ pub struct SlowPrecession<S> {
     pub rate: S,
 }
 
-/// Mean rate of the precession of `L` about a principal axis, to first order in s. In words of elliptic integrals it is the
+/// Mean rate of the precession of `L` about a principal axis, to first order in s. In terms of elliptic integrals it is the
 /// angular velocity `pi kappa p / (2 K(k))` with, for `h < s2`,
 ///
 /// ```text
@@ -36,11 +36,12 @@ pub struct SlowPrecession<S> {
 /// ```
 ///
 /// AGM the arithmetic-geometric mean; for `h > s2` the same with `s1` and `s3` exchanged and the opposite sign (Landau and
-/// Lifshitz, Mechanics, section 37, of whose `Omega` this is the analogue).
+/// Lifshitz, Mechanics, section 37; this is the analogue of their `Omega`).
 ///
-/// `momentum` and `axis` (`n`) are those of the averaged motion; with those of any one time the result is right to the same
-/// order, its relative error of the order of `C |s| I^xx / G^2` (for tp-II 5%). Exact, for the averaged equation, in the
-/// symmetric limits: `kappa (s1 - s3) cos` of the inclination where two eigenvalues are equal, zero where all are.
+/// `momentum` and `axis` (`n`) are those of the averaged motion. With the osculating values at any time the result is
+/// correct to the same order, with a relative error of the order of `C |s| I^xx / G^2` (for tp-II 5%). It is exact, for the
+/// averaged equation, in the symmetric limits: `kappa (s1 - s3) cos` of the inclination if two eigenvalues are equal, zero
+/// if all are.
 ///
 /// # Errors
 /// [`Error::Domain`] for `L = 0`, and on the separatrix, `h = s2` (to rounding) with three different eigenvalues.
@@ -61,7 +62,7 @@ pub fn slow_precession<S: Real>(
     order.sort_by(|&i, &j| values[j].re().total_cmp(&values[i].re()));
     let [s1, s2, s3] = order.map(|i| values[i]);
     let [l1, l2, l3] = order.map(|i| l[i]);
-    // Of `h` only differences from an eigenvalue are formed, as sums of terms of one sign where that is possible.
+    // Only differences of `h` from an eigenvalue are formed, as sums of terms of one sign where possible.
     let below_middle = (s2 - s3) * l3 * l3 - (s1 - s2) * l1 * l1;
     let around_third = below_middle.re() > 0.0 || (below_middle.re() == 0.0 && s1.re() == s2.re());
     let (p_squared, q_squared, end, sense) = if around_third {
@@ -98,7 +99,8 @@ mod tests {
         assert!(of(Vector3::new(1e-3, 1.0, 0.0)).is_ok_and(|found| found.axis == 0));
     }
 
-    /// Two equal eigenvalues leave their axis to the third: `L` goes round it, and rests where it is normal to it.
+    /// With two equal eigenvalues only the axis of the third is distinguished: `L` circles it, and rests if it is normal to
+    /// it.
     #[test]
     fn about_an_axis_of_symmetry_it_goes_round_that_axis() {
         let spheroid = RigidSpheroid::in_units_of_tc(1.1);
@@ -113,7 +115,7 @@ mod tests {
         }
     }
 
-    /// The distance from the separatrix is relative: the rate grows with the tensor, however weak that is.
+    /// The distance from the separatrix is relative: the rate is proportional to the tensor, however weak that is.
     #[test]
     fn a_weak_tensor_is_no_separatrix() {
         let spheroid = RigidSpheroid::in_units_of_tc(1.1);

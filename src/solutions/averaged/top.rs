@@ -1,20 +1,21 @@
-//! A direction that moves as the angular velocity of a free asymmetric top, and the frame that it carries along.
+//! A direction that moves like the angular velocity of a free asymmetric top, and the frame that it carries along.
 //!
 //! ```text
 //! dl/dt = (k l) x l,    dA/dt = [k l] A,    A(0) = 1,    l(t) = A(t) l(0)
 //! ```
 //!
-//! for a diagonal tensor `k`: the problem of Euler and Jacobi, with `l` for the angular momentum in the body and `A` for the inverse of
-//! the attitude. With `m_3` along the principal axis that `l` goes round and `a = k_1 - k_2`, `b = k_2 - k_3`, of one sign,
+//! for a diagonal tensor `k`: the problem of Euler and Jacobi, with `l` in place of the angular momentum in the body and `A` in place
+//! of the inverse of the attitude. With `m_3` along the principal axis that `l` circles and `a = k_1 - k_2`, `b = k_2 - k_3`, of one
+//! sign,
 //!
 //! ```text
 //! m = (A_1 cn u, -+ A_2 sn u, +- A_3 dn u),    u = u_0 + lambda t,    lambda = b A_2 A_3 / A_1,    k^2 = a A_1^2 / (b A_3^2)
 //! ```
 //!
-//! and the frame turns about `l`, against the meridian of `m_1`, at the rate `k_2 - b dn^2 u / (1 + (A_1/A_3)^2 sn^2 u)`. Its integral, of
-//! the third kind, has the mean growth `k_2 - b <dn^2 u / (1 + (A_1/A_3)^2 sn^2 u)>` and, against the meridian of `m_3`, the angle of
-//! `theta_1(z + i eta)`, `z = pi u / (2 K)`, `sc(2 K eta / pi, k')^2 = b / a`. No coordinate is singular: where `A_1` vanishes the meridian
-//! is that of `m / A_1`.
+//! and the frame rotates about `l`, relative to the meridian of `m_1`, at the rate `k_2 - b dn^2 u / (1 + (A_1/A_3)^2 sn^2 u)`. Its
+//! integral, of the third kind, has the mean growth `k_2 - b <dn^2 u / (1 + (A_1/A_3)^2 sn^2 u)>` and, relative to the meridian of `m_3`,
+//! the angle of `theta_1(z + i eta)`, `z = pi u / (2 K)`, `sc(2 K eta / pi, k')^2 = b / a`. No coordinate is singular: where `A_1` vanishes
+//! the meridian is that of `m / A_1`.
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -27,16 +28,16 @@ use crate::numerics::scalar::{Real, length};
 
 use super::averages::{mean_of_cn2, mean_of_ratio};
 
-/// `k'^2` up to which a motion is on the separatrix: it is there within the rounding of its start.
+/// `k'^2` up to which a motion is treated as being on the separatrix, because it is within the rounding of its start.
 const SEPARATRIX: f64 = 1e-32;
 
-/// The course of a top.
+/// The motion of a free asymmetric top.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Top<S> {
     course: Course<S>,
     /// Principal axes in the order of `m`.
     places: [usize; 3],
-    /// Signs of `m_2`, for a right-handed order, of the side of `m_3` on which `l` is, and on a separatrix of `m_1`.
+    /// Signs of `m_2`, for a right-handed order; of the side of `m_3` on which `l` is; and, on a separatrix, of `m_1`.
     signs: [f64; 3],
     amplitudes: [S; 3],
     /// `A_2 / A_1`.
@@ -54,27 +55,28 @@ pub struct Top<S> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[allow(clippy::large_enum_variant, reason = "one top at a time, and nothing on the heap")]
 enum Course<S> {
-    /// Neither `l` nor what it depends on moves.
+    /// Neither `l` nor the quantities on which it depends change.
     Still { direction: Vector3<S> },
-    /// With `k^2` and `k'^2`, `pi / (2 K)` and the mean of `cn^2`.
+    /// `l` circles an axis; with `k^2` and `k'^2`, `pi / (2 K)` and the mean of `cn^2`.
     Round { theta: ThetaSeries<S>, nome: Nome<S>, parameter: S, complement_squared: S, mean: S, mean_cn2: S },
     /// From one end of the middle axis to the other; `sqrt(a / b)`.
     Separatrix { root_ratio: S },
 }
 
-/// What grows with time: the phase `z` (on a separatrix `u`), and the angle about `l` but for its periodic part (rad).
+/// The quantities that grow with time: the phase `z` (on a separatrix `u`), and the angle about `l` without its periodic
+/// part (rad).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TopPhases<S> {
-    /// `z`, which grows by a turn when `l` goes once round its axis, in either sense.
+    /// `z`, which grows by a turn when `l` circles its axis once, in either sense.
     pub slow: S,
-    /// About `l`.
+    /// The angle about `l`.
     pub about: S,
 }
 
 /// A top at a phase.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TopShape<S> {
-    /// Columns: along the meridian of the axis that is gone round, along its parallel, `l`.
+    /// Columns: along the meridian of the axis that `l` circles, along its parallel, and `l`.
     pub frame: Matrix3<S>,
     /// Cosine and sine of the periodic part of the angle about `l`, times a positive number.
     pub turned: [S; 2],
@@ -106,15 +108,15 @@ impl<S: Real> Top<S> {
     ///
     /// Up to `k'^2 = 1e-32`, which is within the rounding of the start, the motion is taken for that on the separatrix.
     ///
-    /// First derivatives exist where `l` goes round an axis at a distance ([`goes_round`](Self::goes_round)), two equal principal values
-    /// included; on an axis, at rest and on the separatrix there are none.
+    /// First derivatives exist if `l` circles an axis at a distance ([`goes_round`](Self::goes_round)), also for two equal principal
+    /// values; on an axis, at rest and on the separatrix there are none.
     pub fn new(k: [S; 3], l: &Vector3<S>) -> Self {
         let (zero, one) = (S::zero(), S::one());
         let mut order = [0, 1, 2];
         order.sort_by(|&i, &j| k[j].re().total_cmp(&k[i].re()));
         let [x, _, z] = order.map(|i| l[i]);
         let (upper, lower) = (k[order[0]] - k[order[1]], k[order[1]] - k[order[2]]);
-        // k_2 - l.(k l): positive round the axis of the smallest value.
+        // k_2 - l.(k l): positive if l circles the axis of the smallest value.
         let margin = lower * z * z - upper * x * x;
         let round_third = margin.re() > 0.0;
         let (places, a, b) =
@@ -154,14 +156,15 @@ impl<S: Real> Top<S> {
         let complement_squared = margin.abs() / (b.abs() * third_squared);
         let elongated = first_squared / third_squared;
         let parameter = a / b * elongated;
-        // Where the amplitude vanishes, any phase will do.
+        // If the amplitude vanishes, the phase is arbitrary.
         let (cn, sn) = if first.re() > 0.0 { (m[0] / first, m[1] / amplitudes[1] * -side) } else { (one, zero) };
         let dn = m[2].abs() / third;
         let share = if first.re() > 0.0 { first_squared / b } else { zero };
         let moving = Self { amplitudes, elongation, share, ..still };
         if complement_squared.re() <= SEPARATRIX {
             let root_ratio = (a / b).sqrt();
-            // sn = tanh u, dn = 1 / cosh u; cn as well, which does not change its sign: m_1 and m_2 have another one behind.
+            // sn = tanh u, dn = 1 / cosh u, and also cn, which does not change its sign: on the far side m_1 and m_2 have
+            // the opposite sign.
             let front = if m[0].re() < 0.0 { -1.0 } else { 1.0 };
             let u = ((one + sn.abs()) / dn).ln() * if sn.re() < 0.0 { -front } else { front };
             return Self {
@@ -178,11 +181,11 @@ impl<S: Real> Top<S> {
         let nome = Nome::new(parameter, complement_squared);
         let theta = series(&nome, mean, a, b, elongated);
         let quarter = S::from_f64(FRAC_PI_2) / mean;
-        // F(u) by its sine, with the root of cn^2 known.
+        // F(u) from its sine, with the root of cn^2 known.
         let first_half = sn * rf_of_roots(cn.abs(), dn + one, dn);
         let u = if cn.re() < 0.0 { quarter * 2.0 - first_half } else { first_half };
         let slow = lambda * mean;
-        // From the value that is nearer.
+        // Computed from the nearer value.
         let along = mean_of_ratio(complement, one + elongated, [one, complement_squared]);
         let about = if along.re() < 0.5 {
             k[places[1]] - b * along
@@ -197,22 +200,22 @@ impl<S: Real> Top<S> {
         }
     }
 
-    /// Whether `l` goes round an axis, at a distance from it and from the separatrix.
+    /// Whether `l` circles an axis, at a distance from it and from the separatrix.
     pub fn goes_round(&self) -> bool {
         matches!(self.course, Course::Round { .. }) && self.amplitudes[0].re() > 0.0
     }
 
-    /// The principal axis that `l` goes round.
+    /// The principal axis that `l` circles.
     pub(crate) fn axis(&self) -> usize {
         self.places[2]
     }
 
-    /// Mean rate (rad per unit of time) at which `l` goes round that axis.
+    /// Mean rate (rad per unit of time) at which `l` circles that axis.
     pub(crate) fn rate_about_axis(&self) -> S {
         self.rates.slow * -self.signs[1]
     }
 
-    /// `k'`, one where the phase grows evenly and zero on the separatrix, the only place where the phase does not repeat itself after a turn.
+    /// `k'`: one if the phase grows uniformly and zero on the separatrix, the only place where the motion is not periodic in the phase.
     pub fn complement(&self) -> f64 {
         match &self.course {
             Course::Still { .. } => 1.0,
@@ -221,7 +224,7 @@ impl<S: Real> Top<S> {
         }
     }
 
-    /// Whether both go round the same axis on the same side, or rest.
+    /// Whether both circle the same axis on the same side, or rest.
     pub(super) fn is_beside(&self, other: &Self) -> bool {
         let same_side = self.places[2] == other.places[2] && self.signs[1] == other.signs[1];
         match (&self.course, &other.course) {
@@ -231,7 +234,7 @@ impl<S: Real> Top<S> {
         }
     }
 
-    /// Largest speed of `l`: where it crosses the plane of `m_2` and `m_3`, or of `m_1` and `m_3`.
+    /// Largest speed of `l`, where it crosses the plane of `m_2` and `m_3`, or of `m_1` and `m_3`.
     pub(super) fn largest_speed(&self) -> f64 {
         let rates = self.rates.slow.re().abs();
         let [first, second, _] = self.amplitudes.map(S::re);
@@ -256,7 +259,8 @@ impl<S: Real> Top<S> {
         }
     }
 
-    /// Periodic part of the integral of the squares of the components of `l` over time, from that of a [shape](TopShape::integral).
+    /// Periodic part of the integral of the squares of the components of `l` over time, from the periodic integral of a
+    /// [shape](TopShape::integral).
     pub fn squares(&self, integral: S) -> Vector3<S> {
         let [a, b] = self.differences;
         let mut squares = Vector3::zeros();
@@ -272,7 +276,7 @@ impl<S: Real> Top<S> {
         (first - second) * (second - third) * (first - third)
     }
 
-    /// Multiples of the squares of the amplitudes, in the given order of axes.
+    /// Multiples of the squares of the amplitudes, in the order of the given axes.
     fn in_places(&self, factors: [S; 3]) -> Vector3<S> {
         let mut squares = Vector3::zeros();
         for ((place, factor), amplitude) in self.places.into_iter().zip(factors).zip(self.amplitudes) {
@@ -281,7 +285,7 @@ impl<S: Real> Top<S> {
         squares
     }
 
-    /// The top at a phase `z`, on a separatrix `u`; any for one that is still.
+    /// The top at a phase `z`, on a separatrix `u`; any phase if it is at rest.
     pub fn at(&self, phase: S) -> TopShape<S> {
         let (sn, cn, dn, turned, sn2_integral) = match &self.course {
             Course::Still { direction } => return still_shape(direction),
@@ -321,7 +325,7 @@ impl<S: Real> Top<S> {
     }
 }
 
-/// Any frame with `l` for its third axis.
+/// An arbitrary frame with `l` as its third axis.
 fn still_shape<S: Real>(l: &Vector3<S>) -> TopShape<S> {
     let least = (0..3).min_by(|&i, &j| l[i].re().abs().total_cmp(&l[j].re().abs())).unwrap_or_default();
     let mut pole = Vector3::zeros();
@@ -340,14 +344,15 @@ mod tests {
 
     const K: [f64; 3] = [4.5, 0.5, -0.5];
 
-    /// `l` and the frame about it turn at the rate `k l`: on both sides of each axis, and on the separatrix, before and after `l` crosses the plane across the middle axis.
+    /// `l` and the frame about it rotate at the rate `k l`: on both sides of each axis, and on the separatrix, before and after `l` crosses the plane
+    /// normal to the middle axis.
     #[test]
     fn frames_turn_at_the_rate_of_the_top() {
         // (k_1 - k_2) x^2 = (k_2 - k_3) z^2 is the separatrix.
         let [upper, lower] = [K[0] - K[1], K[1] - K[2]];
         let on_separatrix = |x: f64, y: f64, z: f64| {
             let l = Vector3::new(x * lower.sqrt(), y, z * upper.sqrt()).normalize();
-            // Within what counts as the separatrix.
+            // Within the range that counts as the separatrix.
             let top = Top::new(K, &l);
             assert_eq!(top.complement(), 0.0, "{l}");
             top
@@ -387,14 +392,14 @@ mod tests {
         let (round_x, round_z) = (top([0.9, 0.2, 0.3]), top([0.1, 0.2, 0.9]));
         assert!(round_x.is_beside(&top([0.8, -0.3, 0.1])) && round_z.is_beside(&top([0.2, -0.3, 0.8])));
         assert!(!round_x.is_beside(&round_z) && !round_x.is_beside(&top([-0.9, 0.2, 0.3])));
-        // At rest in all places, as of a ball.
+        // At rest at all points, as for a sphere.
         let still = |direction: [f64; 3]| Top::new([0.5; 3], &Vector3::from(direction).normalize());
         assert!(still([0.9, 0.2, 0.3]).is_beside(&still([0.1, 0.2, -0.9])));
         assert!(!still([0.9, 0.2, 0.3]).is_beside(&round_x) && !round_x.is_beside(&still([0.9, 0.2, 0.3])));
         assert_eq!(still([0.9, 0.2, 0.3]).largest_speed(), 0.0);
     }
 
-    /// Where `l` is in the plane of the outer axes, with `A_2 = 1`: `|k l x l|` there is `(k_1 - k_3) m_1 m_3`.
+    /// For `l` in the plane of the outer axes, with `A_2 = 1`: `|k l x l|` there is `(k_1 - k_3) m_1 m_3`.
     #[test]
     fn the_largest_speed_on_the_separatrix_bounds_that_along_it() {
         let (x, z) = (0.3125_f64, 0.625_f64);
@@ -402,7 +407,8 @@ mod tests {
         assert_eq!(top.complement(), 0.0);
         let (first, third) = (0.2_f64.sqrt(), 0.8_f64.sqrt());
         let fastest = 5.0 * first * third;
-        // The bound adds the largest speeds of both parts: it goes by the axis of the largest value, with the part along the third for m_1.
+        // The bound adds the largest speeds of both parts: it is determined by the axis of the largest value, with the component along the
+        // third for m_1.
         assert_relative_eq!(top.largest_speed(), fastest * (1.0 + third * third).sqrt(), max_relative = 1e-12);
     }
 

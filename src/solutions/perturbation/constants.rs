@@ -1,6 +1,6 @@
 //! The two kinds of precession, the two forms of the perturbation solutions, and their constants of integration.
 
-/// Which formulas a perturbation solution takes.
+/// The choice of formulas for a perturbation solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Form {
     /// Eqs. (30) `[sol2]`, (31) `[consdef]`, (33) `[sol3]` as the paper prints them: they define its examples and curves.
@@ -9,7 +9,7 @@ pub enum Form {
     Corrected,
 }
 
-/// Which free motion is perturbed.
+/// The free motion that is perturbed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Precession {
     /// A freely precessing star: the upper signs of Eqs. (29)-(34).

@@ -13,16 +13,16 @@ use crate::numerics::angle::whole_turns;
 use crate::numerics::scalar::{Real, Scalar};
 use crate::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
-/// Constants of integration of the perturbation solution that has given initial values: the inverse of [`Perturbation::at`] zero, the
+/// Constants of integration of the perturbation solution with given initial values: the inverse of [`Perturbation::at`] zero, in the
 /// printed form of Eq. (34) `[integraltoinitial]`.
 ///
-/// `A cos phi` and `A sin phi` follow directly from the rates; `alpha_0`, `beta_0` by Newton's method with exact derivatives, started at
-/// the initial angles and at a grid of inclinations. Eq. (34) is not linear, so there can be several solutions: of those
-/// found, the one with the smallest `|A|` is returned, with `A >= 0` and `phi` in (-pi, pi], `phi = 0` if `A = 0`. Residual: a few ulp of the
-/// terms of Eq. (34). Derivatives (duals) of the constants hold up to third order, except of `A` and `phi` at `A = 0`.
+/// `A cos phi` and `A sin phi` follow directly from the rates; `alpha_0`, `beta_0` are found by Newton's method with exact derivatives,
+/// started at the initial angles and at a grid of inclinations. Eq. (34) is not linear, so there can be several solutions: of those found,
+/// the one with the smallest `|A|` is returned, with `A >= 0` and `phi` in (-pi, pi], `phi = 0` if `A = 0`. Residual: a few ulp of the terms
+/// of Eq. (34). Derivatives (duals) of the constants are correct up to third order, except for `A` and `phi` at `A = 0`.
 ///
 /// # Errors
-/// [`Error::NotConverged`] if no start leads to a solution, as happens where the perturbation solutions do not describe the
+/// [`Error::NotConverged`] if no start leads to a solution, as happens if the perturbation solutions do not describe the
 /// motion; [`Error::Domain`] for zero spin.
 pub fn constants_from_initial_values<S: Real>(
     form: Form,
@@ -33,13 +33,13 @@ pub fn constants_from_initial_values<S: Real>(
     initial: &AxisAngles<S>,
 ) -> Result<Constants<S>, Error> {
     Error::ensure(spin.re() != 0.0, "spin Omega^z", spin.re(), "nonzero: Eq. (34) divides by it")?;
-    // Eq. (34) repeats itself after a turn of alpha: near zero Newton's method loses no digits to it.
+    // Eq. (34) is periodic in alpha with a full turn: near zero Newton's method loses no digits of alpha.
     let turns = whole_turns(initial.alpha.re());
     let initial = &AxisAngles { alpha: initial.alpha - S::from_f64(turns), ..*initial };
     let generic = Inversion { form, kind, spheroid: *spheroid, s: *s, spin, initial: *initial };
     let Root { point, inverse } = generic.map(S::re).solve()?;
     let mut found = point.map(S::from_f64);
-    // Each step with the real inverse makes the derivatives right to one more order.
+    // Each step with the real inverse makes the derivatives correct to one more order.
     for _ in 0..3 {
         found -= inverse.map(S::from_f64) * generic.residual(&found);
     }
@@ -61,12 +61,12 @@ struct Inversion<S> {
 
 struct Root {
     point: Vector2<f64>,
-    /// Of the Jacobian there.
+    /// Inverse of the Jacobian there.
     inverse: Matrix2<f64>,
 }
 
 impl<S: Scalar> Inversion<S> {
-    /// The same numbers of another type.
+    /// The same numbers in another type.
     fn map<T>(&self, to: impl Fn(S) -> T) -> Inversion<T> {
         let AxisAngles { alpha, beta, alpha_rate, beta_rate } = self.initial;
         let PrincipalCoefficients { xx, yy, zz } = self.s;
@@ -144,7 +144,7 @@ impl Inversion<f64> {
             })
     }
 
-    /// Newton's method with steps of at most 0.2 rad, kept to inclinations inside (0, pi).
+    /// Newton's method with steps of at most 0.2 rad, restricted to inclinations inside (0, pi).
     fn newton(&self, lifted: &Inversion<Dual64>, start: Vector2<f64>) -> Option<Root> {
         let mut x = start;
         for _ in 0..Self::ITERATIONS {
@@ -186,12 +186,12 @@ mod tests {
 
     type Body<S> = (RigidSpheroid<S>, PrincipalCoefficients<S>);
 
-    /// The initial values of the printed solution with spin one.
+    /// The initial values of the printed solution with unit spin.
     fn start<S: Real>(kind: Precession, (spheroid, s): &Body<S>, constants: &Constants<S>) -> AxisAngles<S> {
         Perturbation::new(Form::Printed, kind, spheroid, s, S::one(), constants).unwrap().at(S::zero())
     }
 
-    /// The constants of these initial values, which are those of the constants again.
+    /// The constants for these initial values, which are again the constants.
     fn constants(kind: Precession, body: &Body<f64>, initial: [f64; 4]) -> Constants<f64> {
         let initial = angles(initial);
         let found = constants_from_initial_values(Form::Printed, kind, &body.0, &body.1, 1.0, &initial).unwrap();
@@ -207,8 +207,8 @@ mod tests {
         found
     }
 
-    /// Here the solution of the smallest `|A|` is met from the first, and from the last, of the inclinations of the grid alone; the next
-    /// ones have 0.26 and 0.88.
+    /// Here the solution of the smallest `|A|` is found only from the first, and from the last, of the inclinations of the grid; the
+    /// next ones have 0.26 and 0.88.
     #[test]
     fn the_grid_of_starts_reaches_both_poles() {
         for (inertia_zz, s, initial, amplitude) in [
@@ -221,7 +221,7 @@ mod tests {
     }
 
     /// Without Lorentz violation and with the rates of free precession the first equation is linear: steps of 0.2, one for the rest, and
-    /// one that finds nothing left to do. An inclination that is off leaves its square, which must be below 1e-12.
+    /// one that finds nothing left to do. An error of the inclination leaves its square, which must be below 1e-12.
     #[test]
     fn sixty_steps_are_enough_or_not() {
         let (alpha, beta) = (0.4, 0.9_f64);
@@ -244,7 +244,7 @@ mod tests {
         }
     }
 
-    /// At `alpha = 0` and `beta' = 0` the forced motion has both as well, so that `cos phi` vanishes, and `A` does not.
+    /// At `alpha = 0` and `beta' = 0` the forced motion has the same values, so that `cos phi` vanishes, but `A` does not.
     #[test]
     fn a_phase_of_a_quarter_turn_is_no_vanishing_amplitude() {
         for alpha_rate in [1.3, 1.9] {
@@ -256,10 +256,10 @@ mod tests {
         }
     }
 
-    /// There the root and the angle have no derivatives, and are given none.
+    /// There the root and the angle have no derivatives, and none are returned.
     #[test]
     fn a_vanishing_amplitude_has_no_phase_and_no_derivatives() {
-        // With omega one the quotients of duals are those of doubles.
+        // With omega equal to one the quotients of duals are those of doubles.
         let initial = [0.4, 0.9, 1.0 / 0.9_f64.sin_cos().1, 0.0];
         let found = constants(Precession::Twofold, &(body(1.0, 0.0), coefficients([0.0; 3])), initial);
         assert_eq!((found.amplitude, found.phase), (0.0, 0.0));
@@ -272,7 +272,7 @@ mod tests {
         assert!(found.alpha_0.eps.is_finite() && found.beta_0.eps != 0.0);
     }
 
-    /// What is left of Eq. (34) at the initial angles, by its own right side.
+    /// The residual of Eq. (34) at the initial angles, from its own right side.
     #[test]
     fn what_does_not_converge_tells_how_far_it_is() {
         let body = (body(0.75, 1.0), coefficients([-0.1, 1.06, 1.57]));
@@ -296,7 +296,7 @@ mod tests {
         }
     }
 
-    /// Constants that are linear in one variable are found back with no second and no third derivative.
+    /// Constants that are linear in one variable are recovered without second and third derivatives.
     #[test]
     fn derivatives_hold_up_to_the_third_order() {
         let linear = |value: f64, slope: f64| Dual3_64::new(value, slope, 0.0, 0.0);

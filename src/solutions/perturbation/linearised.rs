@@ -1,4 +1,4 @@
-//! First-order equations for `alpha1`, `beta1`: Eq. (29) as printed, and with the terms that it drops.
+//! First-order equations for `alpha1`, `beta1`: Eq. (29) as printed, and with the terms that it omits.
 
 use crate::dynamics::RigidSpheroid;
 use crate::dynamics::potential::potential_gradient_in_angles;
@@ -22,7 +22,7 @@ pub struct FirstOrderMotion<S> {
     pub beta_acceleration: S,
 }
 
-/// The point about which is expanded: `alpha = alpha_0 + a t` (as `alpha`), `beta = beta_0`.
+/// The expansion point: `alpha = alpha_0 + a t` (as `alpha`), `beta = beta_0`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ZerothOrder<S> {
     /// Upper signs (twofold) or lower signs (single).
@@ -56,20 +56,20 @@ pub fn printed_residuals<S: Scalar>(
     )
 }
 
-/// Residuals of the full first-order equations: Eq. (29) `[eleq1]` and, on the left of the second one, the term in `beta1` that
-/// it drops by taking `beta` at `beta_0`,
+/// Residuals of the full first-order equations: Eq. (29) `[eleq1]` plus, on the left of the second one, the term in `beta1`
+/// that it omits by setting `beta` to `beta_0`,
 ///
 /// ```text
 /// twofold:  a^2 sin^2(b0) beta1,                          a = omega / cos b0
 /// single:   (C / I^xx) (2 s^ZZ - s^XX - s^YY) sin^2(b0) beta1
 /// ```
 ///
-/// Twofold: the linearisation of Eq. (25) `[eleq]` about free precession. The term is the derivative by `beta` of
-/// `-(1/2) sin 2b a^2 + omega sin b a`, and of first order because `a` is not small.
+/// Twofold: the linearisation of Eq. (25) `[eleq]` about free precession. The term is the derivative with respect to `beta`
+/// of `-(1/2) sin 2b a^2 + omega sin b a`, and is of first order because `a` is not small.
 ///
 /// Single: Eq. (25) at leading order in `s` and at first order in `r = (s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)`, the size of
-/// `beta1`. The term is the derivative by `beta` of `omega sin b a^(1) + (1/I^xx) d(delta U)/d beta` without `s^XX - s^YY`. It has
-/// the order `s r`, as the terms with `s^XX - s^YY` that Eq. (29) keeps.
+/// `beta1`. The term is the derivative with respect to `beta` of `omega sin b a^(1) + (1/I^xx) d(delta U)/d beta` without
+/// `s^XX - s^YY`. It is of the order `s r`, like the terms with `s^XX - s^YY` that Eq. (29) keeps.
 pub fn full_residuals<S: Scalar>(
     spheroid: &RigidSpheroid<S>,
     s: &PrincipalCoefficients<S>,

@@ -1,13 +1,13 @@
 //! Perturbation solutions about free precession (twofold) and about a stationary spin (single). Eqs. (27)-(34), (57).
 //!
-//! Each in two forms, never to be mistaken for one another:
+//! Each has two forms, which must not be confused:
 //!
 //! * [`Form::Printed`] — the paper's Eqs. (30) `[sol2]`, (31) `[consdef]`, (33) `[sol3]` as printed. They define the paper's
-//!   examples and curves. They are not right to first order: Eq. (29) `[eleq1]` takes `beta` at `beta_0` and so drops a term in
-//!   `beta1`, see [`linearised`].
+//!   examples and curves. They are not correct to first order: Eq. (29) `[eleq1]` sets `beta` to `beta_0` and so omits a term
+//!   in `beta1`, see [`linearised`].
 //! * [`Form::Corrected`] — the solutions of the full first-order equations. Their error is of second order.
 //!
-//! The first order is that of `s` and of the tilt of the angular momentum for twofold precession, and that of the ratio
+//! The expansion is to first order in `s` and in the tilt of the angular momentum for twofold precession, and in the ratio
 //! `(s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)` for single precession.
 //!
 //! # Example

@@ -138,11 +138,11 @@ impl<S: Real> Perturbation<S> {
     ///
     /// Errors. Twofold: as printed of first order in `s` and in `A / omega`, corrected of second order; both grow with time.
     /// Single, over one forced period: of first order in `r = (s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)` as printed, of second
-    /// order in `r` corrected; both have an error of first order in `s` besides. `r` is the size of `alpha1` and `beta1`.
+    /// order in `r` corrected; both also have an error of first order in `s`. `r` is the size of `alpha1` and `beta1`.
     ///
     /// # Errors
     /// [`Error::Domain`] where `sin beta_0` or (twofold) `cos beta_0` is not above 2.2e-16 in size, where the spin is zero,
-    /// and where `a` vanishes, by which Eq. (33) divides.
+    /// and where `a`, by which Eq. (33) divides, vanishes.
     pub fn new(
         form: Form,
         kind: Precession,
@@ -155,7 +155,7 @@ impl<S: Real> Perturbation<S> {
         Self::new_unchecked(form, kind, spheroid, s, spin, constants).with_nonzero_rate(spheroid, s, spin)
     }
 
-    /// Refuses a rate `a` that vanishes, if only up to the rounding of the terms of Eqs. (31) and (32).
+    /// Refuses a rate `a` that vanishes up to the rounding of the terms of Eqs. (31) and (32).
     fn with_nonzero_rate(
         self,
         spheroid: &RigidSpheroid<S>,
@@ -189,7 +189,7 @@ pub struct ShiftedRates<S> {
 /// Shifted rates `a' ~ a`, `g' ~ -epsilon Omega^z + cos(beta_0) a^(1)` of twofold precession, Eq. (57) `[tpconstant]`.
 ///
 /// # Errors
-/// [`Error::Domain`] as for [`Perturbation::new`], the vanishing rate excepted.
+/// [`Error::Domain`] as for [`Perturbation::new`], except that the rate may vanish.
 pub fn shifted_rates<S: Real>(
     spheroid: &RigidSpheroid<S>,
     s: &PrincipalCoefficients<S>,

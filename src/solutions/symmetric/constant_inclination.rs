@@ -1,9 +1,9 @@
-//! Steady precession and the first-order motion about it, which carries its derivatives. Eq. (26).
+//! Steady precession and the first-order motion about it, which contains its derivatives. Eq. (26).
 
 use crate::euler_angles::{EulerAngles, EulerRates};
 use crate::numerics::scalar::Real;
 
-/// Constant inclination. The terms beside the rates are zero up to rounding; they carry the first derivatives.
+/// Constant inclination. The terms in addition to the rates are zero up to rounding; they carry the first derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Steady<S> {
     pub(super) rates: EulerRates<S>,
@@ -15,7 +15,7 @@ pub(super) struct Steady<S> {
 }
 
 impl<S: Real> Steady<S> {
-    /// Slope of `alpha'` by `u` at constant `b` and `omega`.
+    /// Slope of `alpha'` with respect to `u` at constant `b` and `omega`.
     pub(super) fn slope_of_alpha(&self, omega: S) -> S {
         (self.cos * self.rates.alpha * 2.0 - omega) / (self.sin * self.sin)
     }

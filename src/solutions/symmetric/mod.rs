@@ -1,6 +1,6 @@
 //! The exact motion when `s^IJ` is symmetric about Z, `s^XX = s^YY`: every inclination, spin and time, in elliptic functions.
 //!
-//! Besides `Omega^z` the component `L_Z` of the angular momentum is conserved then, and Eq. (25) `[eleq]` is solved by
+//! Besides `Omega^z` the component `L_Z` of the angular momentum is then conserved, and Eq. (25) `[eleq]` is solved by
 //! quadratures. With `u = cos beta`, `omega = I^zz Omega^z / I^xx`, `b = L_Z / I^xx` and `k = 2 C (s^ZZ - s^XX) / I^xx`,
 //!
 //! ```text
@@ -9,8 +9,8 @@
 //! ```
 //!
 //! where the bracket is `(dn/dt)^2`. `P` is a quartic, so that `u` is an elliptic function and the angles are elliptic
-//! integrals of the third kind. The steady precession of Eq. (26) `[sol1]` is the double root, free precession `k = 0`; both
-//! kinds of precession and all between are covered, oscillations through the equator too.
+//! integrals of the third kind. The steady precession of Eq. (26) `[sol1]` is the double root, free precession is `k = 0`;
+//! both kinds of precession and all intermediate cases are covered, also oscillations through the equator.
 //!
 //! # Example
 //!
@@ -49,11 +49,11 @@ use crate::numerics::scalar::Real;
 
 /// The motion through given initial angles and rates at `t = 0`, ready to be evaluated at any time.
 ///
-/// Error of the angles: about `2e-16 (1 + rate |t|)`, and what the rounding of the initial values grows to, which near a
-/// separatrix is much. Near a pole `alpha` and `gamma` separately have that error over `sin beta`, the orientation has not.
-/// Derivatives by initial values, parameters and time come with dual numbers; by initial values and parameters of a steady
-/// precession, the first ones only. They are derivatives within `s^XX = s^YY`: of `s^XX` and `s^YY` only their common change counts, as
-/// that of `s^XX`, and what `s^YY` carries besides is dropped.
+/// Error of the angles: about `2e-16 (1 + rate |t|)`, plus the growth of the rounding of the initial values, which is large near a
+/// separatrix. Near a pole `alpha` and `gamma` separately have that error divided by `sin beta`, but the orientation does not.
+/// Derivatives with respect to initial values, parameters and time are obtained with dual numbers; for a steady precession those with
+/// respect to initial values and parameters are limited to first order. They are derivatives within `s^XX = s^YY`: only the common
+/// change of `s^XX` and `s^YY` counts, as that of `s^XX`, and any other derivative of `s^YY` is ignored.
 #[derive(Debug, Clone, Copy)]
 pub struct SymmetricSolution<S> {
     initial: EulerAngles<S>,
@@ -72,8 +72,8 @@ impl<S: Real> SymmetricSolution<S> {
     /// The motion of `spheroid` through the Euler angles and rates at `t = 0`, with `Omega^z = a' cos b + g'`.
     ///
     /// # Errors
-    /// [`Error::Domain`] unless `s^XX = s^YY`; where `sin beta` is not above 2.2e-16 at `t = 0`; and on the separatrix, where
-    /// the motion approaches an unstable steady precession, or for an axis at rest without a restoring force.
+    /// [`Error::Domain`] unless `s^XX = s^YY`; where `sin beta` is not above 2.2e-16 at `t = 0`; on the separatrix, where the
+    /// motion approaches an unstable steady precession; and for an axis at rest without a restoring force.
     pub fn new(
         spheroid: &RigidSpheroid<S>,
         s: &PrincipalCoefficients<S>,
@@ -125,7 +125,7 @@ impl<S: Real> SymmetricSolution<S> {
         Ok(Self { initial: *angles, spin, omega, motion })
     }
 
-    /// By how much the turning points of the inclination magnify roundings, at least 1.
+    /// Factor, at least 1, by which the turning points of the inclination amplify rounding.
     pub(crate) fn condition(&self) -> f64 {
         match &self.motion {
             Motion::Steady(_) => 1.0,
@@ -135,8 +135,8 @@ impl<S: Real> SymmetricSolution<S> {
 
     /// Euler angles at time `t`, `beta` in [0, pi], `alpha` and `gamma` continuous in `t`.
     ///
-    /// In a motion through a pole itself `alpha` jumps by half a turn there, and `gamma` with it so that the body does not;
-    /// on the pole their derivatives (duals) do not exist and are not finite.
+    /// In a motion through a pole itself `alpha` jumps by half a turn there, and `gamma` with it so that the orientation is
+    /// continuous; at the pole their derivatives (duals) do not exist and are not finite.
     pub fn angles(&self, t: S) -> EulerAngles<S> {
         let (initial, free_turn) = (&self.initial, (self.spin - self.omega) * t);
         match &self.motion {
@@ -213,7 +213,7 @@ mod tests {
 
     const ALPHA_RATE: f64 = 0.6;
 
-    /// By Eq. (26), `omega = (alpha'^2 + k) cos beta / alpha'`, and what is added to the rates.
+    /// From Eq. (26), `omega = (alpha'^2 + k) cos beta / alpha'`, with additions to the rates.
     fn precession<S: Real>(more_alpha: S, more_beta: f64) -> SymmetricSolution<S> {
         let [inertia_xx, inertia_zz, constant_c] = [1.3, 1.5, 0.8];
         let (beta, s) = (0.7_f64, [0.05, 0.05, -0.1]);
@@ -242,12 +242,13 @@ mod tests {
         let (Motion::Steady(_), Motion::Nutating(_)) = (steady.motion, nutating.motion) else { panic!("not both") };
         assert_relative_eq!(steady.period(), nutating.period(), max_relative = 1e-8);
         assert!(nutating.period() > 7.0);
-        // Nothing is magnified where there are no turning points.
+        // Without turning points nothing is amplified.
         assert_eq!(steady.condition(), 1.0);
         assert!(nutating.condition() > 1.0);
     }
 
-    /// A rate of the inclination counts as none where its square is rounding: where `beta'^2 sin^2 beta |P''| / 2` is the square of what `P'` rounds.
+    /// A rate of the inclination counts as zero if its square is rounding: if `beta'^2 sin^2 beta |P''| / 2` is below the square of the rounding of
+    /// `P'`.
     #[test]
     fn steady_precession_ends_where_the_inclination_turns_round() {
         let Motion::Steady(Steady { frequency, sin, cos, .. }) = precession(0.0, 0.0).motion else { panic!("steady") };
@@ -256,7 +257,7 @@ mod tests {
         let turn = ALPHA_RATE * sin;
         let slope = 2.0 * cos * turn * turn + (2.0 * k * cos * sin * sin).abs() + 2.0 * omega * turn * sin;
         let rate = 8.0 * f64::EPSILON * slope / frequency / sin;
-        // So that a product with its square is none with its inverse.
+        // So that a factor of its square differs from a factor of its inverse.
         assert!(frequency < 0.9, "{frequency}");
         for sign in [1.0, -1.0] {
             assert!(matches!(precession(0.0, 0.99 * sign * rate).motion, Motion::Steady(_)));
@@ -264,7 +265,7 @@ mod tests {
         }
     }
 
-    /// Those at which the inclination turns round: half a period apart.
+    /// The inclinations of the turning points are half a period apart.
     #[test]
     fn inclinations_are_those_of_the_turning_points() {
         for more in [0.2, -0.2] {
@@ -277,7 +278,7 @@ mod tests {
         }
     }
 
-    /// By the initial rate, against differences of motions on both sides that nutate.
+    /// With respect to the initial rate, compared with central differences of nutating motions.
     #[test]
     fn mean_rates_of_a_steady_precession_have_their_derivatives() {
         let found = precession(Dual64::from(0.0).derivative(), 0.0).mean_rates();

@@ -21,7 +21,7 @@ pub(super) struct Nutating<S> {
     /// Integrals at `t = 0`.
     pub(super) north_start: S,
     pub(super) south_start: S,
-    /// By how much roundings are magnified: in the turning points, and beside the poles.
+    /// Factor by which rounding is amplified: in the turning points, and near the poles.
     pub(super) condition: f64,
 }
 
@@ -37,14 +37,14 @@ impl<S: Real> Nutating<S> {
         let (sin, _) = angles.beta.sin_cos();
         let oscillation = Oscillation::new(&points, -(sin * rates.beta))?;
         let (north_constant, south_constant) = ((g - omega * north) * 0.5, (g + omega * south) * 0.5);
-        // (1 - low)(1 - high) Q(1) = (b - omega)^2 gives a distance from the pole that a difference would lose, unless it
-        // loses more itself: where the body hardly turns, `g` and `omega` are small and may cancel.
+        // (1 - low)(1 - high) Q(1) = (b - omega)^2 gives a distance from the pole to digits that a difference would lose,
+        // unless it loses more itself: if the body hardly rotates, `g` and `omega` are small and may cancel.
         let near_a_pole = |difference: S, from_here: S, constant: S, far: S, pole: S| {
             let quotient = points.quotient(pole, pole);
             let lost = from_here.re() / difference.re();
             let turning = (g.re().abs() + (omega * from_here).re().abs()) / (constant.re() * 2.0).abs();
             let product = 2.0 * turning + points.lost_at(pole);
-            // What is not a number is not less: at the pole itself the product is zero, and exact.
+            // A comparison with NaN is false: at the pole itself the product is zero, and exact.
             if difference.re() > 0.0 && (lost <= product || product.is_nan()) {
                 (difference, lost)
             } else {
@@ -59,7 +59,7 @@ impl<S: Real> Nutating<S> {
         let start = oscillation.place(S::zero());
         let north_start = oscillation.integral(&north_term, Pole::North, &start, S::zero());
         let south_start = oscillation.integral(&south_term, Pole::South, &start, S::zero());
-        // Angles of a state beside a pole are rounded by its distance, and a passage carries that on.
+        // The rounding of the angles of a state near a pole is divided by its distance, and a passage carries it along.
         let sine = |distance: S| (distance.re() * (2.0 - distance.re())).abs().sqrt();
         let least_sine = sine(north_near).min(sine(south_near));
         let period = oscillation.half_period.re();

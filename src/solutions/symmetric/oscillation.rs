@@ -7,10 +7,10 @@
 //! v = (low D2 + high x) / (x + D2)   makes   x'^2 = 4 x (x^2 + 2 M x + H^2),
 //! ```
 //!
-//! so `x` is a Weierstrass function less one of its values `e_i`, infinite when `v = high` and zero when `v = low`. The other
-//! two zeros are real or conjugate, and enter by `M` and `H` only: nothing changes where they meet, as they do when the
-//! Lorentz violation vanishes. `x -> H^2 / x` exchanges the two turning points, and time is counted from the nearer one, so
-//! that no root loses digits. `x = (xi / eta)^2` keeps both ends finite.
+//! so `x` is a Weierstrass function minus one of its values `e_i`, infinite when `v = high` and zero when `v = low`. The
+//! other two zeros are real or complex conjugate, and enter only through `M` and `H`: nothing changes where they meet, as
+//! they do when the Lorentz violation vanishes. `x -> H^2 / x` exchanges the two turning points, and time is counted from the
+//! nearer one, so that no root loses digits. `x = (xi / eta)^2` keeps both ends finite.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -43,12 +43,12 @@ pub(super) struct Oscillation<S> {
     since_low: S,
 }
 
-/// Where the motion is at one time.
+/// The point of the motion at one time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place<S> {
     from_high: Side<S>,
     from_low: Side<S>,
-    /// Shares of `low` and `high` in `v`: they are positive and add up to one.
+    /// Weights of `low` and `high` in `v`: they are positive and sum to one.
     pub(super) shares: (S, S),
     /// Rate of `v`.
     pub(super) rate: S,
@@ -62,10 +62,10 @@ struct Side<S> {
     eta: S,
 }
 
-/// `int dt / (1 -+ u)` times a constant, by the turning point away from the pole in question.
+/// `int dt / (1 -+ u)` times a constant, expressed with the turning point away from the pole in question.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PoleTerm<S> {
-    /// Coefficient of the time.
+    /// Coefficient of the linear term in time.
     rate: S,
     /// Coefficient of `int dt / (x + delta)`.
     amplitude: S,
@@ -185,7 +185,7 @@ impl<S: Real> Oscillation<S> {
         (-(self.root_of_product * w) * sign, S::from_f64(sign))
     }
 
-    /// The term `int constant dt / distance` for a `distance` from a pole that is `far` at the turning point away from it
+    /// The term `int constant dt / distance`, where the `distance` from a pole is `far` at the turning point away from it
     /// and `near` at the other.
     pub(super) fn pole_term(&self, constant: S, pole: Pole, far: S, near: S) -> PoleTerm<S> {
         let d = match pole {
@@ -195,7 +195,7 @@ impl<S: Real> Oscillation<S> {
         let delta = d * near / far;
         let amplitude = constant * (self.high - self.low) * d / (far * far);
         let over_half_period = if near.re() == 0.0 {
-            // Through the pole itself: half a turn at each passage, of which either sense is right.
+            // Through the pole itself: half a turn at each passage, where either sense is valid.
             S::from_f64(FRAC_PI_2.copysign(constant.re()))
         } else {
             amplitude * rj_of_roots(S::zero(), (self.sum * 2.0).sqrt(), self.root_of_product, delta) / 3.0
@@ -203,7 +203,7 @@ impl<S: Real> Oscillation<S> {
         PoleTerm { rate: constant / far, amplitude, delta, over_half_period }
     }
 
-    /// The term's integral from the nearest passage before `t = 0` (whatever constant that leaves) to the `place` at `t`.
+    /// The term's integral from the nearest passage before `t = 0` (up to a constant) to the `place` at `t`.
     pub(super) fn integral(&self, term: &PoleTerm<S>, pole: Pole, place: &Place<S>, t: S) -> S {
         let side = match pole {
             Pole::North => place.from_low,
@@ -212,7 +212,7 @@ impl<S: Real> Oscillation<S> {
         let (sum, product) = self.roots_of_pair(side.xi, side.eta);
         let p = side.xi * side.xi + term.delta * side.eta * side.eta;
         if p.re() == 0.0 {
-            // On the pole, where the sense of the half turn is open.
+            // At the pole, where the sense of the half turn is arbitrary.
             return term.rate * t + term.over_half_period * (2.0 * side.periods);
         }
         let part = side.eta * side.eta * side.eta * rj_of_roots(side.xi, sum, product, p) / 3.0;
@@ -260,7 +260,7 @@ mod tests {
         }
     }
 
-    /// Beside the pole and through it, where the square of the constant is out of range.
+    /// Near the pole and through it, where the square of the constant is out of range.
     #[test]
     fn through_a_pole_there_is_half_a_turn_in_the_sense_of_the_constant() {
         let motion = oscillation(0.5, 0.7);

@@ -1,4 +1,4 @@
-//! The quartic that drives the inclination, its turning points and its quotient by them.
+//! The quartic that governs the inclination, its turning points and its quotient by them.
 
 use crate::numerics::polynomial::first_root;
 use crate::numerics::scalar::Real;
@@ -11,7 +11,7 @@ use crate::numerics::scalar::Real;
 /// B(v) = -(2 u0 + v) (w2 + k sin^2 b) + omega (2 g - omega v),    sin^2 b = (1 - u0 - v) (1 + u0 + v).
 /// ```
 ///
-/// Far from `u0` the powers of `v` cancel and this does not.
+/// Far from `u0` the powers of `v` cancel, but this form does not.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct InclinationQuartic<S> {
     pub(super) coefficients: [S; 5],
@@ -35,7 +35,7 @@ pub(super) struct TurningPoints<S> {
     /// `Q(low)` and `Q(high)`.
     pub(super) at_low: S,
     pub(super) at_high: S,
-    /// Sum of the magnitudes of the terms of each over their sum, the larger one: by how much they lose roundings.
+    /// Sum of the magnitudes of the terms of each, divided by their sum, the larger one: the loss by rounding.
     pub(super) condition: f64,
 }
 
@@ -58,7 +58,7 @@ impl<S: Real> InclinationQuartic<S> {
         let q2 = -p4;
         let q1 = sum * q2 - p3;
         let deflated = sum * q1 - product * q2 - p2;
-        // Where the axis lingers near its start, the initial rate alone tells how slowly: P(0) = -low high q0.
+        // If the axis lingers near its start, only the initial rate determines how slowly: P(0) = -low high q0.
         let cancels = deflated.re().abs() < 0.1 * ((sum * q1).re().abs() + (product * q2).re().abs() + p2.re().abs());
         let q0 = if cancels && p[0] > 0.0 { -(p0 / product) } else { deflated };
         let mut points = TurningPoints { low, high, quotient: [q0, q1, q2], at_low: q0, at_high: q0, condition: 1.0 };
@@ -69,13 +69,13 @@ impl<S: Real> InclinationQuartic<S> {
     }
 
     /// `Q` at a turning point, from its coefficients or as `P'(low) / (high - low)`, `-P'(high) / (high - low)`, whichever cancels
-    /// less; and the sum of magnitudes over the sum.
+    /// less; and the sum of magnitudes divided by the sum.
     fn quotient_at(&self, points: &TurningPoints<S>, v: S, other: S) -> (S, f64) {
         let (of_powers, powers) = (points.quotient(v, v), points.lost_at(v));
         let (_, slope, terms) = self.value_and_slope(v);
         let of_slope = slope / (other - v);
         let slopes = terms / slope.re().abs();
-        // One that is not a number is not taken.
+        // A NaN is not used.
         if slopes < powers { (of_slope, slopes) } else { (of_powers, powers) }
     }
 
@@ -95,7 +95,7 @@ impl<S: Real> InclinationQuartic<S> {
         (self.coefficients[0] + v * terms, terms + v * terms_slope, sum)
     }
 
-    /// Newton steps: each doubles the number of orders of derivatives that are right.
+    /// Newton steps: each doubles the order to which the derivatives are correct.
     fn polished(&self, root: f64) -> S {
         let mut v = S::from_f64(root);
         for _ in 0..3 {
@@ -113,7 +113,7 @@ impl<S: Real> TurningPoints<S> {
         q0 * q2 * 4.0 - q1 * q1
     }
 
-    /// Sum of the magnitudes of the terms of `Q(v)` over its own.
+    /// Sum of the magnitudes of the terms of `Q(v)` divided by `Q(v)`.
     pub(super) fn lost_at(&self, v: S) -> f64 {
         let [q0, q1, q2] = self.quotient;
         let terms = [q0, q1 * v, q2 * v * v];
@@ -133,8 +133,8 @@ mod tests {
 
     use super::*;
 
-    /// Beside an unstable steady precession, with a small rate: `P(0) = -low high q0`, of which the powers of the turning points know
-    /// half the digits.
+    /// Near an unstable steady precession, with a small rate: `P(0) = -low high q0`, of which the powers of the turning points give
+    /// only half of the digits.
     #[test]
     fn where_the_axis_lingers_the_quotient_has_the_digits_of_the_rate() {
         let (cos, omega, k) = (0.1, 0.5, -2.0_f64);

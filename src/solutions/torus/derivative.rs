@@ -1,4 +1,4 @@
-//! Derivatives of the exact motion by a parameter, at a cost that does not depend on time.
+//! Derivatives of the exact motion with respect to a parameter, at a cost that does not depend on time.
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
@@ -12,39 +12,43 @@ use crate::error::Error;
 use crate::numerics::angle::about;
 use crate::numerics::scalar::Scalar;
 
-/// What rounding leaves of derivatives that do not grow on the way, where the torus is as wide as it can be: that of some ten steps of the flow, and of their sum.
+/// Rounding of derivatives that do not grow along the flow, for a torus of the largest width: that of some ten steps of the flow, and of their sum.
 const ROUNDING: f64 = 3e-14;
 
-/// Parts of a closed way at whose ends the growth of a change is sampled.
+/// Number of parts of a closed orbit at whose ends the growth of a change is sampled.
 const LOOKS: usize = 16;
 
 /// The exact motion as a function of one parameter: the states of a [`TorusSolution`] with their derivatives.
 ///
-/// After `m_1` and `m_2` whole turns of the angles of the torus less than one cell of its closed ways `(t_i, k_i)` is left of the time `t`:
+/// After subtracting `m_1` and `m_2` whole turns of the angles of the torus, the rest of the time `t` is less than one cell of the lattice
+/// of its periods `(t_i, k_i)`:
 ///
 /// ```text
 /// (n, L)(t) = flow of the start by (t, 0) - m_1 (t_1, k_1) - m_2 (t_2, k_2)
 /// e_x(t)    = the vector that this flow carries, turned about n by m_1 psi_1 + m_2 psi_2 - epsilon Omega^z t
 /// ```
 ///
-/// The flow, its times and the turn are functions of the parameter, the whole numbers are not. A closed way leads back to the start, whatever the parameter is: that
-/// gives the derivatives of `t_i`, `k_i` and `psi_i`, by one flow along each way. Times are in the unit of time of the problem. See `docs/exact-motion.md`.
+/// The flow, its times and the rotation angle are functions of the parameter, the integers are not. A closed orbit returns to the start for any value
+/// of the parameter, which determines the derivatives of `t_i`, `k_i` and `psi_i`, by one flow along each orbit. Times are in the unit of time of the
+/// problem. See `docs/exact-motion.md`.
 #[derive(Debug, Clone)]
 pub struct TorusDerivative<'a> {
     solution: &'a TorusSolution,
     integrals: Integrals<Dual64>,
     start: Axes<Dual64>,
     periods: [[Dual64; 2]; 2],
-    /// Derivatives of the turns along both closed ways, and of the rate of `e_x` about `n` against the vector that the flow of `H` carries.
+    /// Derivatives of the rotation angles along both closed orbits, and of the rate of `e_x` about `n` relative to the vector that the flow
+    /// of `H` carries.
     turns: [f64; 2],
     spin: f64,
 }
 
 impl<'a> TorusDerivative<'a> {
-    /// For the solution of a problem, and the same problem as a function of one parameter.
+    /// The derivatives for the solution of a problem, given the same problem as a function of one parameter.
     ///
     /// # Errors
-    /// [`Error::NotConverged`] for a torus so thin that its flows hardly lead apart, as in steady motion: its neighbours have another number of frequencies. Also where a closed way is not finite.
+    /// [`Error::NotConverged`] for a torus so thin that its two flows are nearly parallel, as in steady motion, whose neighbours have a different
+    /// number of frequencies. Also if a closed orbit is not finite.
     pub fn new(solution: &'a TorusSolution, problem: &Problem<Dual64>) -> Result<Self, Error> {
         let refused =
             |what, residual| -> Result<Self, Error> { Err(Error::NotConverged { what, iterations: 1, residual }) };
@@ -87,7 +91,7 @@ impl<'a> TorusDerivative<'a> {
         Ok(found)
     }
 
-    /// How much a change of the start grows along the closed ways: beside an instability, such as near the separatrix, rounding does so too.
+    /// Growth of a change of the start along the closed orbits: near an instability, such as the separatrix, rounding grows by as much.
     fn growth(&self) -> f64 {
         let size = |at: &Axes<Dual64>| joined(at, self.solution.unit, derivative).norm();
         let along = |way: &[Dual64; 2]| {
@@ -98,7 +102,7 @@ impl<'a> TorusDerivative<'a> {
         self.periods.iter().map(along).fold(0.0, f64::max) / size(&self.start)
     }
 
-    /// The state at the time `t[0] + t[1]` since the start, with its derivative: values are those of the solution.
+    /// The state at the time `t[0] + t[1]` since the start, with its derivative; the values are those of the solution.
     pub fn state(&self, t: [f64; 2]) -> BodyState<Dual64> {
         let mut times = [Dual64::from_re(0.0); 2];
         let mut turn = Dual64::new(0.0, self.spin * (t[0] + t[1]));
@@ -125,21 +129,22 @@ impl<'a> TorusDerivative<'a> {
     }
 }
 
-/// Estimated error of derivatives ([`TorusDerivative`]) by any number of a problem, in units of the largest one by the same number:
+/// Estimated error of derivatives ([`TorusDerivative`]) with respect to any number of a problem, in units of the largest derivative
+/// with respect to the same number:
 ///
 /// ```text
 /// 3e-14 g / w
 /// ```
 ///
-/// `w` is the width of the torus, the least singular value of the rates of `(n, L)` along both flows over the rate at which the body turns; `g` is how much an arbitrary change of the start grows
-/// along the closed ways. See `docs/exact-motion.md`.
+/// `w` is the width of the torus, the smallest singular value of the rates of `(n, L)` along both flows divided by the rotation rate of the body; `g`
+/// is the growth of an arbitrary change of the start along the closed orbits. See `docs/exact-motion.md`.
 ///
 /// # Errors
 /// As for [`TorusDerivative::new`].
 pub fn error_of_derivatives(solution: &TorusSolution, problem: &Problem<f64>) -> Result<f64, Error> {
     let [axis, momentum, equatorial_axis] = problem.initial().vectors();
     let changed = |v: &Vector3<f64>, by: Vector3<f64>| v.zip_map(&by, Dual64::new);
-    // In axes of the body, so that a turn of everything leaves the estimate as it is.
+    // In body axes, so that a rotation of everything leaves the estimate unchanged.
     let across = axis.cross(&equatorial_axis);
     let turn = equatorial_axis * 0.6 + across * 0.8;
     let start = BodyState {
@@ -167,7 +172,8 @@ mod tests {
         state.vectors().map(|v| v.map(|x| x.eps))
     }
 
-    /// Also with two equal or nearly equal eigenvalues, whose axes turn with any change, and where the frame of `s` turns by 1e7 rad for a change by one.
+    /// Also with two equal or nearly equal eigenvalues, whose axes rotate with any change, and where the frame of `s` rotates by 1e7 rad per unit
+    /// change.
     #[test]
     fn derivatives_are_those_of_the_series_in_time() {
         for s in [[0.02, 0.01, -0.03], [0.2, 0.2, -0.4], [0.2, 0.2 + 1e-11, -0.4], [2e-7, 1e-7, -3e-7]] {
@@ -194,7 +200,7 @@ mod tests {
         }
     }
 
-    /// A turn of everything about Z turns every state, after any time.
+    /// A rotation of everything about Z rotates every state, after any time.
     #[test]
     fn a_turn_of_everything_turns_the_state() {
         let start = Parameters::new(STAR, tensor([0.1, 0.1, -0.2]), ANGLES, RATES);
@@ -202,12 +208,12 @@ mod tests {
         let problem = start.seeded(Parameter::Alpha).problem().unwrap();
         let state = TorusDerivative::new(&solution, &problem).unwrap().state([1e9, 0.1]);
         for (found, v) in derivatives(&state).iter().zip(solution.state([1e9, 0.1]).vectors()) {
-            // Rounding in the derivative of a closed way, by the number of ways.
+            // Rounding in the derivative of a closed orbit, times the number of orbits.
             assert!((found - Vector3::z().cross(&v)).amax() < 1e-15 * 1e9, "{found} {v}");
         }
     }
 
-    /// A steady precession has a series, on a circle, and no derivatives.
+    /// A steady precession has a series, on a circle, but no derivatives.
     #[test]
     fn a_steady_precession_has_no_torus_of_its_neighbours() {
         for (spin, beta) in [(1.5, ANGLES.beta), (1.1, 0.3), (2.7, 1.2), (-1.9, 2.2), (6.0, 0.9), (0.7, 2.9)] {
@@ -221,7 +227,8 @@ mod tests {
         }
     }
 
-    /// Beside principal axes and separatrices, where derivatives lose digits, by any change of the star, of `s` and of the start: against Taylor series.
+    /// Near principal axes and separatrices, where derivatives lose digits, for any change of the star, of `s` and of the start: compared with Taylor
+    /// series.
     #[test]
     fn derivatives_are_as_exact_as_told() {
         let (mut random, mut judged) = (ChaCha8Rng::seed_from_u64(7), 0);

@@ -8,17 +8,19 @@ use crate::dynamics::RigidSpheroid;
 use crate::dynamics::first_integrals::symmetric_adjugate;
 use crate::numerics::scalar::{Real, cast};
 
-/// Most steps of a way; once round a torus takes some ten.
+/// Maximum number of steps of a path; a full circuit of a torus takes some ten.
 const MOST_STEPS: usize = 300;
 
-/// `n`, `L` and a vector `u` of the body, which turns with the part of the angular velocity across `n` that the flow gives.
+/// `n`, `L` and a vector `u` of the body, which rotates with the part of the angular velocity across `n` that the flow
+/// determines.
 pub(super) type Axes<S> = [Vector3<S>; 3];
 
-/// `H = L.L / (2 I^xx) + C n.(s n)` and `K / (I^xx D)`, `D` the spread of the principal values. Both with the middle principal value taken off, which adds a multiple of `H` to `K`: so where `L` is
-/// near the axis of that value, the flow of `K` is as slow as the motion of `L`. Values are diagonal; derivatives need not be.
+/// `H = L.L / (2 I^xx) + C n.(s n)` and `K / (I^xx D)`, `D` the spread of the principal values. The middle principal value is subtracted in both,
+/// which adds a multiple of `H` to `K`. As a result, where `L` is near the axis of that value, the flow of `K` is as slow as the motion of `L`. The
+/// values are diagonal; derivatives need not be.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Integrals<S> {
-    /// Slopes of both by `L`, over `L`, and by `n`, over `n`.
+    /// Slopes of both with respect to `L`, over `L`, and with respect to `n`, over `n`.
     by_momentum: [Matrix3<S>; 2],
     by_axis: [Matrix3<S>; 2],
     precision: Precision,
@@ -43,7 +45,7 @@ impl<S: FlowScalar> Integrals<S> {
         Self { precision, ..self }
     }
 
-    /// What counts as zero of a distance.
+    /// Distance that counts as zero.
     pub(super) fn rounding(&self) -> f64 {
         self.precision.rounding
     }
@@ -70,18 +72,18 @@ impl<S: FlowScalar> Integrals<S> {
         [[S::one(), S::zero()], [S::zero(), S::one()]].map(|unit| self.rates(unit, at))
     }
 
-    /// Angular velocities along the flows of `H` and of `K`, without that about `n` which they do not give.
+    /// Angular velocities along the flows of `H` and of `K`, without the component about `n`, which they do not determine.
     pub(super) fn turning_rates(&self, [_, momentum, _]: &Axes<S>) -> [Vector3<S>; 2] {
         self.by_momentum.map(|m| times_vector(&m, momentum))
     }
 
-    /// The flow of `t H + k K` as a series about a point of it.
+    /// The flow of `t H + k K` as a series about one of its points.
     pub(super) fn series(&self, times: [S; 2], start: &Axes<S>) -> FlowSeries<S> {
         FlowSeries::new(&self.of(times), start, self.precision)
     }
 
-    /// The flow of `t H + k K` for the time one: `H` for the time `t` and `K` for `k`, in any order, since they commute. Not a number where that takes
-    /// more than [`MOST_STEPS`].
+    /// The flow of `t H + k K` for unit time: `H` for the time `t` and `K` for `k`, in any order, since they commute. NaN if it takes more than
+    /// [`MOST_STEPS`].
     pub(super) fn moved(&self, times: [S; 2], start: &Axes<S>) -> Axes<S> {
         let (mut axes, mut lost, mut left) = (*start, [Vector3::zeros(); 3], 1.0);
         let mut steps = 0;
@@ -95,7 +97,7 @@ impl<S: FlowScalar> Integrals<S> {
             left -= step;
             let change = series.change(step);
             for (i, axis) in axes.iter_mut().enumerate() {
-                // What rounding takes from the sum goes into the next one.
+                // The rounding error of the sum is added to the next one.
                 let change = change[i] + lost[i];
                 let moved = *axis + change;
                 lost[i] = change - (moved - *axis);
@@ -106,7 +108,7 @@ impl<S: FlowScalar> Integrals<S> {
     }
 }
 
-/// The product of a vector with a matrix of which values are diagonal.
+/// The product of a vector with a matrix whose values are diagonal.
 fn times_vector<S: Real>(matrix: &Matrix3<S>, v: &Vector3<S>) -> Vector3<S> {
     if S::HAS_DERIVATIVES { matrix * v } else { matrix.diagonal().component_mul(v) }
 }
@@ -128,7 +130,7 @@ pub(super) fn apart<S: Real>(a: &Axes<S>, b: &Axes<S>, unit: f64) -> f64 {
     n.max(momentum / unit)
 }
 
-/// The derivative of a dual number, zero of others.
+/// The derivative of a dual number, zero for other numbers.
 pub(super) fn derivative<S: Real>(x: S) -> f64 {
     cast::<S, Dual64>(x).map_or(0.0, |dual| dual.eps)
 }

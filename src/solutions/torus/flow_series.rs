@@ -10,22 +10,22 @@ use crate::numerics::fused::{Fused, detect_fused, run_fused};
 use crate::numerics::pairs::Pairs;
 use crate::numerics::scalar::{Real, length};
 
-/// Steps are whole multiples of one over this.
+/// Steps are integer multiples of the inverse of this.
 const STEPS_IN_ONE: f64 = 1_048_576.0;
 
-/// Order of the series, and the size of its last two terms in a step.
+/// Order of the series, and the allowed size of its last two terms in a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Precision {
     order: usize,
     last_terms: f64,
-    /// What counts as zero of a distance.
+    /// Distance that counts as zero.
     pub(super) rounding: f64,
 }
 
-/// For doubles and dual numbers of doubles, of which derivatives are as exact as values: against what they are in the first terms.
+/// For doubles and dual numbers of doubles; derivatives are as accurate as values, relative to their first terms.
 pub(super) const DOUBLE: Precision = Precision { order: 26, last_terms: 1e-17, rounding: 2e-16 };
 
-/// For a first look.
+/// For a preliminary search.
 pub(super) const COARSE: Precision = Precision { order: 14, last_terms: 1e-9, rounding: 2e-16 };
 
 /// For double-double numbers.
@@ -38,7 +38,7 @@ type Terms<S> = [Padded<S>; 3];
 #[derive(Debug, Clone)]
 pub(super) struct FlowSeries<S> {
     terms: Vec<Terms<S>>,
-    /// Parameter up to which the last two terms are small enough.
+    /// Parameter up to which the last two terms are sufficiently small.
     pub(super) step: f64,
 }
 
@@ -77,7 +77,7 @@ impl FlowScalar for Dual64 {
     }
 }
 
-/// What a sum of products of terms takes from one order: both cyclic permutations of each vector.
+/// The quantities of one order that enter a sum of products of terms: both cyclic permutations of each vector.
 #[derive(Clone, Copy)]
 struct Factors<P> {
     n: P,
@@ -92,7 +92,7 @@ struct Factors<P> {
 struct NearlyDiagonal<A: LoadStore> {
     columns: [A::Vector; 3],
     diagonal: A::Vector,
-    /// Differences of the diagonal: `(m v) x v` is those times the products of the other two components of `v`.
+    /// Differences of the diagonal: `(m v) x v` is these times the products of the other two components of `v`.
     differences: A::Vector,
 }
 
@@ -118,7 +118,8 @@ fn cross<A: Arithmetic>(v: A, a: A::Permuted, b: A::Permuted) -> A::Vector {
     v.sub(v.mul(v.yzx(a), v.zxy(b)), v.mul(v.zxy(a), v.yzx(b)))
 }
 
-/// Adds the terms of all orders to the first, by `dn/dx = (a L) x n`, `dL/dx = (a L) x L + (b n) x n`, `du/dx = (a L) x u`.
+/// Adds the terms of all orders to the first, from `dn/dx = (a L) x n`, `dL/dx = (a L) x L + (b n) x n`,
+/// `du/dx = (a L) x u`.
 #[inline(always)]
 fn add_terms<A: LoadStore>(v: A, [a, b]: &[Matrix3<A::Scalar>; 2], order: usize, terms: &mut Vec<Terms<A::Scalar>>) {
     let has_derivatives = A::Scalar::HAS_DERIVATIVES;
@@ -157,7 +158,7 @@ fn add_terms<A: LoadStore>(v: A, [a, b]: &[Matrix3<A::Scalar>; 2], order: usize,
 }
 
 impl<S: FlowScalar> FlowSeries<S> {
-    /// About a point, by the coefficients `a` and `b` of the flow.
+    /// The series about a point, from the coefficients `a` and `b` of the flow.
     pub(super) fn new(
         slopes: &[Matrix3<S>; 2],
         start: &Axes<S>,
@@ -178,7 +179,7 @@ impl<S: FlowScalar> FlowSeries<S> {
         series
     }
 
-    /// The parameter up to which the last two terms are small enough.
+    /// The parameter up to which the last two terms are sufficiently small.
     fn longest_step(&self, last_terms: f64) -> f64 {
         let order = self.terms.len() - 1;
         let unit = length(&self.terms[0][1].vector().map(S::re));
@@ -194,11 +195,11 @@ impl<S: FlowScalar> FlowSeries<S> {
         };
         let mut step = least_of_both(last_terms, S::re);
         if S::HAS_DERIVATIVES {
-            // Derivatives may have multiples of the frequencies that values have.
+            // Derivatives may contain multiples of the frequencies of the values.
             let first = (0..3).map(|order| size(order, derivative) * step.min(1.0).powi(order as i32));
             step = step.min(least_of_both(last_terms * first.fold(0.0, f64::max), derivative));
         }
-        // Of so few bits that steps add up exactly.
+        // With so few bits that steps add up exactly.
         (step * STEPS_IN_ONE).floor().max(1.0) / STEPS_IN_ONE
     }
 
@@ -207,7 +208,7 @@ impl<S: FlowScalar> FlowSeries<S> {
         self.terms[order].map(|v| v.vector())
     }
 
-    /// What changes up to a parameter.
+    /// The change up to a parameter.
     pub(super) fn change(&self, step: f64) -> Axes<S> {
         let step = S::from_f64(step);
         let mut sum = [Vector3::zeros(); 3];
@@ -268,7 +269,7 @@ mod tests {
         }
     }
 
-    /// Largest of what is left of `dn/dx = (a L) x n`, `dL/dx = (a L) x L + (b n) x n`, `du/dx = (a L) x u`, by differences of fourth order, over `L`.
+    /// Largest residual of `dn/dx = (a L) x n`, `dL/dx = (a L) x L + (b n) x n`, `du/dx = (a L) x u`, by differences of fourth order, over `L`.
     fn left<S: FlowScalar>(slopes: &[Matrix3<S>; 2], start: &Axes<S>, part: fn(S) -> f64) -> f64 {
         let series = FlowSeries::new(slopes, start, DOUBLE);
         let (x, h) = (0.6 * series.step, 1e-3 * series.step);
@@ -290,7 +291,7 @@ mod tests {
         let start = START.map(Vector3::from);
         let found = left(&slopes, &start, Real::re);
         assert!(found < 1e-11, "{found:e}");
-        // Values are diagonal, derivatives are any.
+        // Values are diagonal, derivatives are arbitrary.
         let by_parameter = Matrix3::new(0.3, -0.7, 0.2, -0.7, 0.1, 0.9, 0.2, 0.9, -0.4);
         let changing = |v: f64, by: f64| Dual64::new(v, by);
         let slopes = slopes.map(|m| m.zip_map(&(by_parameter + m * 0.4), changing));
@@ -301,7 +302,8 @@ mod tests {
         }
     }
 
-    /// Size at the step of the sixteen terms after the last, over that of the whole change at the step, at most at one.
+    /// Size at the step of the sixteen terms after the last, divided by that of the whole change at the step (or at one, if
+    /// the step is longer).
     fn left_out<S: FlowScalar>(
         slopes: &[Matrix3<S>; 2],
         start: &Axes<S>,
@@ -321,8 +323,8 @@ mod tests {
         size(order + 1..=order + 16, step) / size(0..=order, step.min(1.0))
     }
 
-    /// The terms after the last fall by a ratio `q`, from one of the size of the last: `q / (1 - q)` of it is left out. At these steps `q` is 0.02 to 0.05: the step is a fraction of that
-    /// at which the series converges, so small that its last term is rounding.
+    /// The terms after the last fall by a ratio `q`, starting from about the size of the last, so `q / (1 - q)` of it is neglected. At these steps
+    /// `q` is 0.02 to 0.05: the step is a fraction of the radius of convergence, so small that its last term is rounding.
     #[test]
     fn steps_are_as_long_as_the_precision_allows() {
         let slopes = SLOPES.map(|m| Matrix3::from_diagonal(&Vector3::from(m).map(DoubleDouble::from)));
@@ -331,7 +333,7 @@ mod tests {
             let found = left_out(&slopes, &start, precision, Real::re) / last_terms;
             assert!((0.02..0.05).contains(&found), "{precision:?}: {found:e}");
         }
-        // Derivatives by slopes and by the start, of any size, over steps below and above one.
+        // Derivatives with respect to slopes and to the start, of any size, over steps below and above one.
         let changing = |v: f64, by: f64| Dual64::new(v, by);
         let by_parameter = Matrix3::new(0.3, -0.7, 0.2, -0.7, 0.1, 0.9, 0.2, 0.9, -0.4);
         for (of_slopes, of_start) in [(1.0, 0.0), (1e3, 0.0), (1e-3, 0.0), (0.0, 1.0), (0.0, 1e-3), (1.0, 1.0)] {

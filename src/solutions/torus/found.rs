@@ -1,4 +1,4 @@
-//! The torus of a motion: a frame in which it has its symmetries, and its closed ways.
+//! The torus of a motion: a frame in which it has its symmetries, and its closed orbits.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -10,19 +10,19 @@ use crate::dynamics::{Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
 
-/// What rounding may leave after a quarter of a turn.
+/// Allowed rounding error after a quarter of a turn.
 const EXACT: f64 = 2e-15;
 
-/// A torus less wide than this is a circle or a point.
+/// A torus narrower than this is treated as a circle or a point.
 pub(super) const THINNEST: f64 = 1e-8;
 
-/// A torus with what it was found from, in a frame in which half a turn about Z takes it to itself.
+/// A torus with the data from which it was found, in a frame in which half a turn about Z maps it to itself.
 #[derive(Debug, Clone)]
 pub(super) struct Torus {
     pub(super) spheroid: RigidSpheroid<f64>,
-    /// Of the eigenvalues of `s`.
+    /// Spread of the eigenvalues of `s`.
     pub(super) spread: f64,
-    /// Unit of `L`: its size at the start, or `(2 I^xx |C| (s_max - s_min))^(1/2)`, which the torque can give it, if that is larger.
+    /// Unit of `L`: its size at the start, or `(2 I^xx |C| (s_max - s_min))^(1/2)`, which the torque can produce, if that is larger.
     pub(super) unit: f64,
     pub(super) initial: Axes<f64>,
     pub(super) ways: ClosedWays<f64>,
@@ -31,10 +31,11 @@ pub(super) struct Torus {
 }
 
 impl Torus {
-    /// The torus of a motion, in a frame with Y the axis of the middle eigenvalue and Z one of the other two about which half a turn takes it to itself.
+    /// The torus of a motion, in a frame with Y along the axis of the middle eigenvalue and Z along one of the other two, about which half a turn
+    /// maps the torus to itself.
     ///
     /// # Errors
-    /// [`Error::Domain`] for isotropic `s`; [`Error::NotConverged`] where the walk over the torus does not find its symmetric states.
+    /// [`Error::Domain`] for isotropic `s`; [`Error::NotConverged`] if the search over the torus does not find its symmetric states.
     pub(super) fn of(problem: &Problem<f64>) -> Result<Self, Error> {
         let frame = principal_frame(problem.coefficients())?.principal_from_given;
         let principal = problem.rotated(&frame);
@@ -48,7 +49,7 @@ impl Torus {
         let (spheroid, initial) = (*problem.spheroid(), principal.initial());
         let pull = (2.0 * spheroid.inertia_xx * spheroid.constant_c.abs() * spread).sqrt();
         let unit = initial.momentum.norm().max(pull);
-        // Where L is fast it goes round the axis on whose side of the separatrix it is.
+        // If L is large it circles the axis on whose side of the separatrix it is.
         let level = values.dot(&initial.momentum.component_mul(&initial.momentum));
         let [x, z] = if level > 0.0 { [low, high] } else { [high, low] };
         let in_frame = |x: usize| {
@@ -70,15 +71,15 @@ impl Torus {
         Ok(Self { spheroid, spread, unit, initial, ways, integrals, from_given: turn * frame })
     }
 
-    /// How far the flows lead apart at the state in the plane: the least singular value of their rates, over the rate at which the body turns. It is zero on a circle, and as small as `n` and `L`
-    /// are near a state that stays.
+    /// Width of the torus at the state in the plane: the smallest singular value of the rates of both flows, divided by the rotation rate of the
+    /// body. It is zero on a circle, and near a stationary state it is as small as the distance of `n` and `L` from that state.
     pub(super) fn width(&self) -> f64 {
         let rates = tangents(&self.integrals.both_rates(&self.ways.plane), self.unit);
         rates.singular_values().min() / (self.unit * self.integrals.inverse_inertia())
     }
 
-    /// States along a quarter of a turn of the second angle, where they are as exact as the flow: the last one must be in the plane `X = 0`. Rounding grows
-    /// near the separatrix.
+    /// States along a quarter of a turn of the second angle, if they are as accurate as the flow: the last one must be in the plane `X = 0`. Rounding
+    /// grows near the separatrix.
     pub(super) fn starts(&self, quarter: usize) -> Option<Vec<Axes<f64>>> {
         let starts = self.ways.starts(&self.integrals, quarter);
         let [n, momentum, _] = starts[quarter];

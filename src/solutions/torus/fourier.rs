@@ -3,15 +3,15 @@
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
-/// What a reflection in the plane does to a function: `f(-theta) = f(theta)` or `-f(theta)`.
+/// The effect of a reflection in the plane on a function: `f(-theta) = f(theta)` or `-f(theta)`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Reflection {
     Even,
     Odd,
 }
 
-/// Values of a function on a grid of the torus: of the first angle all `points`, of the second one those of its first quarter turn, `0..=quarter` of
-/// `4 quarter` points. Symmetry has the others.
+/// Values of a function on a grid of the torus: at all `points` of the first angle, and for the second one at those of its first quarter turn,
+/// `0..=quarter` of `4 quarter` points. The others follow by symmetry.
 #[derive(Debug, Clone)]
 pub(super) struct QuarterGrid {
     pub(super) points: usize,
@@ -37,7 +37,8 @@ impl QuarterGrid {
         for (m, values) in values.iter().enumerate() {
             let mut output: Vec<Complex<f64>> = values.iter().map(Complex::from).collect();
             plan.process(&mut output);
-            // Ends of the quarter count once, other points twice for their mirror images, and all twice for the half turn.
+            // Ends of the quarter count once, other points twice because of their mirror images, and all twice because of
+            // the half turn.
             let weight = if m == 0 || m == quarter { 2.0 } else { 4.0 } / (points * whole) as f64;
             for (j, row) in table.iter_mut().enumerate() {
                 let weight = if j == 0 { weight } else { 2.0 * weight };
@@ -65,7 +66,7 @@ mod tests {
 
     use super::*;
 
-    /// A series summed on the grid comes back.
+    /// A series summed on the grid is recovered.
     #[test]
     fn coefficients_of_a_sum_are_its_own() {
         let grid = QuarterGrid { points: 12, quarter: 4 };

@@ -17,7 +17,7 @@ pub(super) struct Phase {
 }
 
 impl Phase {
-    /// Turns at the time `t[0] + t[1]`, without whole ones.
+    /// Turns at the time `t[0] + t[1]`, without whole turns.
     #[inline(always)]
     pub(super) fn at<F: FourLanes>(&self, t: [f64; 2]) -> f64 {
         let rate = self.rate.high;
@@ -32,7 +32,7 @@ impl Phase {
         turns - turns.round_ties_even()
     }
 
-    /// Whole turns since the start, to the nearest, and the part of a turn beside them.
+    /// Whole turns since the start, to the nearest, and the remaining fraction of a turn.
     pub(super) fn passed(&self, t: [f64; 2]) -> [f64; 2] {
         let part = Self { offset: DoubleDouble::default(), ..*self }.at::<Componentwise<f64>>(t);
         [(self.rate.high * (t[0] + t[1]) - part).round(), part]
@@ -51,12 +51,12 @@ pub(super) fn phases<S: Real + Into<DoubleDouble>>(
     let turns = |[t, k]: [S; 2]| [(t * k2 - k * t2) / determinant, (k * t1 - t * k1) / determinant];
     let [f1, f2] = turns([S::one(), S::zero()]);
     let [a, b] = turns(ways.to_plane.times).map(|turns| -turns);
-    // 2 pi, to the digits of the number.
+    // 2 pi, to the precision of the number type.
     let tau = S::zero().atan2(-S::one()) * 2.0;
     let spin = spheroid.oblateness() * momentum.dot(n) / spheroid.inertia_zz;
     let phase = |rate: S, offset: S| {
         let offset: DoubleDouble = offset.into();
-        // Whole turns, which the way to the plane of a thin torus may have, would take digits of a sum of doubles.
+        // Whole turns, which the path to the plane of a thin torus may contain, would cost digits of a sum of doubles.
         Phase { rate: rate.into(), offset: offset - DoubleDouble::from(offset.high.round_ties_even()) }
     };
     [
@@ -70,7 +70,7 @@ pub(super) fn phases<S: Real + Into<DoubleDouble>>(
 mod tests {
     use super::*;
 
-    /// Half a turn is counted once: in the whole turns or in the part.
+    /// Half a turn is counted once: either in the whole turns or in the fraction.
     #[test]
     fn whole_turns_and_the_part_beside_them_are_all_turns() {
         for (rate, t, turns) in [
@@ -79,7 +79,7 @@ mod tests {
             (0.25, [1e9, 5.0], 2.5e8 + 1.25),
             (-0.5, [7.0, -2.5], -2.25),
         ] {
-            // The offset is that of the angle at the start, not of what has passed.
+            // The offset is the angle at the start, not part of the elapsed turns.
             let phase = Phase { rate: DoubleDouble::from(rate), offset: DoubleDouble::from(0.3) };
             let [whole, part] = phase.passed(t);
             assert_eq!(whole + part, turns);
@@ -87,7 +87,7 @@ mod tests {
         }
     }
 
-    /// Where the product of rate and time is rounded, the turns are whole all the same.
+    /// If the product of rate and time is rounded, the whole turns are still integers.
     #[test]
     fn whole_turns_are_whole_numbers() {
         for k in 0..50 {

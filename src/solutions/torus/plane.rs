@@ -7,17 +7,18 @@ use crate::dynamics::first_integrals::FirstIntegrals;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 
-/// `K` of a state may be off by this times the size of its terms, some `L.L s` and `C I^xx s`: a double root of the quartic is known to half the digits, and
-/// `K` then to all.
+/// Tolerance for `K` of a state, relative to the size of its terms, some `L.L s` and `C I^xx s`: a double root of the quartic is known to half the
+/// digits, and `K` then to all.
 const TOLERANCE: f64 = 1e-13;
 
-/// States whose axes are nearer are one: a double root is known to half the digits.
+/// States with axes closer than this are identical: a double root is known to half the digits.
 const NEAREST: f64 = 1e-6;
 
-/// Farthest that Newton's method goes from a root of the quartic, which is right to half the digits at least: another root is another candidate.
+/// Largest distance that Newton's method may go from a root of the quartic, which is accurate to at least half the digits: another root is
+/// another candidate.
 const FARTHEST: f64 = 1e-3;
 
-/// What is asked of a state.
+/// The required integrals of a state.
 pub(super) struct Wanted {
     constant_c: f64,
     inertia: f64,
@@ -68,12 +69,13 @@ impl Plane {
         BodyState { axis, momentum, equatorial_axis }
     }
 
-    /// `b` after Newton's steps, as long as each takes half of what is left of `K - K_0` or more: at a double root three quarters.
+    /// `b` after Newton steps, as long as each removes at least half of the remainder of `K - K_0`: at a double root it removes
+    /// three quarters.
     fn corrected(&self, start: f64) -> f64 {
         let mut b = start;
         loop {
             let next = b - self.miss(b) / self.slope(b);
-            // Not a number on the edge, where the slope has a pole.
+            // NaN on the edge, where the slope has a pole.
             let helps = self.miss(next).abs() < 0.5 * self.miss(b).abs() && (next - start).abs() < FARTHEST;
             if !helps {
                 return b;
@@ -98,7 +100,7 @@ impl Plane {
         (low <= high).then_some((low, high))
     }
 
-    /// Places where `K = K_0` or may touch it.
+    /// Angles at which `K = K_0` or at which the curve may touch it.
     fn candidates(&self) -> Vec<f64> {
         let Some((low, high)) = self.range().filter(|_| self.half != 0.0) else { return Vec::new() };
         let ([q0, q1, q2], [m0, m1]) = (self.q, self.square);
@@ -112,12 +114,13 @@ impl Plane {
     }
 }
 
-/// Whether two states with the same integrals, one of them at least in a principal plane, are one or images by half turns about the principal axes: these change the
-/// signs of the components of both vectors, two at a time.
+/// Whether two states with the same integrals, at least one of them in a principal plane, are identical or images under half turns about the
+/// principal axes. These change the signs of the components of both vectors, two at a time.
 pub(super) fn is_image(one: &BodyState<f64>, other: &BodyState<f64>) -> bool {
     let size = one.momentum.norm();
     let apart = |a: &Vector3<f64>, b: &Vector3<f64>| (a.abs() - b.abs()).norm();
-    // Of n and L that cross in the plane, K has another value for (n_x, n_z) than for (n_x, -n_z) with L as it is: the products tell.
+    // For n and L that cross in the plane, K has another value for (n_x, n_z) than for (n_x, -n_z) with the same L: the products
+    // distinguish them.
     let turned = one.axis.component_mul(&one.momentum) - other.axis.component_mul(&other.momentum);
     apart(&one.axis, &other.axis) < NEAREST
         && apart(&one.momentum, &other.momentum) < NEAREST * size
@@ -150,7 +153,7 @@ impl Wanted {
         Plane { axes, along, half, square, q }
     }
 
-    /// How far `K` of a state may be off.
+    /// Tolerance for `K` of a state.
     fn tolerance(&self, plane: &Plane, s: &Vector3<f64>) -> f64 {
         let size = plane.square[0].abs() + plane.square[1].abs() + self.constant_c.abs() * self.inertia;
         TOLERANCE * size * s.amax()
@@ -165,7 +168,7 @@ impl Wanted {
         [middle - reach, middle + reach]
     }
 
-    /// States with `n` and `L` in the plane normal to the axis `normal`, but for half turns about the axes.
+    /// States with `n` and `L` in the plane normal to the axis `normal`, up to half turns about the axes.
     pub(super) fn in_plane(&self, s: &Vector3<f64>, normal: usize) -> Vec<BodyState<f64>> {
         let plane = self.plane(s, [(normal + 1) % 3, (normal + 2) % 3]);
         let allowed = self.tolerance(&plane, s);
@@ -182,7 +185,7 @@ impl Wanted {
         states
     }
 
-    /// The state with `n` on the axis `on`, but for half turns about the axes.
+    /// The state with `n` on the axis `on`, up to half turns about the axes.
     pub(super) fn on_axis(&self, s: &Vector3<f64>, on: usize) -> Option<BodyState<f64>> {
         let (i, j) = ((on + 1) % 3, (on + 2) % 3);
         let Self { constant_c: c, inertia, hamiltonian, along: p, third } = *self;
@@ -214,7 +217,7 @@ pub(super) mod tests {
     pub(in crate::solutions::torus) const S: PrincipalCoefficients<f64> =
         PrincipalCoefficients { xx: 0.21, yy: -0.04, zz: 0.09 };
 
-    /// In a plane, `n` at the angle `b`, and what crosses it.
+    /// In a plane, with `n` at the angle `b`, and the component of `L` perpendicular to `n` in it.
     fn in_plane(axes: [usize; 2], b: f64, along: f64, across: f64) -> BodyState<f64> {
         let (mut axis, mut momentum, mut equatorial_axis) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
         let (sin, cos) = b.sin_cos();
@@ -255,7 +258,7 @@ pub(super) mod tests {
         for off in [0.02, -0.02] {
             assert_eq!(plane.corrected(0.3 + off), 0.3 + off);
         }
-        // L.n a rounding of zero: Newton's steps take nothing of what is left, and end at once.
+        // With L.n at the rounding of zero, Newton steps do not reduce the remainder, and end at once.
         for along in [1e-13, 1e-18, 1e-300] {
             let integrals = FirstIntegrals { energy: 1.183_538_461_538_461_4, spin: along / 1.5, clebsch: -0.098_128 };
             let plane = Wanted::new(&body, &integrals).unwrap().plane(&Vector3::new(S.xx, S.yy, S.zz), [2, 0]);
@@ -303,7 +306,7 @@ pub(super) mod tests {
         assert!(sides.len() == 2 && sides[0] > 0.38 && sides[1] < -0.38, "{found:?}");
     }
 
-    /// With `L.n` zero to the last bit the equation is quadratic, and its roots are candidates as they are.
+    /// With `L.n` exactly zero the equation is quadratic, and its roots are candidates without correction.
     #[test]
     fn roots_of_the_quadratic_on_one_side_are_both_found() {
         let plane = Plane { axes: [0, 1], along: 0.0, half: 0.3, square: [4.0, 0.1], q: [0.18, -0.9, 1.0] };
@@ -313,8 +316,8 @@ pub(super) mod tests {
         }
     }
 
-    /// A state where `K` has an extremum in the plane is found, though rounding has moved `K` beyond it, and none where no state has that `K`: with `L` fast, and at rest, whatever
-    /// the size of `s`.
+    /// A state at which `K` has an extremum in the plane is found even if rounding has moved `K` beyond the extremum, and no state is returned where
+    /// none has that `K`: with large `L`, and at rest, whatever the size of `s`.
     #[test]
     fn k_may_be_beyond_its_extremum_by_its_rounding() {
         for (strength, along, across) in [(1.0, 0.0, 40.0), (1e-3, 3.0, 40.0), (1.0, 0.0, 0.0), (1.0, 0.4, 0.9)] {
@@ -340,7 +343,7 @@ pub(super) mod tests {
                 (2.0 * BODY.inertia_xx * integrals.energy).abs().max(BODY.constant_c * BODY.inertia_xx) * values.amax();
             let found = |beyond: f64| {
                 let states = wanted(top + beyond * size).in_plane(&values, 2);
-                // Of images by half turns the angle differs by a half turn.
+                // For images under half turns the angle differs by a half turn.
                 states.iter().any(|state| ((state.axis.y.atan2(state.axis.x) - left).sin()).abs() < 1e-4)
             };
             assert!(found(-1e-10) && found(3e-14) && !found(1e-12), "{strength} {along} {across}");

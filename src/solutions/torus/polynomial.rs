@@ -4,13 +4,13 @@ fn value(coefficients: &[f64], x: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
 }
 
-/// Roots in `[low, high]` of `c[0] + c[1] x + ...`, in order, and the places between where it is least in size without a change of sign: a
-/// double root is among these, whatever rounding made of it.
+/// Roots in `[low, high]` of `c[0] + c[1] x + ...`, in order, and the points between them where its size has a minimum without a change of
+/// sign: a double root is among these, whatever rounding does to it.
 pub(super) fn roots_and_touches(coefficients: &[f64], low: f64, high: f64) -> Vec<f64> {
     let slope: Vec<f64> = coefficients.iter().enumerate().skip(1).map(|(i, c)| c * i as f64).collect();
     let mut places = vec![low];
     if slope.len() > 1 {
-        // Where the slope changes its sign the polynomial turns; between two such places it has one root at most.
+        // The polynomial has an extremum where its slope changes sign; between two such points it has at most one root.
         places.extend(roots_and_touches(&slope, low, high));
     }
     places.push(high);
@@ -18,7 +18,7 @@ pub(super) fn roots_and_touches(coefficients: &[f64], low: f64, high: f64) -> Ve
     for pair in places.windows(2) {
         let (mut left, mut right) = (pair[0], pair[1]);
         let (first, last) = (value(coefficients, left), value(coefficients, right));
-        // Not by their product, which may underflow.
+        // Not from their product, which may underflow.
         if first == 0.0 || last == 0.0 || (first > 0.0) == (last > 0.0) {
             continue;
         }
@@ -53,7 +53,7 @@ mod tests {
         })
     }
 
-    /// A root at an end is that place alone, and where no sign changes there is none.
+    /// A root at an end is a single point, and without a change of sign there is no root.
     #[test]
     fn no_root_is_told_twice() {
         let found = |coefficients: &[f64], low: f64, high: f64| roots_and_touches(coefficients, low, high);
@@ -64,11 +64,11 @@ mod tests {
         assert_eq!(found(&[-0.5, 0.1], -1.0, 1.0), [-1.0, 1.0]);
         assert_eq!(found(&[-0.5, 1.0], -1.0, 1.0), [-1.0, 0.5, 1.0]);
         assert_eq!(found(&[1.0, -2.0], -1.0, 1.0), [-1.0, 0.5, 1.0]);
-        // Of any size.
+        // For any size.
         for size in [1e-200, 1e200] {
             assert_eq!(found(&[-0.5 * size, size], -1.0, 1.0), [-1.0, 0.5, 1.0]);
         }
-        // Both ends twice, by the slope as well, which has its root between.
+        // Both ends are double, also through the slope, which has its root between.
         assert_eq!(found(&[0.125, -0.5, 1.0], -1.0, 1.0), [-1.0, -1.0, 0.25, 1.0, 1.0]);
     }
 
@@ -88,7 +88,7 @@ mod tests {
                 let nearest = found
                     .iter()
                     .fold(f64::INFINITY, |best, x| if (x - root).abs() < (best - root).abs() { *x } else { best });
-                // Three that are one are known to the cube root of rounding.
+                // A triple root is known to the cube root of rounding.
                 let allowed = if roots.iter().filter(|other| *other == root).count() > 1 {
                     1e-5
                 } else {
@@ -97,7 +97,7 @@ mod tests {
                 assert!((nearest - root).abs() <= allowed, "{roots:?}, {i}: {nearest}");
             }
         }
-        // As near as doubles are, far from one as well.
+        // As close together as doubles can be, also far from one.
         for root in [3e-5, -3e-5, 0.7, -0.7] {
             let found = roots_and_touches(&[-root, 1.0], -0.9, 1.0)[1];
             assert_relative_eq!(found, root, max_relative = 3e-16);

@@ -8,10 +8,11 @@ use crate::error::Error;
 /// Coefficients below this are rounding.
 pub(super) const ROUNDING: f64 = 2e-16;
 
-/// Largest rounding of a coefficient: flows near the separatrix multiply theirs.
+/// Largest allowed rounding of a coefficient: flows near the separatrix amplify theirs.
 const LARGEST_ROUNDING: f64 = 1e-12;
 
-/// Points of the first angle and of a quarter turn of the second one: of the first grid, and at most, also of both together.
+/// Points of the first angle and of a quarter turn of the second one, for the first grid; the largest allowed numbers, also
+/// of both together, follow.
 pub(super) const FIRST_GRID: QuarterGrid = QuarterGrid { points: 16, quarter: 4 };
 const LARGEST_GRID: QuarterGrid = QuarterGrid { points: 1024, quarter: 512 };
 const MOST_POINTS: usize = 1 << 17;
@@ -22,23 +23,24 @@ pub(super) type Coefficients = Vec<Vec<Pair>>;
 /// Coefficients of the motion on a torus.
 pub(super) struct Sampled {
     pub(super) grid: QuarterGrid,
-    /// Of `n_X, L_X, n_Y, L_Y, n_Z, L_Z`, with `L` in its unit.
+    /// Coefficients of `n_X, L_X, n_Y, L_Y, n_Z, L_Z`, with `L` in its unit.
     pub(super) axes: [Coefficients; 6],
-    /// Of `Re V_X, Im V_Y, Re V_Y, Im V_X, Re V_Z, Im V_Z`, where `V = (u + i n x u) exp i (theta_1 psi_1 + theta_2 psi_2) / (2 pi)`.
+    /// Coefficients of `Re V_X, Im V_Y, Re V_Y, Im V_X, Re V_Z, Im V_Z`, where
+    /// `V = (u + i n x u) exp i (theta_1 psi_1 + theta_2 psi_2) / (2 pi)`.
     pub(super) vector: [Coefficients; 6],
-    /// Rounding of the states that they come from.
+    /// Rounding of the states from which they are computed.
     pub(super) open: f64,
-    /// States between the points of the grid, half-way in both angles: they show what the grid takes for coefficients that it has.
+    /// States between the points of the grid, half-way in both angles: they reveal aliasing of the coefficients by the grid.
     pub(super) between: [OnTorus; 4],
 }
 
-/// A state of a torus, and turns of its angles.
+/// A state on a torus, and the turns of its angles.
 pub(super) struct OnTorus {
     pub(super) turns: [f64; 2],
     pub(super) axes: Axes<f64>,
 }
 
-/// What a reflection and half a turn of the second angle do to the twelve functions.
+/// The effect of a reflection and of half a turn of the second angle on the twelve functions.
 const SYMMETRY: [(Reflection, usize); 12] = {
     use Reflection::{Even, Odd};
     let of_n_and_l = [(Even, 1), (Even, 1), (Odd, 1), (Odd, 1), (Even, 0), (Even, 0)];
@@ -46,10 +48,11 @@ const SYMMETRY: [(Reflection, usize); 12] = {
     [a, b, c, d, e, e, a, b, c, d, e, (Odd, 0)]
 };
 
-/// Coefficients on a grid as fine as the coarsest allowed, and so fine that the last ones are below the tolerance. `starts` has the states at the points of the second angle; None where it has none.
+/// Coefficients on a grid at least as fine as the coarsest allowed, and so fine that the last coefficients are below the tolerance. `starts` gives
+/// the states at the points of the second angle, or `None`.
 ///
 /// # Errors
-/// [`Error::NotConverged`] where that takes more points than it may.
+/// [`Error::NotConverged`] if this takes more points than allowed.
 pub(super) fn coefficients(
     torus: &Torus,
     starts: impl Fn(usize) -> Option<Vec<Axes<f64>>>,
@@ -79,14 +82,15 @@ pub(super) fn coefficients(
     Err(Error::NotConverged { what, iterations: grid.quarter, residual: tolerance })
 }
 
-/// Coefficients of the functions by their values on a grid; and the largest difference of both ends of a row, which are one point of the torus.
+/// Coefficients of the functions from their values on a grid; and the largest difference of both ends of a row, which are the same point of the
+/// torus.
 fn sampled(torus: &Torus, starts: &[Axes<f64>], grid: &QuarterGrid) -> (Vec<Coefficients>, f64) {
     let QuarterGrid { points, quarter } = *grid;
     let (ways, unit) = (&torus.ways, torus.unit);
     let mut values = vec![vec![vec![0.0; points]; quarter + 1]; SYMMETRY.len()];
     let mut open: f64 = 0.0;
     for (m, start) in starts.iter().enumerate() {
-        // From the start of a row half a turn either way: rounding grows as it goes.
+        // Half a turn in either direction from the start of a row, because rounding grows along the flow.
         let [(forwards, end), (backwards, other)] = [1.0, -1.0].map(|sense| half_row(torus, start, points, sense));
         open = open.max(apart(&end, &other, unit));
         let places = (0..points / 2).chain((points / 2..points).rev());
@@ -105,17 +109,19 @@ fn sampled(torus: &Torus, starts: &[Axes<f64>], grid: &QuarterGrid) -> (Vec<Coef
     (functions.map(|(values, (reflection, parity))| grid.coefficients(values, reflection, parity)).collect(), open)
 }
 
-/// The state half-way between points of the grid some eighths of a quarter turn of the second angle on, and as many of a turn of the first from its half.
+/// The state half-way between points of the grid: some eighths of a quarter turn of the second angle onwards, and as many of a turn of the first from
+/// its half.
 fn between(torus: &Torus, starts: &[Axes<f64>], grid: &QuarterGrid, eighth: usize) -> OnTorus {
     let [i, m] = [eighth * grid.points / 8, eighth * grid.quarter / 8];
     let half = 0.5 / (4 * grid.quarter) as f64;
     let turns = [(i as f64 + 0.5) / grid.points as f64 - 0.5, m as f64 / (4 * grid.quarter) as f64 + half];
-    // From the start of the row before: the flow from the plane has more rounding.
+    // From the start of the previous row, since the flow from the plane has more rounding.
     let times = [0, 1].map(|i| 2.0 * (torus.ways.fast.times[i] * turns[0] + torus.ways.slow.times[i] * half));
     OnTorus { turns, axes: torus.integrals.moved(times, &starts[m]) }
 }
 
-/// States half a turn of the first angle on from one, or back: with the first of them those ahead, without it those behind, up to half a turn; and the state there.
+/// States up to half a turn of the first angle from a given one: forwards including the given state, backwards without it; and the state at half a
+/// turn.
 fn half_row(torus: &Torus, start: &Axes<f64>, points: usize, sense: f64) -> (Vec<Axes<f64>>, Axes<f64>) {
     let round = torus.ways.fast.times.map(|time| 2.0 * sense * time);
     let mut begin = 0.0;
@@ -133,7 +139,7 @@ fn half_row(torus: &Torus, start: &Axes<f64>, points: usize, sense: f64) -> (Vec
     (states, at(0.5))
 }
 
-/// A finer grid, where the last coefficients along an angle are above the smallest wanted.
+/// A finer grid, if the last coefficients along an angle are above the smallest one required.
 fn finer(functions: &[Coefficients], grid: &QuarterGrid, smallest: f64) -> Option<QuarterGrid> {
     let QuarterGrid { points, quarter } = *grid;
     let mut along_first = vec![0.0_f64; points / 2];
@@ -155,13 +161,14 @@ fn finer(functions: &[Coefficients], grid: &QuarterGrid, smallest: f64) -> Optio
     (next.points > points || next.quarter > quarter).then_some(next)
 }
 
-/// How many coefficients there must be until they are below the smallest wanted: they fall as a power of their multiple, as the last half of them says.
+/// Number of coefficients needed until they are below the smallest one required: they fall as a power of their multiple, estimated from their last
+/// half.
 fn needed(sizes: &[f64], smallest: f64) -> usize {
     let count = sizes.len();
     let largest_from = |from: usize| sizes[from..].iter().copied().fold(0.0, f64::max);
     let last = largest_from(count - 2);
     let falls = largest_from(count / 2) / last;
-    // Coefficients that have come so far fall by more than 1e5 in their second half, if they are not rounding.
+    // Unless they are rounding, coefficients that have become so small fall by more than 1e5 in their second half.
     if last <= smallest || last < LARGEST_ROUNDING && falls < 30.0 {
         return count;
     }

@@ -8,14 +8,14 @@ use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::PrincipalCoefficients;
 
-/// The unstable periodic motion of given energy and spin, in which `L` swings about the middle principal axis of `s`: a state in which `n` and `L`
-/// lie in the plane of the axes of the largest and the middle eigenvalue, where its `K` is an extremum. That is the `K` of the separatrix.
+/// The unstable periodic motion of given energy and spin, in which `L` oscillates about the middle principal axis of `s`: a state in which `n` and
+/// `L` lie in the plane of the axes of the largest and the middle eigenvalue, where its `K` is an extremum. This is the `K` of the separatrix.
 ///
 /// A spin along the axis itself, `L = L.n n`, is another one, with `E` fixed by the spin.
 ///
 /// # Errors
-/// [`Error::Domain`] for what is not finite or positive, two equal eigenvalues, and an energy at which no extremum of `K` lies near: `n` must turn
-/// about `L`, and fast against the torque.
+/// [`Error::Domain`] for values that are not finite or positive, two equal eigenvalues, and an energy at which there is no extremum of `K` nearby:
+/// `n` must rotate about `L`, and fast compared with the effect of the torque.
 pub fn separatrix_motion(
     spheroid: &RigidSpheroid<f64>,
     s: &PrincipalCoefficients<f64>,
@@ -60,7 +60,7 @@ mod tests {
     use super::super::plane::tests::{BODY, PROLATE, S};
     use super::*;
 
-    /// `L` along `n`: `K` has no extremum where the slope is looked at, and both ends tell the same sign.
+    /// For `L` along `n`, `K` has no extremum in the range searched: its slope has the same sign at both ends.
     #[test]
     fn a_plane_without_an_extremum_is_refused() {
         for (body, strength) in [(BODY, 1.0), (PROLATE, 1.0), (BODY, 0.1), (PROLATE, 0.1)] {

@@ -1,4 +1,4 @@
-//! The motion as a Fourier series on its torus: any state at any time at the same cost.
+//! The motion as a Fourier series on its torus: any state at any time with the same cost.
 
 use core::f64::consts::TAU;
 
@@ -19,61 +19,64 @@ use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::four_lanes::FourLanes;
 use crate::numerics::fused::{Fused, detect_fused, run_fused};
 
-/// What the rounding of the flow and of the initial state leaves at the end of half a closed way.
+/// Rounding error at the end of half a closed orbit, due to the flow and the initial state.
 const END_OF_HALF_WAY: f64 = 5e-16;
 
-/// Rounding of the principal values and axes of `s`, in units of its largest component: eigenvalues that are nearly equal have no more digits than that.
+/// Rounding of the principal values and axes of `s`, in units of its largest component; the difference of nearly equal eigenvalues is not known more
+/// precisely.
 const ROUNDING_OF_VALUES: f64 = 5e-16;
 
-/// What may be left between the series and the flow beside its estimated error, where its torus has the symmetries assumed.
+/// Allowed difference between the series and the flow, in addition to the estimated error, for a torus that has the assumed
+/// symmetries.
 const CLOSED: f64 = 1e-12;
 
-/// So many blocks of multiples of the second angle fit on the stack: of cosines and of sines.
+/// Number of blocks of multiples of the second angle that fit on the stack, for cosines and for sines.
 const FEW: usize = 8;
 
-/// The exact motion from an initial state: `n`, `L` and `e_x` as Fourier series of two angles that grow in proportion to time, and a third one that turns
-/// `e_x` about `n`.
+/// The exact motion from an initial state: `n`, `L` and `e_x` as Fourier series of two angles that grow linearly in time, and a third angle that
+/// rotates `e_x` about `n`.
 ///
 /// ```text
 /// (n, L)(t) = sum_jk (n, L)_jk exp i (j theta_1 + k theta_2),    theta_i = theta_i0 + w_i t
 /// ```
 ///
-/// `theta_1` is a turn of `n` about `L` from the plane of `L` and Z, `theta_2` one of the averaged `L` about Z, the principal axis of `s` that it goes round. The
-/// coefficients are those of the motion along the commuting flows of `H` and `K` on a grid of the torus. See `docs/exact-motion.md`.
+/// `theta_1` is the rotation of `n` about `L` from the plane of `L` and Z, `theta_2` the rotation of the averaged `L` about Z, the principal axis of
+/// `s` that it circles. The coefficients are those of the motion along the commuting flows of `H` and `K` on a grid of the torus. See
+/// `docs/exact-motion.md`.
 #[derive(Debug, Clone)]
 pub struct TorusSolution {
     pub(super) phases: [Phase; 3],
-    /// Times along the flows of `H` and `K` of both closed ways, and the spread that is the unit of `K`.
+    /// Period vectors: times along the flows of `H` and `K` of both closed orbits. Also the spread that is the unit of `K`.
     pub(super) periods: [[f64; 2]; 2],
     pub(super) spread: f64,
     /// Unit of `L`.
     pub(super) unit: f64,
-    /// Of the torus.
+    /// Width of the torus.
     pub(super) width: f64,
-    /// Of `n` and `L`.
+    /// Coefficients of `n` and `L`.
     axes: Table,
-    /// Of `V`, from which `e_x` is turned.
+    /// Coefficients of `V`, from which `e_x` is obtained by rotation.
     vector: Table,
-    /// Blocks of four multiples of the second angle that are needed.
+    /// Number of blocks of four multiples of the second angle that are needed.
     blocks: usize,
     pub(super) given_from_torus: Matrix3<f64>,
-    /// Its columns, each with a zero.
+    /// Columns of this matrix, each padded with a zero.
     columns: [[f64; 4]; 3],
     truncation: f64,
-    /// Difference of the series from the flow, and the rounding of so many terms.
+    /// Difference between the series and the flow, and the rounding of the sum of its terms.
     off: f64,
-    /// Error of a state per unit of time, by the rates.
+    /// Error of a state per unit of time, due to the rates.
     drift: f64,
     fused: Option<Fused>,
 }
 
 impl TorusSolution {
-    /// The motion of a problem, with the largest error wanted of the components of `n`, `e_x` and `L`, for times up to `longest` in size. For long ones
-    /// the closed ways are found to 32 digits, which takes a few ms.
+    /// The motion of a problem, with the error tolerance for the components of `n`, `e_x` and `L`, for times up to `longest` in size. For long times
+    /// the closed orbits are computed to 32 digits, which takes a few ms.
     ///
     /// # Errors
-    /// [`Error::Domain`] for isotropic `s` and a time that is not finite; [`Error::NotConverged`] where the closed ways are not found, or need more coefficients than a table may have: near the
-    /// separatrix; [`Error::Unsupported`] for a star with a bulge.
+    /// [`Error::Domain`] for isotropic `s` and a time that is not finite; [`Error::NotConverged`] near the separatrix, where the closed orbits are
+    /// not found or need more coefficients than a table may have; [`Error::Unsupported`] for a star with a bulge.
     pub fn new(problem: &Problem<f64>, tolerance: f64, longest: f64) -> Result<Self, Error> {
         problem.require_rigid()?;
         Error::ensure(longest.is_finite(), "longest time", longest, "a finite number")?;
@@ -98,10 +101,10 @@ impl TorusSolution {
         })
     }
 
-    /// The series on a torus with these phases, from states at the points of the second angle; None where there are none.
+    /// The series on a torus with these phases, from states at the points of the second angle; `None` if there are none.
     ///
     /// # Errors
-    /// [`Error::NotConverged`] if it is not that of the motion.
+    /// [`Error::NotConverged`] if the series does not agree with the motion.
     fn of(
         torus: &Torus,
         phases: [Phase; 3],
@@ -117,7 +120,8 @@ impl TorusSolution {
             if gap <= 10.0 * solution.truncation + CLOSED {
                 return Ok(Some(solution));
             }
-            // Coefficients behind those that are small may be larger again. A grid twice as fine may still take them for others; where two such in a row do not help, it is not the grid.
+            // Coefficients beyond small ones may be larger again, and a grid twice as fine may still alias them; if two refinements in a row do not
+            // help, the grid is not the cause.
             if gap.is_nan() || gap > 0.25 * before[0] {
                 return Err(Error::NotConverged { what, iterations: sampled.grid.quarter, residual: gap });
             }
@@ -127,7 +131,7 @@ impl TorusSolution {
         }
     }
 
-    /// The series on a torus with these phases, and how far it is from the flow.
+    /// The series on a torus with these phases, and its distance from the flow.
     fn on(torus: &Torus, phases: [Phase; 3], drift: f64, tolerance: f64, sampled: &Sampled) -> (Self, f64) {
         let (mut axes, left_axes) = Table::within(&sampled.axes, tolerance);
         let (vector, left_vector) = Table::within(&sampled.vector, tolerance);
@@ -163,7 +167,7 @@ impl TorusSolution {
         let off = |state: &BodyState<f64>, [n, momentum, vector]: &Axes<f64>| {
             let momentum = (turn * state.momentum - momentum) / torus.unit;
             let differences = [turn * state.axis - n, momentum, turn * state.equatorial_axis - vector];
-            // A NaN is a gap too.
+            // NaN counts as a gap.
             differences.iter().flatten().fold(0.0, |most: f64, x| if x.abs() <= most { most } else { x.abs() })
         };
         let gaps = between.iter().map(|OnTorus { turns: [a, b], axes: [n, momentum, u] }| {
@@ -184,18 +188,19 @@ impl TorusSolution {
         [self.axes.len(), self.vector.len()]
     }
 
-    /// Sum of the coefficients that were left out: error of the series, rounding apart.
+    /// Sum of the neglected coefficients: the error of the series, excluding rounding.
     pub fn truncation(&self) -> f64 {
         self.truncation
     }
 
-    /// Estimated rounding at a time since the start: of the sums, of the coefficients by what is left between the series and the flow, and of the rates.
+    /// Estimated rounding at a time since the start: of the sums, of the coefficients (from the difference between the series and the flow), and of
+    /// the rates.
     pub fn rounding(&self, t: f64) -> f64 {
         8.0 * ROUNDING + self.off + self.drift * t.abs()
     }
 
-    /// Estimated error of the components of `n`, `e_x` and `L` at a time since the start, of `L` in units of its size at the start or of `(2 I^xx |C| (s_max - s_min))^(1/2)`, which the torque can
-    /// give it, if that is larger.
+    /// Estimated error of the components of `n`, `e_x` and `L` at a time since the start, with `L` in units of its size at the start or of
+    /// `(2 I^xx |C| (s_max - s_min))^(1/2)`, which the torque can produce, if that is larger.
     pub fn error_estimate(&self, t: f64) -> f64 {
         self.truncation + self.rounding(t)
     }
@@ -216,7 +221,7 @@ impl TorusSolution {
         }
     }
 
-    /// The state at three angles of the torus, in turns.
+    /// The state at given values of the three angles of the torus, in turns.
     pub fn state_on_torus(&self, turns: [f64; 3]) -> BodyState<f64> {
         match self.fused {
             Some(fused) => run_fused(fused, || self.state_at(fused, turns)),
@@ -249,7 +254,7 @@ impl TorusSolution {
         self.state_at(four, [first.at::<F>(t), second.at::<F>(t), third.at::<F>(t)])
     }
 
-    /// The first multiples of two angles, and all that are needed of the second one, in this room.
+    /// The first multiples of two angles, and all multiples of the second one that are needed, in this buffer.
     #[inline(always)]
     fn multiples<'a, F: FourLanes>(
         &self,
@@ -299,14 +304,14 @@ impl TorusSolution {
     }
 }
 
-/// Room for the multiples of an angle; few of them take no memory.
+/// Buffer for the multiples of an angle; a small number of them needs no allocation.
 #[derive(Default)]
 struct Room {
     few: [[f64; 4]; FEW],
     many: Vec<[f64; 4]>,
 }
 
-/// Turns along both closed ways per unit of time.
+/// Turns along both closed orbits per unit of time.
 pub(super) fn rate_of_ways(phases: &[Phase; 3]) -> f64 {
     phases[0].rate.high.abs() + phases[1].rate.high.abs()
 }
@@ -330,8 +335,8 @@ mod tests {
         [0.8034743727762651, 0.0006186697198932354, -0.0006723004689980793],
     ];
 
-    /// With few digits wanted, coefficients behind small ones are larger again: between its points the first grid is up to 300 times the tolerance off, and the second one
-    /// of the last motion no better.
+    /// With a loose tolerance, coefficients beyond small ones are larger again: between its points the first grid has errors of up to 300 times the
+    /// tolerance, and for the last motion the second one is no better.
     #[test]
     fn a_grid_that_hides_coefficients_is_made_finer() {
         let as_far_on_the_second = [
@@ -342,7 +347,7 @@ mod tests {
         for (tolerance, numbers) in [(1.5e-4, HIDING), (1.862e-2, as_far_on_the_second)] {
             let problem = problem(numbers);
             let [coarse, fine] = [tolerance, 1e-14].map(|digits| TorusSolution::new(&problem, digits, 100.0).unwrap());
-            // What is left out, and twice a gap of ten times that.
+            // The neglected coefficients, and twice a gap of ten times that.
             assert!(coarse.error_estimate(0.0) < 21.0 * tolerance + 1e-11, "{:e}", coarse.error_estimate(0.0));
             let unit = Vector3::from(numbers[2]).norm();
             for t in (0..200).map(|k| 0.37 * f64::from(k)) {
@@ -353,7 +358,7 @@ mod tests {
         }
     }
 
-    /// Twice what the ends of a row are apart, where the series is closer to the flow than that.
+    /// The rounding is twice the distance of the ends of a row, if the series is closer to the flow than that.
     #[test]
     fn rows_that_do_not_close_are_rounding() {
         let torus = Torus::of(&problem([[0.2, 0.1, -0.3], [0.48, 0.6, 0.64], [0.3, -0.2, 1.5]])).unwrap();
@@ -365,7 +370,7 @@ mod tests {
         assert!(gap < 1e-11 && beyond > 0.0 && beyond < 1e-11, "{gap:e} {beyond:e}");
     }
 
-    /// With wrong phases no grid is good enough: after two finer ones that is told.
+    /// With wrong phases no grid is good enough: this is reported after two finer ones.
     #[test]
     fn a_series_that_does_not_follow_the_flow_is_refused() {
         let torus = Torus::of(&problem([[0.2, 0.1, -0.3], [0.48, 0.6, 0.64], [0.3, -0.2, 1.5]])).unwrap();

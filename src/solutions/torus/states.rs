@@ -8,24 +8,25 @@ use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::PrincipalCoefficients;
 
-/// `|C| (s_max - s_min) I^xx / L.L` below which rotation is fast, and `L` goes round an axis.
+/// `|C| (s_max - s_min) I^xx / L.L` below which rotation is fast, and `L` circles an axis.
 const LARGEST_STRENGTH: f64 = 0.2;
 
-/// Every motion with given integrals, by states that it passes through.
+/// All motions with given integrals, represented by states through which they pass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TorusStates {
-    /// The principal axis that `L` goes round: the one normal to the only plane without a state. None on the separatrix, for slow rotation
-    /// (`|C| (s_max - s_min) I^xx / L.L` of 0.2 and more), and where two eigenvalues are equal and all planes through one axis alike.
+    /// Index of the principal axis that `L` circles: the axis normal to the only plane without a state. `None` on the separatrix, for slow
+    /// rotation (`|C| (s_max - s_min) I^xx / L.L` of 0.2 and more), and for two equal eigenvalues, where all planes through one axis are
+    /// equivalent.
     pub round: Option<usize>,
     /// States in the principal frame of `s`: in a principal plane with `e_x` normal to it, or with `n` on an axis. Each motion with
-    /// these integrals passes through one of them or an image of one by half turns about the principal axes.
+    /// these integrals passes through one of them, or through the image of one under half turns about the principal axes.
     pub states: Vec<BodyState<f64>>,
 }
 
 impl TorusStates {
-    /// A state on each of the two components of the level set: `L` goes round the positive and the negative end of the axis [`round`](Self::round).
-    /// They are images of one another by a half turn about another axis, with the same frequencies, but for the sense of the slow precession.
-    /// None where `L` goes round no axis.
+    /// A state on each of the two components of the level set: `L` circles the positive and the negative end of the axis [`round`](Self::round).
+    /// They are images of one another under a half turn about another axis, with the same frequencies, except for the sense of the slow precession.
+    /// `None` if `L` does not circle an axis.
     pub fn components(&self) -> Option<[BodyState<f64>; 2]> {
         let axis = self.round?;
         let state = *self.states.first()?;
@@ -41,15 +42,15 @@ impl TorusStates {
 
 /// States with the energy `E`, the spin `Omega^z` and the third integral `K`, in the principal frame of `s`.
 ///
-/// Where `n_z` is largest or least on a torus, both `dn_z/dt = e_z.(L x n) / I^xx` and its rate along the flow of `K`, `2 e_z.(s L x n)`, vanish: there `n` and
-/// `L` lie in one principal plane, or `n` or `L` is along Z. With Z the axis of the least eigenvalue of `C s`, `n_z'' = -2 C n_z (s_z - n.(s n))` excludes
-/// that `L` is along Z at both ends. So a list of the states in the planes, and of those with `n` on that axis, misses no motion. In
-/// the plane of the axes `i`, `j`, with `n = (cos b, sin b)` and `L = L.n n + u (-sin b, cos b)`, `H` gives `u^2` as a linear function of `x = cos 2b`, and
-/// `K` a quartic equation for `x`.
+/// Where `n_z` is largest or smallest on a torus, both `dn_z/dt = e_z.(L x n) / I^xx` and its rate along the flow of `K`, `2 e_z.(s L x n)`, vanish.
+/// There `n` and `L` lie in one principal plane, or `n` or `L` is along Z. With Z the axis of the smallest eigenvalue of `C s`,
+/// `n_z'' = -2 C n_z (s_z - n.(s n))` excludes that `L` is along Z at both ends. So a list of the states in the planes, and of those with `n` on that
+/// axis, misses no motion. In the plane of the axes `i`, `j`, with `n = (cos b, sin b)` and `L = L.n n + u (-sin b, cos b)`, `H` gives `u^2` as a
+/// linear function of `x = cos 2b`, and `K` gives a quartic equation for `x`.
 ///
 /// # Errors
-/// [`Error::Domain`] for what is not finite or positive, isotropic `s` (where `K` says nothing), an energy below that of this spin, and a `K`
-/// that no motion of this energy and spin has.
+/// [`Error::Domain`] for values that are not finite or positive, isotropic `s` (where `K` gives no condition), an energy below that of this
+/// spin, and a `K` that no motion of this energy and spin has.
 pub fn states_with_integrals(
     spheroid: &RigidSpheroid<f64>,
     s: &PrincipalCoefficients<f64>,
@@ -133,7 +134,8 @@ mod tests {
         }
     }
 
-    /// Which axis `L` goes round is said where rotation is fast against the torque, whatever the sign of `C`.
+    /// The axis that `L` circles is reported if rotation is fast compared with the effect of the torque, whatever the sign
+    /// of `C`.
     #[test]
     fn an_axis_is_told_of_fast_rotation_only() {
         for body in [BODY, PROLATE] {
@@ -147,7 +149,7 @@ mod tests {
                     let found = states_with_integrals(&body, &S, &integrals).unwrap();
                     let least = found.states.iter().map(|state| state.momentum.norm_squared()).fold(9.0, f64::min);
                     let strength = 0.8 * 0.25 * body.inertia_xx / least;
-                    // One plane has no state, and the others have some: seen by the axes normal to them.
+                    // One plane has no state, and the others have some; planes are labelled by the axes normal to them.
                     let absent: Vec<usize> = (0..3)
                         .filter(|&normal| {
                             found.states.iter().all(|s| s.axis[normal] != 0.0 || s.momentum[normal] != 0.0)
@@ -163,7 +165,7 @@ mod tests {
         }
     }
 
-    /// With `C` of either sign the axis of the least eigenvalue of `C s` is the one that `n` may be along: states there, with the integrals.
+    /// With `C` of either sign `n` may be along the axis of the smallest eigenvalue of `C s`: states there, with the integrals.
     #[test]
     fn states_with_the_axis_of_the_body_on_that_of_least_energy_are_found() {
         for (body, on) in [(BODY, 1), (PROLATE, 0)] {
@@ -185,13 +187,13 @@ mod tests {
         }
     }
 
-    /// Two states near an extremum of `K` are two as long as they differ, and the extremum itself is one.
+    /// Two states near an extremum of `K` are distinct as long as they differ, and the extremum itself is a single state.
     #[test]
     fn a_double_root_is_one_state() {
         for body in [BODY, PROLATE] {
             let unstable = separatrix_motion(&body, &S, 2.0, 0.3).unwrap();
             let at = first_integrals(&body, &S.tensor(), &unstable);
-            // But for half turns about the axes.
+            // Up to half turns about the axes.
             let off = |s: &BodyState<f64>| {
                 (s.axis.abs() - unstable.axis.abs()).norm() + (s.momentum.abs() - unstable.momentum.abs()).norm()
             };
@@ -211,7 +213,8 @@ mod tests {
         }
     }
 
-    /// With `n` on an axis and `L` in a principal plane, found in the plane and on the axis, on whichever side rounding puts the third component.
+    /// A state with `n` on an axis and `L` in a principal plane is found both in the plane and on the axis, on whichever side rounding puts the
+    /// third component.
     #[test]
     fn a_state_on_an_axis_and_in_a_plane_is_one() {
         for momentum in [[0.0, 0.7, 0.9], [0.9, 0.7, 0.0], [1.0, 0.7, 0.0]] {
@@ -223,7 +226,7 @@ mod tests {
         }
     }
 
-    /// Coefficients of any size: the states are those of the tensor in its own unit, if rotation is as much slower.
+    /// Coefficients of any size: the states are those of the tensor in its own unit, for a correspondingly slower rotation.
     #[test]
     fn tiny_coefficients_have_as_many_states() {
         let s = |scale: f64| PrincipalCoefficients { xx: 0.21 * scale, yy: -0.04 * scale, zz: 0.09 * scale };

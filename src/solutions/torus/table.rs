@@ -3,7 +3,7 @@
 use super::fourier::{Pair, Reflection};
 use crate::numerics::four_lanes::FourLanes;
 
-/// Cosines and sines of four multiples of an angle that follow one another, and of the angle times four.
+/// Cosines and sines of four consecutive multiples of an angle, and of the angle times four.
 #[derive(Clone, Copy)]
 pub(super) struct FourMultiples<F: FourLanes> {
     cos: F::Lanes,
@@ -14,7 +14,7 @@ pub(super) struct FourMultiples<F: FourLanes> {
 }
 
 impl<F: FourLanes> FourMultiples<F> {
-    /// From zero on.
+    /// Starting at zero.
     #[inline(always)]
     pub(super) fn first(four: F, (sin, cos): (f64, f64)) -> Self {
         let across = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a * c - b * d, b * c + a * d];
@@ -30,7 +30,7 @@ impl<F: FourLanes> FourMultiples<F> {
         }
     }
 
-    /// The four multiples after these.
+    /// The next four multiples.
     #[inline(always)]
     fn next(self, four: F) -> Self {
         let zero = four.all(0.0);
@@ -41,14 +41,14 @@ impl<F: FourLanes> FourMultiples<F> {
     }
 }
 
-/// Cosines and sines of multiples of an angle from zero on, in blocks of four.
+/// Cosines and sines of multiples of an angle, starting at zero, in blocks of four.
 pub(super) struct Multiples<'a> {
     cos: &'a [[f64; 4]],
     sin: &'a [[f64; 4]],
 }
 
 impl<'a> Multiples<'a> {
-    /// Computes them, half of a slice the cosines and half the sines.
+    /// Computes them: the first half of a slice for the cosines and the second half for the sines.
     #[inline(always)]
     pub(super) fn fill<F: FourLanes>(four: F, blocks: &'a mut [[f64; 4]], mut these: FourMultiples<F>) -> Self {
         let (of_cos, of_sin) = blocks.split_at_mut(blocks.len() / 2);
@@ -60,11 +60,12 @@ impl<'a> Multiples<'a> {
     }
 }
 
-/// Fourier coefficients of six functions on the torus. Half a turn of the second angle changes the sign of the first four, which have `k = 1, 3, ...`, and not of
-/// the others, with `k = 0, 2, ...`. The first two and the fifth are even under a reflection in the plane, the next two odd; the last one is whichever is asked for.
+/// Fourier coefficients of six functions on the torus. Half a turn of the second angle changes the sign of the first four, which have
+/// `k = 1, 3, ...`, and not of the others, with `k = 0, 2, ...`. The first two and the fifth are even under a reflection in the plane, the next two
+/// odd; the last one is either, as requested.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Table {
-    /// For every four multiples `j` of the first angle how many `i` are kept: `k = 2 i` and `2 i + 1`.
+    /// For every four multiples `j` of the first angle, the number of `i` that are stored: `k = 2 i` and `2 i + 1`.
     counts: Vec<usize>,
     /// For each of these `i` the coefficients of the six functions.
     coefficients: Vec<[Coefficients; 6]>,
@@ -78,7 +79,8 @@ fn pair(table: &[Vec<Pair>], j: usize, i: usize) -> Pair {
     table.get(j).and_then(|row| row.get(i)).copied().unwrap_or_default()
 }
 
-/// How many coefficients of functions with the same pairs of frequencies are above the smallest for a multiple `j` of the first angle, and the sum of those behind them.
+/// Number of coefficients of functions with the same pairs of frequencies that are above the smallest, for a multiple `j` of the first angle, and the
+/// sum of those after them.
 fn above(functions: &[Vec<Vec<Pair>>], j: usize, smallest: f64) -> (usize, f64) {
     let largest =
         |i: usize| functions.iter().flat_map(|table| pair(table, j, i)).fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -88,8 +90,8 @@ fn above(functions: &[Vec<Vec<Pair>>], j: usize, smallest: f64) -> (usize, f64) 
 }
 
 impl Table {
-    /// The table of six functions by their coefficients `[j][i]`, `k = 2 i` or `2 i + 1`, without the smallest, of which the sum is at most a tolerance (where rounding
-    /// lets it); and that sum.
+    /// The table of six functions from their coefficients `[j][i]`, `k = 2 i` or `2 i + 1`, without the smallest ones, whose sum is at most a
+    /// tolerance (if rounding permits); and that sum.
     pub(super) fn within(functions: &[Vec<Vec<Pair>>; 6], tolerance: f64) -> (Self, f64) {
         let left = |smallest: f64| -> f64 {
             let of = |j: usize| above(&functions[..4], j, smallest).1 + above(&functions[4..], j, smallest).1;
@@ -102,8 +104,8 @@ impl Table {
         Self::without_smallest(functions, smallest)
     }
 
-    /// The table without what is behind the coefficients above the smallest, and the sum of that. Of it the table keeps what comes before the longest of four rows; for a
-    /// row that ends with the grid it stands for what comes behind.
+    /// The table without the coefficients after those above the smallest, and the sum of the omitted ones. The table keeps those of them that come
+    /// before the longest of four rows; for a row that ends with the grid the sum also represents the coefficients beyond the grid.
     fn without_smallest(functions: &[Vec<Vec<Pair>>; 6], smallest: f64) -> (Self, f64) {
         let mut left = 0.0;
         let mut table = Self::default();
@@ -126,7 +128,7 @@ impl Table {
         (table, left)
     }
 
-    /// How many blocks of four multiples of the second angle are needed.
+    /// Number of blocks of four multiples of the second angle that are needed.
     pub(super) fn blocks(&self) -> usize {
         self.counts.iter().map(|count| count.div_ceil(2)).max().unwrap_or(0)
     }
@@ -136,7 +138,7 @@ impl Table {
         8 * self.coefficients.len()
     }
 
-    /// Multiplies the second, the fourth and the sixth function.
+    /// Multiplies the second, the fourth and the sixth function by a factor.
     pub(super) fn scale_every_other(&mut self, factor: f64) {
         for functions in &mut self.coefficients {
             for function in [1, 3, 5] {
@@ -160,7 +162,7 @@ impl Table {
         for &count in &self.counts {
             let (block, rest) = coefficients.split_at(count);
             coefficients = rest;
-            // Twelve sums at once, so that none waits for the one before.
+            // Twelve sums at once, so that none waits for the previous one.
             let mut rows = [[four.all(0.0); 2]; 6];
             for ((functions, [even_cos, odd_cos]), [even_sin, odd_sin]) in block.iter().zip(cos_k).zip(sin_k) {
                 let odd = [four.all(*odd_cos), four.all(*odd_sin)];
@@ -214,7 +216,7 @@ mod tests {
         assert_eq!(of_zero, [[0.0; 2], [0.0; 2], [0.0; 2], [0.0; 2], [1.0; 2], [1.0; 2]]);
     }
 
-    /// Six functions with coefficients that differ, summed term by term, by vectors and one by one.
+    /// Six functions with different coefficients, summed term by term, with vectors and one by one.
     #[test]
     fn sums_are_those_of_all_terms() {
         let size = |f: usize, j: usize, k: usize, part: usize| 1.0 / (1.0 + (f + 2 * j + 3 * k + 5 * part) as f64);
@@ -263,14 +265,14 @@ mod tests {
         // The longest of each four rows is their first.
         let (mut table, left) = Table::without_smallest(&functions, 1e-5);
         assert_eq!((table.counts.as_slice(), table.blocks()), (&[3, 1][..], 2));
-        // Of the first four functions the first is the largest, of the others the fifth.
+        // Among the first four functions the first is the largest, among the others the fifth.
         let small = |size: &f64| *size <= 1e-5;
         let terms = |parity: usize| (0..6).flat_map(move |j| (0..4).map(move |i| (j, 2 * i + parity)));
         let odd: f64 = terms(1).map(|(j, k)| fall(0, j, k)).filter(small).sum();
         let even: f64 = terms(0).map(|(j, k)| fall(4, j, k)).filter(small).sum();
         assert!((left / (odd + even) - 1.0).abs() < 1e-12, "{left:e} {odd:e} {even:e}");
         table.scale_every_other(3.0);
-        // By function and part.
+        // By function and component.
         let of_row = |cell: usize, row: usize| table.coefficients[cell].map(|function| function.map(|rows| rows[row]));
         let scaled = [1.0, 3.0, 1.0, 3.0, 1.0, 3.0];
         let expected = core::array::from_fn(|f| [0.0, scaled[f] * fall(f, 0, usize::from(f < 4))]);

@@ -1,7 +1,8 @@
-//! States of a torus in the plane `Y = 0`, found by walking over it, and the ways between them.
+//! States of a torus in the plane `Y = 0`, found by a search over the torus, and the paths between them.
 //!
-//! The reflection in the plane takes the torus to itself and turns both angles round: `theta -> c - theta`. So it leaves four states unchanged, half closed ways
-//! apart from one another, and these are the states in the plane. Their times along both flows form a lattice, that of the halves of closed ways.
+//! The reflection in the plane maps the torus to itself and reverses both angles: `theta -> c - theta`. It therefore leaves four states unchanged,
+//! half a period apart from one another, and these are the states in the plane. Their times along both flows form a lattice, whose vectors are half
+//! periods.
 
 use nalgebra::{Vector2, Vector3};
 
@@ -9,53 +10,56 @@ use super::flow::{Axes, Integrals, apart, tangents};
 use super::flow_series::COARSE;
 use super::ways::{Search, half_turn};
 
-/// Series along the flow of `K` from the start, and along that of `H` from each point on it.
+/// Number of series along the flow of `K` from the start, and along that of `H` from each point on it.
 const SIDES: [[usize; 2]; 2] = [[40, 2], [40, 40]];
 
-/// Points looked at on each series of the flows of `H` and of `K`.
+/// Number of points evaluated on each series of the flows of `H` and of `K`.
 const POINTS: [usize; 2] = [8, 5];
 
-/// Newton's steps begin where they lead less far than this, as `n` and `L` change.
+/// Newton's method begins where its steps are shorter than this, in terms of the change of `n` and `L`.
 const NEAR: f64 = 0.7;
 
-/// Circles are looked at so far beside.
+/// Distance from a circle at which a neighbouring torus is searched instead.
 const MOVED: f64 = 1e-3;
 
-/// Two predictions of a state are one if they differ by less than this part of the way to it.
+/// Two predictions of a state are identical if they differ by less than this fraction of the path to it.
 const SAME: f64 = 0.3;
 
-/// States are one if they are found at times that differ by less than this part of them, or that lead less far apart (rad): on a thin torus rounding moves the times.
+/// States are identical if their times differ by less than this fraction, or if the difference of the times changes them by less than this (rad): on
+/// a thin torus rounding changes the times.
 const ONE: f64 = 1e-6;
 const HERE: f64 = 1e-5;
 
-/// Points along each side of a cell of the lattice at which states inside it are looked for.
+/// Number of points along each side of a cell of the lattice at which states inside it are searched for.
 const CELL: usize = 6;
 
-/// More states in the plane need not be found: some are missed, or are found anew.
+/// The search stops after this many states in the plane: some are missing, or are found repeatedly.
 const MOST_FOUND: usize = 64;
 
-/// A torus as thin as this against its length is looked for beside it; one as thin as the first number not with few digits, of which the thinness takes some.
+/// For a torus as thin as this relative to its length a neighbouring one is searched; one as thin as the first number is not searched with few
+/// digits, some of which are lost to the thinness.
 const THIN: [f64; 2] = [1e-3, 1e-7];
 
-/// Ways at a smaller angle, as they change `n` and `L`, have the same direction.
+/// Paths at a smaller angle, in terms of the change of `n` and `L`, are parallel.
 const PARALLEL: f64 = 1e-4;
 
-/// Half ways end within this of the half turn of their start.
+/// Half orbits end within this distance of the half turn of their start.
 const HALF_TURN: f64 = 1e-4;
 
-/// Times along both flows: from the start to the plane, and between two states in it by half of the fast and of the slow way.
+/// Times along both flows: from the start to the plane, and between two states in it, half of the fast and half of the slow
+/// period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Lattice {
     pub(super) to_plane: [f64; 2],
     pub(super) fast: [f64; 2],
     pub(super) slow: [f64; 2],
-    /// Half of the slow way is half a turn about X, not about Z.
+    /// Whether half of the slow period is half a turn about X instead of Z.
     pub(super) about_x: bool,
 }
 
-/// States in the plane of the torus through a state. None where they are not found within so many steps.
+/// States in the plane of the torus through a state. `None` if they are not found within so many steps.
 pub(super) fn lattice(integrals: &Integrals<f64>, unit: f64, start: &Axes<f64>) -> Option<Lattice> {
-    // Few digits will do, but near the separatrix.
+    // A few digits suffice, except near the separatrix.
     [integrals.with(COARSE), *integrals].into_iter().zip(THIN).find_map(|(integrals, thin)| {
         let from = |start: &Axes<f64>| Walk::new(&integrals, unit, thin).from(start);
         match from(start) {
@@ -63,7 +67,7 @@ pub(super) fn lattice(integrals: &Integrals<f64>, unit: f64, start: &Axes<f64>) 
             Walked::Thin if thin == THIN[1] => (),
             _ => return None,
         }
-        // The ways of a circle are the limit of those of the tori about it: `n` or also `L` are moved.
+        // The closed orbits of a circle are the limit of those of the tori about it: `n`, or `n` and `L`, are displaced.
         let [n, momentum, u] = start;
         let moved = Vector3::new(0.6, 0.5, -0.3) * MOVED;
         [0.0, unit].into_iter().find_map(|size| match from(&[(n + moved).normalize(), momentum + moved * size, *u]) {
@@ -73,7 +77,7 @@ pub(super) fn lattice(integrals: &Integrals<f64>, unit: f64, start: &Axes<f64>) 
     })
 }
 
-/// `v` turned by half a turn about X.
+/// `v` rotated by half a turn about X.
 fn about_x(v: &Vector3<f64>) -> Vector3<f64> {
     Vector3::new(v.x, -v.y, -v.z)
 }
@@ -88,13 +92,14 @@ struct Walk<'a> {
     integrals: &'a Integrals<f64>,
     search: Search<'a, f64>,
     unit: f64,
-    /// A torus as thin as this is.
+    /// Width below which a torus counts as thin.
     thin: f64,
-    /// Number of states seen.
+    /// Number of states evaluated.
     seen: f64,
-    /// Sum over them of the squared changes of `n` and `L` and the squared turn of the body by the time along each flow.
+    /// Sum over these states of the squared changes of `n` and `L` and of the squared rotation of the body, per time along
+    /// each flow.
     metric: Vector2<f64>,
-    /// States in the plane, and the times to them from the start.
+    /// States in the plane, and the times from the start to them.
     found: Vec<(Vector2<f64>, Axes<f64>)>,
 }
 
@@ -117,9 +122,10 @@ impl<'a> Walk<'a> {
         Walked::Nothing
     }
 
-    /// Along the flow of `K` by some series, and from each point looked at along that of `H` by some.
+    /// Follows the flow of `K` for a number of series, and from each point evaluated there the flow of `H` for a number of
+    /// series.
     fn over(&mut self, start: &Axes<f64>, [steps, row]: [usize; 2]) -> Walked {
-        // The parameter of a series is about the angle that the body turns by.
+        // The parameter of a series is about the rotation angle of the body.
         let time = 1.0 / (self.unit * self.integrals.inverse_inertia());
         let points = |step: f64, count: usize| (0..count).map(move |part| step * part as f64 / count as f64);
         let (mut at, mut k) = (*start, 0.0);
@@ -153,7 +159,7 @@ impl<'a> Walk<'a> {
         Walked::Nothing
     }
 
-    /// Whether both flows lead the same way, or nowhere; also where their rates are no numbers.
+    /// Whether both flows are parallel, or vanish; also if their rates are not finite.
     fn is_thin(&self, at: &Axes<f64>, thin: f64) -> bool {
         let tangents = tangents(&self.integrals.both_rates(at), self.unit);
         if !tangents.iter().all(|rate| rate.is_finite()) {
@@ -163,7 +169,7 @@ impl<'a> Walk<'a> {
         values.min() <= thin * values.max()
     }
 
-    /// Whether a state in the plane was found from a state at some times from the start.
+    /// Evaluates a state at given times from the start, and returns whether a state in the plane was found from it.
     fn look(&mut self, at: &Axes<f64>, times: Vector2<f64>) -> bool {
         let (step, turns) = (self.search.step_to_plane(at), self.integrals.turning_rates(at));
         self.seen += 1.0;
@@ -179,7 +185,7 @@ impl<'a> Walk<'a> {
         self.add(at, times)
     }
 
-    /// Newton's steps from a state to one in the plane that is not yet known.
+    /// Newton steps from a state to one in the plane that is not yet known.
     fn add(&mut self, at: &Axes<f64>, times: Vector2<f64>) -> bool {
         let Some((times, end)) = self.search.on_to_plane(*at, times.into()) else { return false };
         let times = Vector2::from(times);
@@ -191,22 +197,23 @@ impl<'a> Walk<'a> {
         is_new
     }
 
-    /// How far the flows lead in given times: the body turns, and `n` and `L` move. A mean over the states seen, that does not let the flows cancel.
+    /// Length of the path along the flows for given times, from the rotation of the body and the motion of `n` and `L`. It is a mean over the states
+    /// evaluated, in which the flows cannot cancel.
     fn length(&self, times: &Vector2<f64>) -> f64 {
         self.along(times, times).sqrt()
     }
 
-    /// The product of ways that [`length`](Self::length) is the square root of.
+    /// The inner product of paths whose square root is [`length`](Self::length).
     fn along(&self, a: &Vector2<f64>, b: &Vector2<f64>) -> f64 {
         a.component_mul(&self.metric).dot(b)
     }
 
-    /// The lattice of the states in the plane, if they are all there: none is left inside a cell of those found.
+    /// The lattice of the states in the plane, if it is complete: no state is left inside a cell of those found.
     fn complete(&mut self) -> Option<Lattice> {
         'found: loop {
             let [a, b] = self.basis()?;
             let (origin, plane) = self.found[0];
-            // They lie symmetrically, so that half of the cell will do.
+            // They lie symmetrically, so half of the cell is sufficient.
             let mut row = plane;
             for i in 0..CELL {
                 let mut at = row;
@@ -226,7 +233,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Whether a state of the plane is predicted near one at some way from another, and not at a corner of the cell of two ways.
+    /// Whether a state in the plane is predicted near a state at the end of a path, other than at a corner of the cell of two
+    /// paths.
     fn is_inside(&self, at: &Axes<f64>, way: Vector2<f64>, [a, b]: [Vector2<f64>; 2]) -> bool {
         let change = self.search.step_to_plane(at).change;
         let parts = [(way + change).perp(&b), a.perp(&(way + change))].map(|area| area / a.perp(&b));
@@ -234,7 +242,7 @@ impl<'a> Walk<'a> {
         beside && self.length(&change) < 2.0 / CELL as f64 * self.length(&a).max(self.length(&b))
     }
 
-    /// The shortest two independent ways between states that were found.
+    /// The shortest two independent paths between states that were found.
     fn basis(&self) -> Option<[Vector2<f64>; 2]> {
         let origin = self.found[0].0;
         let mut ways: Vec<_> = self.found[1..].iter().map(|(times, _)| times - origin).collect();
@@ -246,7 +254,7 @@ impl<'a> Walk<'a> {
         Some(self.reduced(first, *second))
     }
 
-    /// Shorter ways with the same sums: Gauss' reduction.
+    /// Shorter paths that span the same lattice: Gauss' reduction.
     fn reduced(&self, mut a: Vector2<f64>, mut b: Vector2<f64>) -> [Vector2<f64>; 2] {
         for _ in 0..100 {
             if self.length(&a) > self.length(&b) {
@@ -261,7 +269,7 @@ impl<'a> Walk<'a> {
         [a, b]
     }
 
-    /// Which of two ways and their sum lead to the half turn of the start, and which of the others is the fast one.
+    /// Which of two paths and their sum leads to the half turn of the start, and which of the others is the fast one.
     fn named(&self, [a, b]: [Vector2<f64>; 2]) -> Option<Lattice> {
         let (to_plane, plane) = self.found[0];
         let ends = [a, b, a + b].map(|way| (way, self.integrals.moved(way.into(), &plane)));
@@ -273,17 +281,17 @@ impl<'a> Walk<'a> {
             return None;
         }
         let slow = ends[place].0;
-        // Whole ways of the other kind are left out of each.
+        // Whole periods of the other kind are subtracted from each.
         let less = |way: Vector2<f64>, by: Vector2<f64>| {
             way - by * (2.0 * (self.along(&way, &by) / self.along(&by, &by) / 2.0).round())
         };
-        // Of the other two, that which goes less far along the flow of K: this moves the averaged L.
+        // Of the other two, the one with the smaller part along the flow of `K`, which moves the averaged L.
         let others = (0..3).filter(|i| *i != place).map(|i| less(ends[i].0, slow));
         let fast = others.min_by(|a, b| a.y.abs().total_cmp(&b.y.abs()))?;
         let slow = less(slow, fast);
         let forwards = |way: Vector2<f64>, flow: usize| way * way[flow].signum();
         let (fast, slow) = (forwards(fast, 0), forwards(slow, 1));
-        // The same state, less whole ways from the start.
+        // The same state, without whole periods from the start.
         let area = 2.0 * fast.perp(&slow);
         let to_plane = to_plane
             - fast * (2.0 * (to_plane.perp(&slow) / area).round())
@@ -302,7 +310,8 @@ mod tests {
     use crate::solutions::torus::TorusSolution;
     use crate::solutions::torus::plane::tests::BODY;
 
-    /// `L` fast and slow, at rest, on `n`, on an axis, and with `n` in a well: half ways end in the plane, one at the half turn of its start, and at no half or third of them is a state in the plane.
+    /// With large and small `L`, at rest, along `n`, on an axis, and with `n` in a potential well: half orbits end in the plane, one of them at the
+    /// half turn of its start, and no state at half or a third of them is in the plane.
     #[test]
     fn half_ways_lead_from_plane_to_plane() {
         let values = Vector3::new(-0.4, 0.0, 0.6);
@@ -330,7 +339,7 @@ mod tests {
                 integrals.moved(times, &plane)
             };
             let at = |shares| half([found.fast, found.slow], shares);
-            // Within what few digits and a neighbour of a circle leave.
+            // Within the error of a few digits and of the neighbour of a circle.
             assert!(off(&at([1.0, 0.0])).max(off(&at([0.0, 1.0]))) < 1e-2, "{found:?}");
             let turned = if is_about_x { about_x } else { half_turn };
             let gap = apart(&at([0.0, 1.0]), &plane.map(|v| turned(&v)), unit);
@@ -341,7 +350,8 @@ mod tests {
         }
     }
 
-    /// The motion of tp-I's kind with ever weaker violation: `L` is so near the axis that rounding moves the times to a state by up to a part of the way.
+    /// A motion similar to tp-I with weaker and weaker violation: `L` is so near the axis that rounding changes the times to a state by up to a
+    /// fraction of the path.
     #[test]
     fn thin_tori_are_found() {
         let star = RigidSpheroid::in_units_of_tc(1.1);

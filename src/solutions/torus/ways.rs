@@ -1,14 +1,15 @@
-//! Closed ways on a torus: times along the flows of `H` and `K` that lead back to the start, by the symmetries of the torus.
+//! Closed orbits on a torus: period vectors, the times along the flows of `H` and `K` that lead back to the start, found
+//! from the symmetries of the torus.
 //!
-//! In the principal frame a reflection in a coordinate plane takes a motion to one that runs backwards, and a half turn about an axis takes it to
-//! another motion. With Y the axis of the middle eigenvalue of `s`, and Z one of the other two, the reflections in the planes `Y = 0` and `X = 0` and the half turn
-//! about Z take a torus to itself. Angles `theta` from a state in the plane `Y = 0` then obey
+//! In the principal frame a reflection in a coordinate plane maps a motion to a time-reversed one, and a half turn about an axis maps it to another
+//! motion. With Y the axis of the middle eigenvalue of `s`, and Z one of the other two, the reflections in the planes `Y = 0` and `X = 0` and the
+//! half turn about Z map a torus to itself. Angles `theta` counted from a state in the plane `Y = 0` then obey
 //!
 //! ```text
 //! (n, L)(-theta) = F_Y (n, L)(theta),      (n, L)(theta_1, theta_2 + pi) = R_Z(pi) (n, L)(theta)
 //! ```
 //!
-//! so that half a turn of either angle leads to a state of the plane again: two equations for the two times.
+//! so that half a turn of either angle leads to a state in the plane again: two equations for the two times.
 
 use nalgebra::{Matrix6x2, Vector2, Vector3};
 
@@ -17,35 +18,36 @@ use super::flow_series::FlowScalar;
 use crate::numerics::angle::about;
 use crate::numerics::scalar::Real;
 
-/// Newton steps.
+/// Maximum number of Newton steps.
 const MOST_CORRECTIONS: usize = 30;
 
-/// Longest of them: by how much `n` and `L` change.
+/// Longest Newton step, in terms of the change of `n` and `L`.
 const LONGEST_STEP: f64 = 0.4;
 
-/// Changes of a condition below this, in radians for a radian of the flow, are rounding: the motion does not depend on that angle.
+/// Changes of a condition below this, in radians per radian of the flow, are rounding: the motion does not depend on that angle.
 const STILL: f64 = 1e-14;
 
-/// Distance from the plane from which Newton's steps are known to end in it.
+/// Distance from the plane below which Newton's method is known to end in it.
 const NEAR: f64 = 1e-9;
 
-/// What may be left between the end of half the slow way and the half turn of its start: rounding, near the separatrix.
+/// Allowed distance between the end of half the slow orbit and the half turn of its start: the rounding near the separatrix.
 const WIDEST_GAP: f64 = 1e-7;
 
-/// Half of a closed way: along the flow of `H` for the first time and along that of `K` for the second, from a state in the plane.
+/// Half of a closed orbit: times along the flow of `H` and along that of `K`, from a state in the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct HalfWay<S> {
     pub(super) times: [S; 2],
-    /// Turn of the body about `n` (rad), against the vector across the plane or against the half turn about Z.
+    /// Rotation of the body about `n` (rad), relative to the vector normal to the plane or relative to the half turn about
+    /// Z.
     pub(super) turn: S,
 }
 
-/// A torus and its closed ways.
+/// A torus and its closed orbits.
 #[derive(Debug, Clone)]
 pub(super) struct ClosedWays<S> {
-    /// A state in the plane `Y = 0`, with `n x Y` for the vector of the body.
+    /// A state in the plane `Y = 0`, with `n x Y` as the vector of the body.
     pub(super) plane: Axes<S>,
-    /// The way to it from the initial state. Its turn is that from the plane's vector to the initial one.
+    /// The path to it from the initial state. Its rotation angle is that from the plane's vector to the initial one.
     pub(super) to_plane: HalfWay<S>,
     /// Half a turn of `n` about `L`, seen from the plane of `L` and Z.
     pub(super) fast: HalfWay<S>,
@@ -54,7 +56,8 @@ pub(super) struct ClosedWays<S> {
 }
 
 impl<S: FlowScalar> ClosedWays<S> {
-    /// Closed ways near given times: to the plane, and half of the fast and of the slow way. None where there are none.
+    /// Closed orbits near given times: the path to the plane, and half of the fast and of the slow orbit. `None` if there
+    /// are none.
     pub(super) fn near(
         integrals: &Integrals<S>,
         unit: f64,
@@ -75,7 +78,7 @@ impl<S: FlowScalar> ClosedWays<S> {
         [self.to_plane.times, self.fast.times, self.slow.times]
     }
 
-    /// States along a quarter of a turn of the second angle, from that in the plane on, so many steps apart.
+    /// States along a quarter of a turn of the second angle, starting with the one in the plane, in `quarter` equal steps.
     pub(super) fn starts(&self, integrals: &Integrals<S>, quarter: usize) -> Vec<Axes<S>> {
         let step = self.slow.times.map(|time| time / (2 * quarter) as f64);
         let mut all = vec![self.plane];
@@ -85,7 +88,7 @@ impl<S: FlowScalar> ClosedWays<S> {
         all
     }
 
-    /// Angle (rad) by which the vector of the body is turned at some turns of both angles.
+    /// Angle (rad) by which the vector of the body is rotated at given turns of both angles.
     pub(super) fn turned(&self, [first, second]: [f64; 2]) -> f64 {
         2.0 * (self.fast.turn.re() * first + self.slow.turn.re() * second)
     }
@@ -102,7 +105,7 @@ impl<S: FlowScalar> ClosedWays<S> {
     }
 }
 
-/// `v` turned by half a turn about Z.
+/// `v` rotated by half a turn about Z.
 pub(super) fn half_turn<S: Real>(v: &Vector3<S>) -> Vector3<S> {
     Vector3::new(-v.x, -v.y, v.z)
 }
@@ -111,20 +114,20 @@ pub(super) fn half_turn<S: Real>(v: &Vector3<S>) -> Vector3<S> {
 pub(super) struct StepToPlane<S> {
     /// Distances from the plane.
     left: Vector2<S>,
-    /// Change of the times that would make them zero if they changed at the same rates all the way.
+    /// Change of the times that would make them zero if the rates were constant.
     pub(super) change: Vector2<S>,
     /// Rates along both flows.
     pub(super) tangents: Matrix6x2<f64>,
 }
 
 impl<S: Real> StepToPlane<S> {
-    /// How far the step leads.
+    /// Length of the step.
     pub(super) fn length(&self) -> f64 {
         (self.tangents * self.change.map(S::re)).norm()
     }
 }
 
-/// What is looked for on a torus: states in the plane, and ways between them.
+/// The search on a torus for states in the plane, and for paths between them.
 pub(super) struct Search<'a, S> {
     integrals: &'a Integrals<S>,
     /// Unit of `L`.
@@ -138,12 +141,12 @@ impl<'a, S: FlowScalar> Search<'a, S> {
         Self { integrals, unit, rate: unit * integrals.inverse_inertia() }
     }
 
-    /// Distance of `n` from the plane across `L`, and that of `L`, in units of their lengths.
+    /// Distance of `n`, minus its part along `L`, from the plane, and the distance of `L`, in units of their lengths.
     fn distances(&self, n: &Vector3<S>, momentum: &Vector3<S>, share: S) -> Vector2<S> {
         Vector2::new(n.y - share * momentum.y, momentum.y * S::from_f64(1.0 / self.unit))
     }
 
-    /// `n.L / L^2`, what `n` has of `L`; zero where `L` is small.
+    /// `n.L / L^2`, the component of `n` along `L`; zero if `L` is small.
     fn share(&self, [n, momentum, _]: &Axes<S>) -> S {
         let square = momentum.dot(momentum);
         if square.re() < 0.01 * self.unit * self.unit { S::zero() } else { n.dot(momentum) / square }
@@ -158,12 +161,13 @@ impl<'a, S: FlowScalar> Search<'a, S> {
         StepToPlane { left, change, tangents: tangents(&rates, self.unit) }
     }
 
-    /// The way near given times that ends in the plane `Y = 0`. Flows commute, so that the rates at the end lead there.
+    /// The path near given times that ends in the plane `Y = 0`. Flows commute, so the rates at the end determine the Newton
+    /// step.
     fn end_in_plane(&self, start: &Axes<S>, times: [S; 2]) -> Option<([S; 2], Axes<S>)> {
         self.on_to_plane(self.integrals.moved(times, start), times)
     }
 
-    /// The state in the plane near one that lies at given times from the start.
+    /// The state in the plane near the state at given times from the start.
     pub(super) fn on_to_plane(&self, mut at: Axes<S>, mut times: [S; 2]) -> Option<([S; 2], Axes<S>)> {
         let mut least = f64::INFINITY;
         for step in 0..MOST_CORRECTIONS {
@@ -172,13 +176,13 @@ impl<'a, S: FlowScalar> Search<'a, S> {
             if !size.is_finite() {
                 return None;
             }
-            // Derivatives need one step from the root.
+            // Derivatives require one step at the root.
             let near = size < NEAR;
             if step > 0 && (near && size >= 0.5 * least || size <= self.integrals.rounding()) {
                 return near.then_some((times, at));
             }
             least = size;
-            // Far from the plane the rates at the end say little.
+            // Far from the plane the rates at the end are of little use.
             let length = found.length();
             let part = S::from_f64(if length > LONGEST_STEP { LONGEST_STEP / length } else { 1.0 });
             let change = [found.change.x * part, found.change.y * part];
@@ -188,7 +192,8 @@ impl<'a, S: FlowScalar> Search<'a, S> {
         None
     }
 
-    /// The way near given times to a state in the plane, with its turn from the vector of the plane there or, if slow, from the half turn of the start's.
+    /// The path near given times to a state in the plane, with its rotation angle relative to the vector of the plane there or, if slow, relative to
+    /// the half turn of the start's.
     fn half_way(&self, start: &Axes<S>, times: [S; 2], slow: bool) -> Option<(HalfWay<S>, Axes<S>)> {
         let (times, end) = self.end_in_plane(start, times)?;
         let from = if slow { half_turn(&start[2]) } else { end[0].cross(&Vector3::y()) };
@@ -196,8 +201,8 @@ impl<'a, S: FlowScalar> Search<'a, S> {
     }
 }
 
-/// Times that change the distances by minus what they are, from the changes by each of them. A distance that does not change with them is rounding, or the motion does
-/// not depend on that angle: nothing is done about it.
+/// Changes of the times that cancel the distances, from the change of the distances with each time. If a distance does not change with them it is
+/// rounding, or the motion does not depend on that angle, and it is ignored.
 fn step_to_zero<S: Real>([by_h, by_k]: [Vector2<S>; 2], left: Vector2<S>, rate: f64) -> Vector2<S> {
     let norm = |row: &Vector2<S>| row.map(S::re).norm();
     // One flow may be much slower than the other.
@@ -212,7 +217,7 @@ fn step_to_zero<S: Real>([by_h, by_k]: [Vector2<S>; 2], left: Vector2<S>, rate: 
         (true, true) => {
             let determinant = first.x * second.y - first.y * second.x;
             if determinant.re().abs() <= STILL * norm(first) * norm(second) {
-                // Both distances change alike, on a circle: the nearest to both.
+                // If both distances change in proportion, on a circle: the best compromise of both.
                 let share = second.dot(first) / first.dot(first);
                 along(first, (left.x + share * left.y) / (S::one() + share * share))
             } else {
@@ -233,7 +238,7 @@ mod tests {
     use super::*;
     use crate::solutions::torus::plane::tests::BODY;
 
-    /// With Y the axis of the middle value and `L` round Z.
+    /// With Y the axis of the middle value and `L` circling Z.
     fn found(strength: f64) -> (Integrals<f64>, Axes<f64>, ClosedWays<f64>) {
         let values = Vector3::new(-0.05, 0.0, 0.29) * strength;
         let integrals = Integrals::new(&BODY, &nalgebra::Matrix3::from_diagonal(&values), 0.34 * strength, DOUBLE);
@@ -251,7 +256,7 @@ mod tests {
             let (integrals, start, ways) = found(strength);
             let [n, momentum, u] = ways.plane;
             assert!(n.y.abs().max(momentum.y.abs()) < 1e-15, "{ways:?}");
-            // Back to the initial state, whose vector is ahead by the turn of the way.
+            // Back to the initial state, whose vector is ahead by the rotation angle of the path.
             let back = integrals.moved(ways.to_plane.times.map(|time| -time), &ways.plane);
             let gap = (back[0] - start[0]).amax().max((back[1] - start[1]).amax());
             assert!(gap < 1e-14, "{gap:e}");
@@ -264,7 +269,7 @@ mod tests {
                 assert!(gap < 1e-13, "{gap:e}");
                 assert!((turned(&u, 2.0 * way.turn) - end[2]).amax() < 1e-13, "{way:?}");
             }
-            // Half of the slow way is half a turn about Z.
+            // Half of the slow orbit is half a turn about Z.
             let half = integrals.moved(ways.slow.times, &ways.plane);
             assert!((half[0] - half_turn(&n)).amax().max((half[1] - half_turn(&momentum)).amax()) < 1e-13);
         }
@@ -279,7 +284,7 @@ mod tests {
         assert_eq!(step([0.0; 2], [0.0; 2]), Vector2::zeros());
         assert_eq!(step([0.0; 2], [0.0, 2.0]), Vector2::new(0.0, -0.1));
         assert!((step([3.0, 0.0], [0.0; 2]).x + 0.1).abs() < 1e-15);
-        // On a circle both distances change alike: what they are is met as well as one number can.
+        // On a circle both distances change in proportion: they are cancelled as well as one number can.
         let met = step([3.0, 1.0], [6.0, 2.0]);
         let rest = Vector2::new(3.0 * met.x + met.y + 0.3, 6.0 * met.x + 2.0 * met.y + 0.2);
         assert!((rest.x + 2.0 * rest.y).abs() < 1e-15 && (met.y - 3.0 * met.x).abs() < 1e-15, "{met}");

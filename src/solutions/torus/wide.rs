@@ -13,10 +13,10 @@ use crate::error::Error;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::scalar::{Real, length};
 
-/// What the rounding of the flow leaves at the end of half a closed way.
+/// Rounding error of the flow at the end of half a closed orbit.
 const END_OF_HALF_WAY: f64 = 1e-29;
 
-/// A torus in 32 digits: of the body, the tensor and the state as they are given.
+/// A torus to 32 digits, for the body, the tensor and the state exactly as given.
 pub(super) struct WideTorus {
     integrals: Integrals<DoubleDouble>,
     ways: ClosedWays<DoubleDouble>,
@@ -24,15 +24,15 @@ pub(super) struct WideTorus {
     values: Vector3<DoubleDouble>,
     from_given: Matrix3<DoubleDouble>,
     pub(super) phases: [Phase; 3],
-    /// Error of a state per unit of time, by the rates.
+    /// Error of a state per unit of time, due to the rates.
     pub(super) drift: f64,
 }
 
 impl WideTorus {
-    /// From the torus found in doubles.
+    /// Refines a torus found in doubles.
     ///
     /// # Errors
-    /// [`Error::NotConverged`] if Newton's steps from there do not converge.
+    /// [`Error::NotConverged`] if Newton's method does not converge from there.
     pub(super) fn near(torus: &Torus, problem: &Problem<f64>) -> Result<Self, Error> {
         let wide = |value: f64| DoubleDouble::from(value);
         let spheroid = torus.spheroid.map(wide);
@@ -41,20 +41,20 @@ impl WideTorus {
         let integrals = Integrals::new(&spheroid, &Matrix3::from_diagonal(&values), wide(torus.spread), DOUBLE_DOUBLE);
         let given = problem.initial();
         let mut initial = [given.axis, given.momentum, given.equatorial_axis].map(|v| from_given * v.map(wide));
-        // n is a unit vector, whatever rounding has made of its length.
+        // n is a unit vector, whatever the rounding of its length.
         initial[0] /= length(&initial[0]);
         let ways = ClosedWays::near(&integrals, torus.unit, &initial, torus.ways.times().map(|times| times.map(wide)));
         let what = "periods of the torus in 32 digits";
         let ways = ways.ok_or(Error::NotConverged { what, iterations: 1, residual: f64::NAN })?;
         let phases = phases(&spheroid, &initial, &ways);
-        // The torque of what is left beside the diagonal, which is not zero where two eigenvalues are nearly equal.
+        // The torque of the remaining off-diagonal elements, which is not zero if two eigenvalues are nearly equal.
         let beside = [(0, 1), (1, 2), (2, 0)].map(|place| tensor[place].re().abs()).iter().sum::<f64>();
         let torque = 2.0 * torus.spheroid.constant_c.abs() * beside / torus.unit;
         let drift = rate_of_ways(&phases) * END_OF_HALF_WAY + torque;
         Ok(Self { integrals, ways, initial, values, from_given, phases, drift })
     }
 
-    /// Rounded to doubles, in the place of the one that it was found from.
+    /// Rounded to doubles, as a replacement for the torus from which it was refined.
     pub(super) fn rounded(&self, torus: &Torus) -> Torus {
         let values = self.values.map(Real::re);
         Torus {
@@ -66,14 +66,14 @@ impl WideTorus {
         }
     }
 
-    /// States a quarter of a turn of the second angle apart by so many steps, rounded.
+    /// States along a quarter of a turn of the second angle, in `quarter` equal steps, rounded.
     pub(super) fn starts(&self, quarter: usize) -> Vec<Axes<f64>> {
         let starts = self.ways.starts(&self.integrals, quarter);
         starts.into_iter().map(|axes| axes.map(|v| v.map(Real::re))).collect()
     }
 }
 
-/// A rotation near a given one that makes a tensor diagonal, and the tensor after it.
+/// A rotation near a given one that diagonalises a tensor, and the rotated tensor.
 fn diagonal_frame(
     tensor: &Matrix3<DoubleDouble>,
     mut frame: Matrix3<DoubleDouble>,
@@ -87,7 +87,7 @@ fn diagonal_frame(
         let y = y * (one / Real::sqrt(y.dot(&y)));
         frame = Matrix3::from_rows(&[x.transpose(), y.transpose(), x.cross(&y).transpose()]);
         let turned = frame * tensor * frame.transpose();
-        // Each pass squares what is left beside the diagonal, over the differences of eigenvalues: from 1e-16 to 1e-64.
+        // Each pass squares the remaining off-diagonal elements, over the differences of eigenvalues: from 1e-16 to 1e-64.
         if passes == 2 {
             return (frame, turned);
         }
@@ -122,7 +122,7 @@ mod tests {
         assert!((frame.map(Real::re) - turn).amax() < 1e-15);
     }
 
-    /// Two equal eigenvalues: any axes of their plane are as good, and none is divided by zero.
+    /// Two equal eigenvalues: any axes of their plane are valid, and nothing is divided by zero.
     #[test]
     fn equal_eigenvalues_keep_their_axes() {
         let tensor = Matrix3::from_diagonal(&Vector3::new(0.2, 0.2, -0.4)).map(DoubleDouble::from);

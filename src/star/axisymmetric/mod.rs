@@ -1,4 +1,5 @@
-//! Any axisymmetric density: mass, inertia, tensor of the gravitational energy and C by multipoles. Eqs. (12), (15)-(17).
+//! Arbitrary axisymmetric density: mass, inertia, tensor of the gravitational energy and C from multipoles. Eqs. (12),
+//! (15)-(17).
 //!
 //! The potential is expanded in Legendre polynomials, `Phi = -sum_l phi_l(r) P_l(mu)`, `mu = cos(theta)`. With
 //! `U^xx - U^zz = int rho D Phi d^3x`, `D = (varpi d_varpi) / 2 - z d_z = -P_2 r d_r - (3/2) mu (1 - mu^2) d_mu`, and the
@@ -8,21 +9,22 @@
 //! M_l = int rho P_l dmu,   J_l = int rho P_2 P_l dmu,   K_l = (3/2) int rho mu (1 - mu^2) P_l' dmu,
 //! ```
 //!
-//! the six-dimensional integral of Eq. (12) is a sum over `l` of integrals over `r > s`: each pair of radii once, so that
-//! only the interior potential enters and no large powers cancel,
+//! the six-dimensional integral of Eq. (12) is a sum over `l` of integrals over `r > s`. Each pair of radii appears once, so
+//! that only the interior potential enters and no large powers cancel,
 //!
 //! ```text
 //! 2 C = 4 pi^2 sum_l int dr r^(1-l) int_0^r ds s^(l+2) { [K_l - (l+1) J_l](r) M_l(s) + M_l(r) [l J_l + K_l](s) },
 //! tr U = 4 pi^2 sum_l int dr r^(1-l) int_0^r ds s^(l+2) M_l(r) M_l(s).
 //! ```
 //!
-//! Gauss-Legendre rules serve every integral. Between the largest sphere inside the star and the smallest one around it the
-//! radius is that of the surface at a colatitude, which makes all integrands there as smooth as surface and density.
+//! Every integral uses a Gauss-Legendre rule. Between the largest sphere inside the star and the smallest one around it the
+//! radius is parametrised by the colatitude of the surface, which makes all integrands there as smooth as surface and
+//! density.
 //!
 //! Accuracy: the rules converge spectrally for smooth density and surface, the sum over degrees algebraically. Its tail is
-//! `a (degree + 3/2)^-3` for a density that ends by a jump, and is removed by Richardson's extrapolation from half the
-//! degree; what is left decreases as `degree^-5`. For a uniform spheroid of axis ratio 0.95, 0.6, 2 the relative error of C
-//! at degree 16 is 4e-6, 6e-5, 2e-4, at degree 32 it is 2e-7, 2e-6, 5e-6. For the sphere degree 2 is exact.
+//! `a (degree + 3/2)^-3` for a density that ends with a jump, and is removed by Richardson extrapolation from half the
+//! degree; the remaining error decreases as `degree^-5`. For a uniform spheroid of axis ratio 0.95, 0.6, 2 the relative
+//! error of C at degree 16 is 4e-6, 6e-5, 2e-4, at degree 32 it is 2e-7, 2e-6, 5e-6. For the sphere degree 2 is exact.
 //!
 //! ```
 //! use twofold::star::axisymmetric::axisymmetric_integrals;
@@ -48,12 +50,12 @@ use crate::star::AxisymmetricTensor;
 use crate::star::axisymmetric::multipoles::Multipoles;
 use crate::star::uniform_spheroid::UniformSpheroid;
 
-/// Nodes per integral beyond the highest degree.
+/// Number of nodes per integral in addition to the highest degree.
 const MORE_NODES: usize = 16;
 
-/// An axisymmetric star that is its own mirror image in the equatorial plane, in spherical coordinates.
+/// An axisymmetric star with equatorial mirror symmetry, in spherical coordinates.
 pub trait AxisymmetricBody<S> {
-    /// Density at radius `r` and `mu = cos(theta)` in [0, 1], asked for inside the surface only.
+    /// Density at radius `r` and `mu = cos(theta)` in [0, 1], evaluated only inside the surface.
     fn density(&self, r: S, mu: S) -> S;
 
     /// Radius `r_s` of the surface at `mu` in [0, 1] and its slope `d r_s / d mu`: a monotonic function of `mu`.
@@ -94,15 +96,16 @@ pub struct AxisymmetricIntegrals<S> {
     pub moment_of_inertia: AxisymmetricTensor<S>,
     /// Tensor `U^xx = U^yy`, `U^zz` of Eqs. (15) and (17).
     pub potential_energy_tensor: AxisymmetricTensor<S>,
-    /// Constant `C = (U^xx - U^zz) / 2`, Eq. (12), computed as such: no difference of large numbers.
+    /// Constant `C = (U^xx - U^zz) / 2`, Eq. (12), computed directly and not as a difference of large numbers.
     pub c: S,
-    /// Estimated error of `c`: the part that the extrapolation in the degree has added. Larger than the error left for smooth
-    /// densities and axis ratios from 0.4 to 3 at any degree; flatter or longer stars need a degree of several times that
-    /// ratio (at 0.1 it is 160 times too small at degree 4, twice at 16), and a jump of the density inside is not in it.
+    /// Estimated error of `c`: the part added by the extrapolation in the degree. It is larger than the remaining error for
+    /// smooth densities and axis ratios from 0.4 to 3 at any degree. Flatter or longer stars need a degree of several times
+    /// that ratio (at 0.1 the estimate is 160 times too small at degree 4, twice at 16), and the error from a density jump in
+    /// the interior is not included.
     pub c_error: f64,
 }
 
-/// Integrals of `body` from even Legendre degrees up to `degree`; derivatives pass through.
+/// Integrals of `body` from even Legendre degrees up to `degree`; derivatives (duals) are supported.
 ///
 /// The work grows as `degree^4`: 0.3 ms at 4, 5 ms at 16, 40 ms at 32.
 ///
@@ -122,7 +125,7 @@ pub fn axisymmetric_integrals<S: Real>(
         let (radius, slope) = body.surface(S::from_f64(mu));
         Error::ensure(radius.re() > 0.0, "radius of the surface r_s", radius.re(), "positive")?;
         let rise = if oblate { -slope.re() } else { slope.re() };
-        // The slope of a sphere may be rounding.
+        // The slope of a sphere may consist of rounding.
         Error::ensure(rise >= -1e-14 * radius.re(), "rise of r_s towards its larger end", rise, "not negative")?;
     }
     let star = Multipoles { body, rule, terms: degree / 2 + 1, oblate };
@@ -133,7 +136,7 @@ pub fn axisymmetric_integrals<S: Real>(
 mod tests {
     use super::*;
 
-    /// A sphere of this radius, as far as its slope is rounding.
+    /// A sphere of this radius, with a slope that is rounding.
     fn sphere(radius: f64, slope: f64) -> impl AxisymmetricBody<f64> {
         (|_: f64, _: f64| 1.0, move |_: f64| (radius, slope))
     }
@@ -145,13 +148,14 @@ mod tests {
         }
     }
 
-    /// The terms beyond the degree are taken as a tail `a (l + 3/2)^-3`, with `a` from the terms above half of it: from degree 4 to 8 the sum grows by `(9.5 / 5.5)^3 - 1` times that tail.
+    /// The terms beyond the degree are treated as a tail `a (l + 3/2)^-3`, with `a` from the terms above half of it: from degree 4 to 8 the sum grows
+    /// by `(9.5 / 5.5)^3 - 1` times that tail.
     #[test]
     fn the_tail_of_the_sum_is_that_of_its_last_half() {
         for (equatorial, polar) in [(1.0, 0.7), (0.8, 1.1)] {
             let star = UniformSpheroid::from_semi_axes(equatorial, polar, 1.0).unwrap();
             let [four, eight] = [4, 8].map(|degree| axisymmetric_integrals(&star, degree).unwrap());
-            // The estimated error is the tail without its sign, which is the same for both degrees.
+            // The estimated error is the absolute value of the tail, which has the same sign for both degrees.
             let grown = [1.0, -1.0].map(|sign| (eight.c - sign * eight.c_error) - (four.c - sign * four.c_error));
             let ratios = grown.map(|grown| (grown / eight.c_error).abs());
             let expected = (9.5_f64 / 5.5).powi(3) - 1.0;
@@ -160,12 +164,12 @@ mod tests {
             // The trace has a tail of its own.
             let trace = |tensor: AxisymmetricTensor<f64>| 2.0 * tensor.xx + tensor.zz;
             let off = trace(eight.potential_energy_tensor) / trace(star.potential_energy_tensor()) - 1.0;
-            // Without it 2e-5 are missing.
+            // Without this term 2e-5 are missing.
             assert!(off.abs() < 1e-5, "{off:e}");
         }
     }
 
-    /// A steep exponential takes more nodes than the degree has.
+    /// A steep exponential requires more nodes than the degree.
     #[test]
     fn the_rules_are_exact_for_smooth_densities() {
         let star = (|r: f64, _: f64| (-20.0 * r).exp(), |_: f64| (1.0, 0.0));

@@ -9,14 +9,14 @@ use crate::star::axisymmetric::{AxisymmetricBody, AxisymmetricIntegrals};
 /// Angular moments at one radius for one degree: `M_l`, `J_l`, `K_l`.
 type Moments<S> = [S; 3];
 
-/// A star and the rule that it is resolved with.
+/// A star and the quadrature rule with which it is resolved.
 pub(super) struct Multipoles<'a, S> {
     pub(super) body: &'a dyn AxisymmetricBody<S>,
     /// Nodes and weights on [0, 1].
     pub(super) rule: Vec<(f64, f64)>,
     /// Number of even degrees.
     pub(super) terms: usize,
-    /// Whether the surface is farthest at the equator.
+    /// Whether the surface is farthest from the centre at the equator.
     pub(super) oblate: bool,
 }
 
@@ -45,7 +45,7 @@ impl<S: Real> Multipoles<'_, S> {
             let mu = from + (to - from) * t;
             let density = self.body.density(r, mu) * (to - from) * (2.0 * w);
             let p2 = (mu * mu * 3.0 - S::one()) * 0.5;
-            // P_(l-1) and P_l; the former does not count at l = 0.
+            // P_(l-1) and P_l; the former is irrelevant at l = 0.
             let (mut previous, mut p) = (S::zero(), S::one());
             for (i, [m, j, k]) in moments.iter_mut().enumerate() {
                 let l = 2.0 * i as f64;
@@ -60,7 +60,7 @@ impl<S: Real> Multipoles<'_, S> {
         moments
     }
 
-    /// Moments on the sphere of radius `r = r_s(mu)`: over the directions in which the star reaches further.
+    /// Moments on the sphere of radius `r = r_s(mu)`: over the directions in which the star extends farther.
     fn shell_moments(&self, mu: S, r: S) -> Vec<Moments<S>> {
         self.moments(r, if self.oblate { [S::zero(), mu] } else { [mu, S::one()] })
     }

@@ -1,4 +1,4 @@
-//! Stars with a centrifugal bulge, by the averaged motion against the integration of the equations of motion.
+//! Stars with a centrifugal bulge: the averaged motion compared with integration of the equations of motion.
 
 use twofold::dynamics::bulge::{bulge_potential, bulge_turning};
 use twofold::observables::pulsar::PulsarClock;

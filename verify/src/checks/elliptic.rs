@@ -1,4 +1,5 @@
-//! Elliptic integrals and functions: against 60-digit tables, against the crate `ellip`, by identities of their derivatives.
+//! Elliptic integrals and functions: compared with 60-digit tables, with the crate `ellip`, and through identities of their
+//! derivatives.
 
 use num_dual::{Dual3_64, third_derivative};
 use proptest::prelude::*;

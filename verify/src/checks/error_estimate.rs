@@ -1,4 +1,4 @@
-//! The estimated error of a numerical motion against its true one, over the whole space of motions.
+//! The estimated error of a numerical motion compared with its true one, over the whole space of motions.
 
 use crate::prelude::*;
 

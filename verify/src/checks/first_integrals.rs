@@ -1,4 +1,4 @@
-//! What a motion conserves. Eq. (24), the third integral and the two of the geometry.
+//! Conserved quantities of a motion. Eq. (24), the third integral and the two geometric constraints.
 
 use crate::derivation::spheroid_motion::{accelerations, fixed_coefficients};
 use crate::prelude::*;

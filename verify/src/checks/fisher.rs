@@ -1,4 +1,5 @@
-//! What the pulsar's period and width can tell of the star: rank of the Fisher matrix. Eqs. (44), (51), (52), (56), (57).
+//! Constraints on the star from the period and width of its pulses: rank of the Fisher matrix. Eqs. (44), (51), (52), (56),
+//! (57).
 
 use std::f64::consts::SQRT_2;
 

@@ -1,4 +1,4 @@
-//! From data back to the scene: derivatives of data, degenerate directions, error bars, forecasts. Eqs. (25), (44), (71).
+//! Parameter estimation: derivatives of data, degenerate directions, error bars, forecasts. Eqs. (25), (44), (71).
 
 use std::collections::BTreeSet;
 

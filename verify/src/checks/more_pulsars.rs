@@ -1,4 +1,4 @@
-//! What more solitary pulsars would tell of `s`: a forecast by their Fisher matrix. Eqs. (41), (42).
+//! Constraints on `s` from additional solitary pulsars: a forecast from their Fisher matrix. Eqs. (41), (42).
 
 use twofold::observables::bound::fluid_inertia_over_c;
 use twofold::observables::eta::secular_axis_rate;

@@ -1,4 +1,4 @@
-//! The errors that plans foresee, of every method against true ones, in random scenes that it is made for.
+//! The predicted errors of plans compared with true ones, for every method in random scenes for which it is intended.
 
 use twofold::plan::{Output, Plan, Promise, Request, gradient};
 

@@ -1,4 +1,4 @@
-//! Plans: what is forecast against what is counted, motions in closed form against numerical ones, gradients.
+//! Plans: predicted compared with counted work, motions in closed form compared with numerical ones, gradients.
 
 use proptest::prelude::*;
 use twofold::plan::{Gradient, Output, Prediction, Request, StateFunction, gradient};

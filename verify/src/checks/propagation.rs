@@ -1,4 +1,5 @@
-//! The numerical motion: against the 34-digit reference motions, its invariants, its dense output and its derivatives.
+//! The numerical motion: comparison with the 34-digit reference motions, its invariants, its dense output and its
+//! derivatives.
 
 use crate::double_double::DoubleDouble;
 use crate::independent_taylor::state_after;

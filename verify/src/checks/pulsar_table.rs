@@ -1,4 +1,4 @@
-//! Bounds from tables of pulsars: their uncertainties, and the same as bounds on alpha_2. Eqs. (5), (20), (41)-(43).
+//! Bounds from tables of pulsars: their uncertainties, and the same bounds expressed in alpha_2. Eqs. (5), (20), (41)-(43).
 
 use twofold::units::DEGREE;
 

@@ -1,4 +1,4 @@
-//! The same bits: backwards as forwards with the momentum reversed, and in every run, order and thread.
+//! Bitwise reproducibility: backwards as forwards with the momentum reversed, and in every run, order and thread.
 
 use crate::prelude::*;
 

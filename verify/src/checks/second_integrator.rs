@@ -1,4 +1,4 @@
-//! The numerical motion against another integrator of another crate, in both forms of the equations.
+//! The numerical motion compared with the integrator of another crate, in both forms of the equations.
 
 use crate::prelude::*;
 use crate::second_integrator::{motion_in_angles, regular_motion};

@@ -1,4 +1,4 @@
-//! Stars that slow down, by the map of time against the integration of a braking torque.
+//! Stars that slow down: the map of time compared with integration under a braking torque.
 
 use std::sync::LazyLock;
 

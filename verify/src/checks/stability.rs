@@ -1,4 +1,4 @@
-//! Errors of every kernel in ulp of its conditioned scale, on sweeps into its limits: a check for each family of cases.
+//! Errors of every kernel in ulp of its conditioned scale, on sweeps into its limits: one check for each family of cases.
 
 use crate::prelude::*;
 use crate::stability::cases::FAMILIES;

@@ -1,4 +1,4 @@
-//! The second derivation: kernels against exact values that SymPy derived from the Lagrangian.
+//! The second derivation: kernels compared with exact values that SymPy derived from the Lagrangian.
 
 use crate::prelude::*;
 use crate::symbolic::{DATA, Document, compare_closed, compare_doubles, compare_field};

@@ -1,5 +1,5 @@
 //! The paper's statements that can be true or false, each with a verdict and the checks behind it: `verify/data/claims.toml`. `docs/claims.md` is
-//! that list with the figures measured; a test keeps it so.
+//! that list with the measured values; a test keeps it up to date.
 
 mod page;
 

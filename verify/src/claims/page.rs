@@ -1,4 +1,4 @@
-//! The page of the claims, with what their checks measured.
+//! The page of the claims, with the values that their checks measured.
 
 use std::fmt::Write;
 

@@ -1,4 +1,5 @@
-//! A rigid body moving along given angles, rates and accelerations: everything from the rotation matrix by time jets.
+//! A rigid body moving along given angles, rates and accelerations: everything is computed from the rotation matrix with
+//! time jets.
 
 use crate::derivation::accelerated_angles;
 use crate::prelude::*;

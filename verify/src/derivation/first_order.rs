@@ -1,4 +1,4 @@
-//! The first-order equations by differentiating Eq. (25) with nothing dropped, and a solution put into them.
+//! The first-order equations from differentiating Eq. (25) without omitting any term, and a solution inserted into them.
 
 use crate::prelude::*;
 

@@ -1,4 +1,4 @@
-//! What the paper's equations say, derived again from first principles with automatic derivatives.
+//! The paper's equations, derived again from first principles with automatic derivatives.
 //!
 //! Each derivation is written once and runs on three kinds of numbers: a prime field (exact), `f64` with the dual numbers
 //! of `num_dual`, and [`Conditioned`] (how large rounding may be).

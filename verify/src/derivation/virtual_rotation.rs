@@ -1,4 +1,4 @@
-//! Torques as generalised forces: what a potential does under a small rotation of the body.
+//! Torques as generalised forces: the change of a potential under a small rotation of the body.
 
 use crate::prelude::*;
 

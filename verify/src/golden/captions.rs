@@ -1,4 +1,4 @@
-//! Captions of the figures of the four examples, and what their parameters give.
+//! Captions of the figures of the four examples, and the values that follow from their parameters.
 
 use super::{GoldenLine, GoldenTable, Printed};
 use crate::prelude::*;

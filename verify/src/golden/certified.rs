@@ -1,5 +1,6 @@
-//! Rigorous enclosures of golden numbers, made in ball arithmetic independently of the Rust code (`verify/oracles/certified`,
-//! docs/reliability/certified.md). A number whose enclosure lies within what rounds to its printed digits is certified to the last one.
+//! Rigorous enclosures of golden numbers, computed in ball arithmetic independently of the Rust code (`verify/oracles/certified`,
+//! docs/reliability/certified.md). A number whose enclosure lies within the interval that rounds to its printed digits is certified to
+//! the last one.
 
 use super::{GoldenLine, GoldenTable};
 use crate::prelude::*;

@@ -1,4 +1,4 @@
-//! The factor eta of Eq. (41): where the paper gives numbers, and along the inclination.
+//! The factor eta of Eq. (41): at the values given in the paper, and along the inclination.
 
 use twofold::units::DEGREE;
 

@@ -1,4 +1,4 @@
-//! The paper's numbers beside ours, one table per figure, table or passage of the paper.
+//! The paper's numbers compared with ours, one table per figure, table or passage of the paper.
 
 mod captions;
 mod certified;

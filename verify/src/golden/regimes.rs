@@ -1,4 +1,4 @@
-//! Errors of the perturbation solutions over their parameters.
+//! Errors of the perturbation solutions as functions of their parameters.
 
 use super::{GoldenLine, GoldenTable, Printed};
 use crate::checks::regimes::perturbation_error::Case;

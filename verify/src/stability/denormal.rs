@@ -1,5 +1,5 @@
-//! Denormal inputs: below the smallest normal number 31 digits are not to be had, but there every kernel has its limit, which the oracle tells
-//! from three inputs far above.
+//! Denormal inputs: below the smallest normal number 31 digits are not available, but there every kernel has its limit, which the oracle
+//! determines from three inputs far above.
 
 use super::input::{self, Input};
 use super::measure::{Errors, spacing};

@@ -1,4 +1,4 @@
-//! Where the inputs of a case are drawn from.
+//! The ranges from which the inputs of a case are drawn.
 
 use crate::prelude::*;
 

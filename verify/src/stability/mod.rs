@@ -1,8 +1,8 @@
-//! Digits lost by kernels and solvers, against an oracle of 31 digits, on logarithmic sweeps into their limits.
+//! Digits lost by kernels and solvers, relative to an oracle of 31 digits, on logarithmic sweeps into their limits.
 //!
-//! A [`Case`] is one sweep: a function generic over the scalar, where its inputs are drawn from and the limit that the first one goes to, and how
-//! much error is allowed. It is run on doubles, on duals, and as its own oracle on double-double numbers; where it has constants or
-//! thresholds for doubles, another formula is the oracle. [`measure`] does all of them.
+//! A [`Case`] is one sweep: a function generic over the scalar, the ranges of its inputs and the limit that the first one approaches, and the
+//! allowed error. It is run on doubles, on duals, and as its own oracle on double-double numbers; if it has constants or thresholds for doubles,
+//! another formula is the oracle. [`measure`] runs all of them.
 //!
 //! The error of a number `f(x)` is counted in ulp of its *conditioned scale*
 //!
@@ -10,9 +10,9 @@
 //! |f| + sum_i |x_i df/dx_i|
 //! ```
 //!
-//! with the derivatives from duals over double-double numbers: as much as inputs that are right to rounding leave of it, so that a loss is
-//! blamed on the kernel only where its inputs do not excuse it. Inputs are exact doubles for kernel and oracle alike. An ulp is the distance to
-//! the next double at the scale.
+//! with the derivatives from duals over double-double numbers. This is the precision that inputs accurate to rounding permit, so that a loss is
+//! attributed to the kernel only if its inputs do not explain it. Inputs are exact doubles for kernel and oracle alike. An ulp is the distance
+//! to the next double at the scale.
 
 pub mod cases;
 pub mod denormal;

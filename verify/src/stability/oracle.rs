@@ -1,4 +1,4 @@
-//! Formulas for 31 digits where the kernels have constants, series or thresholds for 16.
+//! Formulas for 31 digits where the kernels have constants, series or thresholds for 16 digits.
 
 use crate::prelude::*;
 

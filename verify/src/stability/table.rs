@@ -1,4 +1,4 @@
-//! The page `docs/reliability/stability.md`, and its stated maxima.
+//! The page `docs/reliability/stability.md`, and the maxima stated in it.
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! Kernels with roots or inverse functions, under the names of `verify/oracles/symbolic/quantities.py` and with its order of components.
+//! Kernels with roots or inverse functions, with the names and the order of components of `verify/oracles/symbolic/quantities.py`.
 
 use twofold::observables::wave_harmonics::WaveHarmonics;
 use twofold::spin_down::{Braking, Precession as FreePrecession, StretchedTime};

@@ -1,4 +1,4 @@
-//! Kernels with rational values, under the names of `verify/oracles/symbolic/quantities.py` and with its order of components.
+//! Kernels with rational values, with the names and the order of components of `verify/oracles/symbolic/quantities.py`.
 
 use twofold::dynamics::bulge::{bulge_potential, bulge_turning, kinematic_momentum};
 use twofold::observables::bound::lambda_change_terms;

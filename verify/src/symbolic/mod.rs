@@ -1,9 +1,9 @@
-//! Comparison with a second derivation: SymPy derives the equations from the Lagrangian (`verify/oracles/symbolic/`), and its exact values at rational
-//! points stand in `verify/data/symbolic.json`. Python is not needed to compare.
+//! Comparison with a second derivation: SymPy derives the equations from the Lagrangian (`verify/oracles/symbolic/`), and its exact values at
+//! rational points are stored in `verify/data/symbolic.json`. The comparison does not need Python.
 //!
-//! An angle of a point is given by `t = tan(angle / 2)`, so that all that is rational in sines and cosines is rational in `t`. Such kernels are
-//! compared twice: in the prime field, where a rational number has an exact image and nothing is rounded, and in doubles, in units of the last
-//! place of the sum of the magnitudes of their terms. What takes roots or inverse functions is compared in doubles alone.
+//! An angle of a point is given by `t = tan(angle / 2)`, so that any rational function of sines and cosines is rational in `t`. Such kernels
+//! are compared twice: in the prime field, where a rational number has an exact image and nothing is rounded, and in doubles, in units in the
+//! last place of the sum of the magnitudes of their terms. Kernels with roots or inverse functions are compared in doubles only.
 
 use crate::prelude::*;
 

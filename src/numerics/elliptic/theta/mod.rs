@@ -1,7 +1,7 @@
-//! Jacobi's theta functions with their nome (DLMF 20.2, 20.7, 22.2), for motions that are functions of one phase and its turns.
+//! Jacobi's theta functions with their nome (DLMF 20.2, 20.7, 22.2), for motions that depend on one phase.
 //!
-//! Their series converge as `q^(n^2)`, and for `q` near one those of Jacobi's imaginary transformation as `exp(pi^2 n^2 / ln q)`: four
-//! terms serve any parameter, and no sum of either kind cancels.
+//! Their series converge as `q^(n^2)`. For `q` near one those of Jacobi's imaginary transformation converge as `exp(pi^2 n^2 / ln q)`.
+//! Four terms suffice for any parameter, and no sum of either kind cancels.
 //!
 //! Written here because no maintained Rust crate has them at complex arguments, without overflow.
 //!
@@ -31,22 +31,24 @@ use crate::numerics::scalar::Real;
 use nome_series::NomeSeries;
 use transformed::Transformed;
 
-/// The nome from which the transformed series serve: there `theta_4(0)`, a sum that alternates, is 0.4.
+/// The nome above which the transformed series are used: there `theta_4(0)`, an alternating sum, is 0.4.
 const TRANSFORMED: f64 = 0.3;
 
-/// The nome `q = exp(-pi K'/K)` of a parameter `m`, with the ratio that stays finite where both vanish.
+/// The nome `q = exp(-pi K'/K)` of a parameter `m`, with the ratio of both, which stays finite where they vanish.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nome<S> {
     /// `q`.
     pub q: S,
     /// `q / m`; `1/16` at `m = 0`.
     pub q_over_m: S,
-    /// `pi K'/K = -ln q` from `q = 0.3` on, where [`ThetaSeries::transformed`] serves: it keeps the digits that `q` loses in being rounded.
+    /// `pi K'/K = -ln q` for `q = 0.3` and above, where [`ThetaSeries::transformed`] is used: it keeps the digits that `q` loses by
+    /// rounding.
     pub decay: Option<S>,
 }
 
 impl<S: Real> Nome<S> {
-    /// From the parameter `m` in `[0, 1)` and its complement `m1 = 1 - m > 0`, which the caller knows without cancellation.
+    /// The nome of the parameter `m` in `[0, 1)` and its complement `m1 = 1 - m > 0`, which the caller knows without
+    /// cancellation.
     pub fn new(m: S, m1: S) -> Self {
         if m.re() <= 0.5 {
             let (over_m, series) = epsilon(m, m1);
@@ -81,7 +83,7 @@ enum Kind<S> {
     Transformed(Transformed<S>),
 }
 
-/// Theta functions at one real argument, and what follows from them.
+/// Theta functions at one real argument, and quantities derived from them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AtPhase<S> {
     /// `sn(u)` for `z = pi u / (2 K)`.
@@ -97,7 +99,8 @@ pub struct AtPhase<S> {
 }
 
 impl<S: Real> ThetaSeries<S> {
-    /// For the nome `q < 1`, and for `theta_1(z + i eta)` with `r = exp(-2 eta)` between `q` and one, given with `q / r`.
+    /// The series for the nome `q < 1`, and for `theta_1(z + i eta)` with `r = exp(-2 eta)` between `q` and one, given with
+    /// `q / r`.
     pub fn new(q: S, r: S, q_over_r: S) -> Self {
         if q.re() < TRANSFORMED {
             return Self(Kind::Nome(NomeSeries::new(q, r, q_over_r)));
@@ -106,13 +109,14 @@ impl<S: Real> ThetaSeries<S> {
         Self::transformed(decay, r.ln() * S::from_f64(-0.5 * PI) / decay)
     }
 
-    /// For a nome by its [decay](Nome::decay), and for `theta_1(z + i eta)` with `eta = decay * turned / pi`, `turned` between zero and
-    /// `pi / 2`: good near `m = 1`, where `turned` is the argument in the complementary functions, and right for any `q > 1e-3`.
+    /// For a nome given by its [decay](Nome::decay), and for `theta_1(z + i eta)` with `eta = decay * turned / pi`, `turned` between
+    /// zero and `pi / 2`: accurate near `m = 1`, where `turned` is the argument in the complementary functions, and correct for any
+    /// `q > 1e-3`.
     pub fn transformed(decay: S, turned: S) -> Self {
         Self(Kind::Transformed(Transformed::new(decay, turned)))
     }
 
-    /// At the argument whose sine and cosine are given.
+    /// The functions at the argument whose sine and cosine are given.
     pub fn at(&self, sin: S, cos: S) -> AtPhase<S> {
         match &self.0 {
             Kind::Nome(series) => series.at(sin, cos),

@@ -4,10 +4,10 @@ use crate::numerics::scalar::Real;
 
 use super::AtPhase;
 
-/// Most terms of a series below [`TRANSFORMED`](super::TRANSFORMED).
+/// Maximum number of terms of a series below [`TRANSFORMED`](super::TRANSFORMED).
 const MOST_TERMS: usize = 8;
 
-/// Size below which the terms of a series are left out.
+/// Terms of the series below this size are left out.
 const NEGLIGIBLE: f64 = 1e-20;
 
 /// The series of a nome, and of one imaginary shift of the argument.
@@ -35,7 +35,7 @@ impl<S: Real> NomeSeries<S> {
             shifted: [[zero; 2]; MOST_TERMS],
             ratios: [zero; 3],
         };
-        // q^(n^2), q^(n (n+1)), and q^(n (n+1)) / r^n, of which each factor q^2n / r is at most q.
+        // q^(n^2), q^(n (n+1)), and q^(n (n+1)) / r^n, in which each factor q^2n / r is at most q.
         let (mut square, mut oblong, mut weight) = (S::one(), S::one(), S::one());
         let mut r_power = r;
         let mut q_power = S::one();
@@ -49,7 +49,7 @@ impl<S: Real> NomeSeries<S> {
             three += square * if n == 0 { 1.0 } else { 2.0 };
             four += series.even[n];
             series.terms = n + 1;
-            // To n + 1: q^(2n+1) more in the squares, q^(2n+2) in the oblongs.
+            // From n to n + 1: a factor q^(2n+1) in the squares, q^(2n+2) in the oblongs.
             let odd_power = q_power * q;
             square *= odd_power;
             q_power = odd_power * q;
@@ -70,7 +70,7 @@ impl<S: Real> NomeSeries<S> {
         let zero = S::zero();
         let [mut one, mut two, mut three, mut four, mut slope] = [zero; 5];
         let mut shifted = [zero; 2];
-        // Turned by 2 z from each term to the next: (2n+1) z in the odd series, 2 n z in the even ones.
+        // The argument advances by 2 z from each term to the next: (2n+1) z in the odd series, 2 n z in the even ones.
         let (sin_2, cos_2) = (sin * cos * 2.0, S::one() - sin * sin * 2.0);
         let mut odd = [cos, sin];
         let mut even = [S::one(), zero];

@@ -40,10 +40,10 @@ struct Sums<S> {
     two: S,
     three: S,
     four: S,
-    /// Derivatives of those of `theta_3` and `theta_4` by `w`.
+    /// Derivatives of the sums for `theta_3` and `theta_4` with respect to `w`.
     three_slope: S,
     four_slope: S,
-    /// Real and imaginary part of those of `theta_1` at `z + i eta`, and of `theta_2` at `z - i eta`.
+    /// Real and imaginary part of the sums for `theta_1` at `z + i eta`, and for `theta_2` at `z - i eta`.
     one_shifted: [S; 2],
     two_shifted: [S; 2],
 }
@@ -79,7 +79,7 @@ impl<S: Real> Transformed<S> {
     }
 
     pub(super) fn at(&self, sin: S, cos: S) -> AtPhase<S> {
-        // By half a turn theta_1 changes its sign and theta_2 as well; by z to -z theta_1 and the slope of theta_4 do.
+        // Under a shift by half a turn theta_1 and theta_2 change sign; under z to -z theta_1 and the slope of theta_4 do.
         let half_turn = if cos.re() < 0.0 { -1.0 } else { 1.0 };
         let (sin, cos) = (sin * half_turn, cos * half_turn);
         let side = if sin.re() < 0.0 { -1.0 } else { 1.0 };
@@ -117,7 +117,7 @@ impl<S: Real> Transformed<S> {
 
     fn sums(&self, w: S) -> Sums<S> {
         let one = S::one();
-        // exp(-2 w), its difference to one, and Q exp(2 w).
+        // exp(-2 w), its difference from one, and Q exp(2 w).
         let lost = one_minus_exp(w * 2.0);
         let decayed = one - lost;
         let ratio = (w * 2.0 - self.growth * PI).exp();

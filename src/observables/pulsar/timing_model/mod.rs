@@ -1,16 +1,18 @@
-//! The pulses of a wobbling pulsar that slows down, as a timing program needs them: the phase at a time, and the width of the pulse there, with
-//! derivatives by [its parameters](TimingParameter).
+//! The pulses of a wobbling pulsar that slows down, in the form a timing program needs: the phase at a time, and the width of the pulse there,
+//! with derivatives with respect to [its parameters](TimingParameter).
 //!
 //! ```text
 //! phase(t) = phase + F0 tau + B(psi) / 2 pi + (F2 - 3 F1^2 / F0) t^3 / 6,    psi = psi_0 + w tau,    t = tau + kappa tau^2 / 2 + Q(tau) - Q(0),    kappa = -F1 / F0
 //! B = arg[sin chi (1 - (1 - cos theta) cos^2 psi) - sin theta cos chi cos psi - i sin psi (sin theta cos chi + sin chi (1 - cos theta) cos psi)]
 //! ```
 //!
-//! with the [stretched time](crate::spin_down::StretchedTime) `tau` of a torque with the braking index 3; an F2 beyond the `3 F1^2 / F0` of that stands as a term of the Taylor series, whatever its cause. The phase has the turns of the magnetic axis about `L` from the
-//! line of sight: `n` goes round `L` at `2 pi F0 + w`, and the magnetic axis is ahead of `n` by `pi - psi + B(psi)`. A pulse is where the phase is a whole number.
+//! with the [stretched time](crate::spin_down::StretchedTime) `tau` of a torque with the braking index 3. That law contributes the F2 of a dipole,
+//! `3 F1^2 / F0`; any excess of F2 is added as a Taylor term, whatever its origin. The phase counts the turns of the magnetic axis about `L` from the
+//! line of sight: `n` circles `L` at `2 pi F0 + w`, and the magnetic axis is ahead of `n` by `pi - psi + B(psi)`. A pulse arrives when the phase is
+//! an integer.
 //!
-//! What Lorentz violation does to it: it moves `L`, and so the [inclination](TimingParameter::InclinationRate), which the width shows. That the turns are
-//! counted from a line of sight that goes round `L` adds to F0 and F1 what a fit cannot tell from these.
+//! Lorentz violation moves `L`, and so changes the [inclination](TimingParameter::InclinationRate), which the width shows. Because turns are counted
+//! from the line of sight, which rotates about the moving `L`, F0 and F1 absorb offsets that a fit cannot distinguish from them.
 //!
 //! ```
 //! use twofold::observables::pulsar::timing_model::{TimingModel, TimingParameter::*};
@@ -43,35 +45,36 @@ pub use crate::solutions::averaged::Turns;
 use crate::spin_down::{Braking, Precession, StretchedTime, late_by_torque, secular_lateness, slowing};
 use TimingParameter::*;
 
-/// How many parameters there are.
+/// Number of parameters.
 const COUNT: usize = TimingParameter::ALL.len();
 
 type Dual = DualSVec64<COUNT>;
 
-/// Most turns: every whole number up to it is a double.
+/// Largest number of turns: every integer up to it is a double.
 const MOST_TURNS: f64 = 9e15;
 
-/// Most steps of Newton's method from a number to its time.
+/// Maximum number of Newton steps from a number to its time.
 const STEPS: usize = 40;
 
-/// More than rounding makes of a phase (turns): of its geometry and of its fraction, some 1e-16 each.
+/// Upper limit on the rounding of a phase (turns): of its geometry and of its fraction, some 1e-16 each.
 const ROUNDING: f64 = 1e-13;
 
 /// A pulsar by its timing parameters.
 #[derive(Debug, Clone)]
 pub struct TimingModel {
     values: [f64; COUNT],
-    /// F0 to 32 digits: over 1e12 turns a double is off by 1e-4 of one.
+    /// F0 to 32 digits: over 1e12 turns a double has an error of 1e-4 of a turn.
     frequency: DoubleDouble,
     time: StretchedTime,
 }
 
 impl TimingModel {
-    /// A model with the frequency F0 (Hz), the unevaluated sum of two doubles, and the parameters given; the others are zero, `chi` and the inclination a right angle.
+    /// A model with the frequency F0 (Hz), the unevaluated sum of two doubles, and the given parameters; the others are zero, except `chi` and the
+    /// inclination, which are right angles.
     ///
     /// # Errors
-    /// [`Error::Domain`] for a frequency that is not above zero; a wobble that is not from 0 to a right angle; a `chi` nearer than the wobble to 0 or pi, of which the magnetic axis does not go
-    /// round `n`; an angle of the beam outside 0 to pi; and as for [`StretchedTime::new`].
+    /// [`Error::Domain`] for a frequency that is not above zero; a wobble that is not between 0 and a right angle; a `chi` closer to 0 or pi than the
+    /// wobble, whose magnetic axis does not encircle `n`; an angle of the beam outside 0 to pi; and as for [`StretchedTime::new`].
     pub fn new(frequency: [f64; 2], parameters: &[(TimingParameter, f64)]) -> Result<Self, Error> {
         let mut values = [0.0; COUNT];
         (values[Chi as usize], values[Inclination as usize]) = (PI / 2.0, PI / 2.0);
@@ -109,7 +112,7 @@ impl TimingModel {
         self.frequency.into()
     }
 
-    /// The model with some parameters changed. F0 keeps 32 digits, so that small changes add up.
+    /// The model with some parameters changed. F0 keeps 32 digits, so that small changes accumulate correctly.
     ///
     /// # Errors
     /// As for [`new`](Self::new).
@@ -132,13 +135,14 @@ impl TimingModel {
         self.phase_at(self.time.stretched_at(t)?, t[0] + t[1])
     }
 
-    /// When (s since the epoch) a pulse arrives: at what time the phase is its number. The unevaluated sum of two doubles, right to the rounding of the geometry, 1e-16 of a turn.
+    /// Arrival time (s since the epoch) of a pulse: the time at which the phase equals its number. The unevaluated sum of two doubles, accurate to
+    /// the rounding of the geometry, 1e-16 of a turn.
     ///
     /// # Errors
     /// As for [`phase`](Self::phase); [`Error::NotConverged`] for a precession about as fast as the rotation.
     pub fn arrival(&self, number: i64) -> Result<[f64; 2], Error> {
         check_turns(number as f64)?;
-        // Up to the most turns every whole number is a double.
+        // Up to the largest number of turns every integer is a double.
         let wanted = DoubleDouble::from(number as f64);
         let mut time = (wanted - self.value(Phase).into()).over(self.frequency);
         let mut last = f64::INFINITY;
@@ -146,7 +150,8 @@ impl TimingModel {
             let tau = self.time.stretched_at(time.into())?;
             let Turns { whole, fraction } = self.phase_at(tau, time.high)?;
             let off = (whole - number) as f64 + fraction;
-            // But for the geometry, whose share of the slope is what a step leaves: little of a slow precession.
+            // The slope without that of the geometry, so that each step leaves the geometry's relative contribution: little
+            // for a slow precession.
             time -= (off / (self.frequency.high * self.time.slowing(tau[0]))).into();
             if off.abs() < 1e-15 || off.abs() >= last && last < ROUNDING {
                 return Ok(time.into());
@@ -177,8 +182,8 @@ impl TimingModel {
         Ok((self.phase_at(tau, t)?, derivatives(&phase)))
     }
 
-    /// The width of a pulse (s) near a time since the epoch: of the ring of the line of sight in the beam, Eq. (56) `[pulsewid]`, over the rate of turns. That rate
-    /// is taken as F0 of the time, right to `w / (2 pi F0)`.
+    /// The width of a pulse (s) near a time since the epoch: the azimuth range in which the line of sight is inside the beam, Eq. (56) `[pulsewid]`,
+    /// divided by the rotation rate. This rate is taken as F0 at the time, accurate to `w / (2 pi F0)`.
     ///
     /// # Errors
     /// As for [`phase`](Self::phase); [`Error::Domain`] where the line of sight stays inside or outside the beam.
@@ -200,8 +205,8 @@ impl TimingModel {
         Ok((duration.re, derivatives(&duration)))
     }
 
-    /// The parameters as dual numbers, the stretched time `tau` of a time `t` as one, and `tau` in two doubles. A parameter that makes the star late by `d` at a fixed `tau` lowers the `tau` of a fixed `t` by
-    /// `d` times the slowing.
+    /// The parameters as dual numbers, the stretched time `tau` of a time `t` as one, and `tau` in two doubles. A parameter that delays the star by
+    /// `d` at a fixed `tau` lowers the `tau` of a fixed `t` by `d` times the slowing.
     fn seeded(&self, t: [f64; 2]) -> Result<([Dual; COUNT], Dual, [f64; 2]), Error> {
         let tau = self.time.stretched_at(t)?;
         let seed = |k| -> Derivative<f64, Const<COUNT>, U1> { Derivative::derivative_generic(Const, U1, k) };
@@ -212,7 +217,7 @@ impl TimingModel {
     }
 }
 
-/// Refuses numbers of pulses that are too large, and what is no number.
+/// Refuses pulse numbers that are too large, and NaN.
 pub(crate) fn check_turns(turns: f64) -> Result<(), Error> {
     Error::ensure(turns.abs() <= MOST_TURNS, "phase (turns)", turns, "at most 9e15 either way")
 }
@@ -222,13 +227,13 @@ fn derivatives(value: &Dual) -> [f64; COUNT] {
     eps.into()
 }
 
-/// The law of braking, with the index of a dipole.
+/// The braking law, with the index of a dipole.
 fn braking<S: Real>(values: &[S; COUNT]) -> Braking<S> {
     let [f0, f1, torque_share] = [F0, F1, TorqueShare].map(|parameter| values[parameter as usize]);
     Braking { rate: -f1 / f0, index: S::from_f64(3.0), torque_share }
 }
 
-/// The turns by an F2 that is not that of a dipole.
+/// The turns from the part of F2 that exceeds the F2 of a dipole.
 fn beyond_dipole<S: Real>(values: &[S; COUNT], t: f64) -> S {
     let [f0, f1, f2] = [F0, F1, F2].map(|parameter| values[parameter as usize]);
     (f2 - f1 * f1 * 3.0 / f0) * (t * t * t / 6.0)
@@ -240,12 +245,12 @@ fn precession<S: Real>(values: &[S; COUNT]) -> Precession<S> {
     Precession::new([wobble, chi, phase], rate, damping)
 }
 
-/// By how much the magnetic axis about `L` is ahead of its mean (rad).
+/// Phase lead (rad) of the magnetic axis about `L` over its mean.
 fn geometry<S: Real>(precession: &Precession<S>, tau: S) -> S {
     azimuth_ahead(precession.wobble_at(tau), precession.chi, precession.phase_at(tau)) - precession.ahead(tau)
 }
 
-/// `B(psi)` (rad): by how much the azimuth of the magnetic axis about `L` is ahead of that of `n` and of `pi - psi`.
+/// `B(psi)` (rad): lead of the azimuth of the magnetic axis about `L` over the azimuth of `n` plus `pi - psi`.
 pub(super) fn azimuth_ahead<S: Real>(wobble: S, chi: S, psi: S) -> S {
     let ((sin, cos), (sin_chi, cos_chi)) = (psi.sin_cos(), chi.sin_cos());
     let (sin_wobble, half) = (wobble.sin_cos().0, (wobble * 0.5).sin_cos().0);
@@ -261,7 +266,8 @@ fn azimuth_of_pulse<S: Real>(values: &[S; COUNT], tau: S, t: f64) -> Option<S> {
     let precession = precession(values);
     let (wobble, psi) = (precession.wobble_at(tau), precession.phase_at(tau));
     let ((sin, cos), (sin_psi, cos_psi), (sin_chi, cos_chi)) = (wobble.sin_cos(), psi.sin_cos(), of(Chi).sin_cos());
-    // The magnetic axis along L and across it: towards the azimuth of n, and a quarter turn from there.
+    // Components of the magnetic axis along L and perpendicular to it: towards the azimuth of n, and a quarter turn from
+    // there.
     let along = cos * cos_chi + sin * sin_chi * cos_psi;
     let (towards, beside) = (sin * cos_chi - cos * sin_chi * cos_psi, sin_chi * sin_psi);
     let colatitude = (towards * towards + beside * beside).sqrt().atan2(along);
@@ -277,7 +283,7 @@ mod tests {
 
     use super::*;
 
-    /// A pulsar of one turn a second that loses a tenth of its rotation in 1e9 s, and wobbles.
+    /// A pulsar of one turn per second that loses a tenth of its rotation in 1e9 s, and wobbles.
     fn slowing_down(more: &[(TimingParameter, f64)]) -> TimingModel {
         let star = [
             (Phase, 0.3),
@@ -317,7 +323,7 @@ mod tests {
         }
     }
 
-    /// A fit stays where there is a model: both agree about the ends, up to a billionth.
+    /// A fit stays where the model is valid: both ranges end at the same values, to a billionth.
     #[test]
     fn limits_of_fits_are_the_ranges_of_parameters() {
         let mut limited = 0;
@@ -326,7 +332,7 @@ mod tests {
             let (least, most) = parameter.limits();
             let small = 1e-9;
             for (end, inwards) in least.map(|end| (end, small)).into_iter().chain(most.map(|end| (end, -small))) {
-                // A wobble needs a chi beyond it, which is at most a right angle away from both poles.
+                // A wobble requires a larger chi, which is at most a right angle from both poles.
                 assert!(is_taken(end + inwards) && !is_taken(end - inwards), "{parameter:?} {end}");
                 limited += 1;
             }
@@ -338,7 +344,7 @@ mod tests {
     #[test]
     fn a_pulse_arrives_when_the_phase_is_its_number() {
         let faster = slowing_down(&[(F1, 5e-11), (PrecessionRate, -4e-5)]);
-        // A precession a third as fast as the rotation, of a large wobble.
+        // A precession a third as fast as the rotation, with a large wobble.
         let fast = slowing_down(&[(F1, -1e-13), (PrecessionRate, 2.0), (Wobble, 0.6)]);
         let even = TimingModel::new([641.928_233_334_553_6, 3.1e-15], &[(Phase, -0.4)]).unwrap();
         for (model, numbers) in [
@@ -355,7 +361,7 @@ mod tests {
             }
         }
         assert!(slowing_down(&[]).arrival(9_000_000_000_000_001).is_err());
-        // One whose phase goes back in part of each precession.
+        // A star whose phase goes backwards in part of each precession.
         let back_and_forth = slowing_down(&[(F1, -1e-13), (PrecessionRate, -60.0), (Wobble, 1.05)]);
         let found: Vec<_> = (0..100).map(|number| back_and_forth.arrival(number)).collect();
         for (number, time) in found.iter().enumerate() {
@@ -367,7 +373,7 @@ mod tests {
         assert!(found.iter().any(|time| matches!(time, Err(Error::NotConverged { .. }))));
     }
 
-    /// Eq. (56) of a magnetic axis at a constant angle to `L`, over the rate of turns of the time.
+    /// Eq. (56) for a magnetic axis at a constant angle to `L`, divided by the rotation rate at the time.
     #[test]
     fn widths_are_those_of_a_ring_in_the_beam() {
         let model = slowing_down(&[(Wobble, 0.0)]);
@@ -383,14 +389,14 @@ mod tests {
         assert!(slowing_down(&[(Rho, 0.05)]).width(0.0).is_err());
     }
 
-    /// By differences of models on both sides, with a wobble and a torque that varies with it.
+    /// Compared with central differences of models, with a wobble and a torque that varies with it.
     #[test]
     fn derivatives_of_widths_are_their_slopes() {
         let t = 3e8;
         let model = slowing_down(&[]);
         let (width, slopes) = model.width_and_derivatives(t).unwrap();
         for parameter in TimingParameter::ALL {
-            // So that each changes the width by a ten-thousandth of itself or less; F2 changes none.
+            // Steps that change the width by a ten-thousandth of itself or less; F2 does not change it.
             let step = match parameter {
                 F1 => 1e-15,
                 F2 => 1e-25,

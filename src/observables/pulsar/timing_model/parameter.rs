@@ -3,7 +3,7 @@
 /// A parameter of a [`TimingModel`](super::TimingModel), in the order of [`ALL`](Self::ALL).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum TimingParameter {
-    /// Turns at the epoch, the geometry of the wobble apart.
+    /// Turns at the epoch, without the geometric effect of the wobble.
     Phase,
     /// Frequency of the pulses at the epoch, averaged over a precession (Hz).
     F0,
@@ -15,26 +15,27 @@ pub enum TimingParameter {
     Wobble,
     /// Angle `chi` of the magnetic axis to `n` (rad).
     Chi,
-    /// Angle `psi` about `n` from the part of the magnetic axis across `n` to that of `L`, at the epoch (rad).
+    /// Angle `psi` about `n` from the projection of the magnetic axis to the projection of `L`, both onto the plane normal
+    /// to `n`, at the epoch (rad).
     PrecessionPhase,
     /// Rate of `psi` at the epoch (rad/s).
     PrecessionRate,
-    /// Share of the braking torque that goes with `sin^2 theta_m`.
+    /// Fraction of the braking torque that is proportional to `sin^2 theta_m`.
     TorqueShare,
     /// Angle of the line of sight to `L` at the epoch (rad).
     Inclination,
-    /// Its rate (rad/s): what Lorentz violation makes of it.
+    /// Its rate (rad/s), caused by Lorentz violation.
     InclinationRate,
     /// Semi-open angle of the beam (rad).
     Rho,
-    /// Rate `gamma` at which friction damps the wobble, `tan theta` as `exp(-gamma t)` (1/s).
+    /// Rate `gamma` at which friction damps the wobble: `tan theta` varies as `exp(-gamma t)` (1/s).
     Damping,
 }
 
 use TimingParameter::*;
 
 impl TimingParameter {
-    /// Every one.
+    /// All parameters.
     pub const ALL: [Self; 13] = [
         Phase,
         F0,
@@ -79,7 +80,7 @@ impl TimingParameter {
         self.names()[1]
     }
 
-    /// Interval that a fit stays within, where there is one.
+    /// Interval that a fit stays within, if there is one.
     pub(crate) fn limits(self) -> (Option<f64>, Option<f64>) {
         use core::f64::consts::PI;
         match self {

@@ -1,4 +1,4 @@
-//! The averaged Hamiltonian and the generator of the averaging, by duals.
+//! The averaged Hamiltonian and the generator of the averaging, computed with duals.
 
 use nalgebra::Unit;
 use twofold::numerics::scalar::length;

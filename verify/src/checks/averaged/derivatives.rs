@@ -1,4 +1,4 @@
-//! Derivatives of the averaged motion by duals.
+//! Derivatives of the averaged motion, computed with duals.
 
 use twofold::lorentz_violation::{principal_frame_along, principal_frame_with_derivatives};
 use twofold::numerics::scalar::length;

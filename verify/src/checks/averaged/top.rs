@@ -1,4 +1,4 @@
-//! The top by integration.
+//! The asymmetric top, compared with numerical integration.
 
 use crate::prelude::*;
 use twofold::solutions::averaged::Top;

@@ -1,4 +1,4 @@
-//! Frequencies of the averaged motion against the exact ones.
+//! Frequencies of the averaged motion compared with the exact ones.
 
 use super::scenes::{Scene, TWOFOLD, sum, worst_off_separatrix};
 use crate::prelude::*;

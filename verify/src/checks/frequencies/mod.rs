@@ -1,4 +1,4 @@
-//! Frequencies: exact ones, those of the averaged motion, and what becomes of them near the separatrix.
+//! Frequencies: exact ones, those of the averaged motion, and their behaviour near the separatrix.
 
 pub(super) mod averaged;
 pub(super) mod middle_axis;

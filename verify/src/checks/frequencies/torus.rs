@@ -1,4 +1,4 @@
-//! Exact frequencies from the periods of the torus, against known ones.
+//! Exact frequencies from the periods of the torus, compared with known ones.
 
 use super::scenes::{SINGLE, Scene, TWOFOLD, sum, worst_off_separatrix};
 use crate::mean_rate::{azimuth_of_momentum, mean_rate_of};

@@ -1,4 +1,4 @@
-//! Whether `phi_o` and `delta` can be absorbed in the initial values of `alpha` and `gamma`, as said below Eq. (47).
+//! Whether `phi_o` and `delta` can be absorbed in the initial values of `alpha` and `gamma`, as stated below Eq. (47).
 
 use nalgebra::UnitVector3;
 

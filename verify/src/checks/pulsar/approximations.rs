@@ -1,4 +1,4 @@
-//! Where the approximate period and width follow the pulse train. Eqs. (51), (56) with (57).
+//! Where the approximate period and width agree with the pulse train. Eqs. (51), (56) with (57).
 
 use std::f64::consts::FRAC_PI_4;
 

@@ -1,4 +1,4 @@
-//! Pulsars for the checks of the pulse train: random ones, the paper's, and such as spin about Z.
+//! Pulsars for the checks of the pulse train: random ones, those of the paper, and some that spin about Z.
 
 use crate::prelude::*;
 use twofold::observables::pulsar::PulseTrain;

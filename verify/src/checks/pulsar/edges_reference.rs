@@ -1,4 +1,4 @@
-//! The pulsar signal against 34-digit motion: `m.n`, edges and closest approaches. Eqs. (44)-(47).
+//! The pulsar signal compared with the 34-digit motion: `m.n`, edges and closest approaches. Eqs. (44)-(47).
 
 use twofold::observables::pulsar::Pulse;
 

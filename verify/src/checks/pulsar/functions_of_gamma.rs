@@ -1,4 +1,4 @@
-//! Whether the width series is a function of gamma, as the width at constant rates is. Eq. (56).
+//! Whether the width series is a function of gamma, as is the width at constant rates. Eq. (56).
 
 use super::cases::{Case, mean_rates, paper_signal};
 use crate::prelude::*;

@@ -1,4 +1,4 @@
-//! Numbers of pulses across turns that have none. Eqs. (44), (49), (50).
+//! Pulse numbers across turns that have no pulse. Eqs. (44), (49), (50).
 
 use super::cases::{Case, paper_signal, worst_over_random_cases};
 use crate::prelude::*;

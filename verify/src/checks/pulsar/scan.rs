@@ -1,4 +1,4 @@
-//! The pulse train against a scan of `m.n`. Eq. (44).
+//! The pulse train compared with a scan of `m.n`. Eq. (44).
 
 use super::cases::{Case, edges, worst_over_random_cases};
 use crate::prelude::*;

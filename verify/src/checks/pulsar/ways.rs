@@ -1,4 +1,4 @@
-//! The same pulse train by every way of looking at the magnetic axis. Eq. (44).
+//! The same pulse train from every way of evaluating the magnetic axis. Eq. (44).
 
 use twofold::observables::pulsar::PulseTrain;
 

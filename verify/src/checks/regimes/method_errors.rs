@@ -1,4 +1,4 @@
-//! Errors of the closed motions against the numerical one, by strength of the torque and by time.
+//! Errors of the closed-form motions relative to the numerical one, by strength of the torque and by time.
 
 use super::perturbation_error::{Case, axis_at};
 use crate::prelude::*;

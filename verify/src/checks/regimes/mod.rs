@@ -1,4 +1,4 @@
-//! Where the approximations hold: their errors against the numerical motion.
+//! Ranges of validity of the approximations: their errors relative to the numerical motion.
 
 pub mod method_errors;
 pub(super) mod middle_axis;

@@ -1,4 +1,4 @@
-//! Single precession: where the perturbation solution mimics the motion, and what its small parameter is.
+//! Single precession: where the perturbation solution reproduces the motion, and which small parameter it has.
 
 use std::fmt::Debug;
 

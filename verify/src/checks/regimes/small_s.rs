@@ -1,4 +1,5 @@
-//! What the paper says of precession, at the small `s` of real stars over years: by the averaged motion, where integration does not reach.
+//! The paper's statements about precession, at the small `s` of real stars over years: with the averaged motion, where integration is not
+//! feasible.
 
 use twofold::units::JULIAN_YEAR;
 

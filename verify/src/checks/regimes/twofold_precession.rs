@@ -1,4 +1,4 @@
-//! Twofold precession: the printed solution is not right to first order, the corrected one is.
+//! Twofold precession: the printed solution is not correct to first order, the corrected one is.
 
 use super::perturbation_error::Case;
 use crate::prelude::*;

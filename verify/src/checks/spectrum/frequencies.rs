@@ -1,4 +1,5 @@
-//! Fundamental frequencies of motions against reference values, the exact symmetric solution, averages of numerical motions, and in other frames.
+//! Fundamental frequencies of motions: compared with reference values, the exact symmetric solution and averages of numerical motions, and in
+//! other frames.
 
 use super::signals::rate;
 use crate::mean_rate::{azimuth_of_momentum, mean_rate_of};

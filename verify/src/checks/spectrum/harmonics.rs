@@ -1,4 +1,4 @@
-//! What the paper says of the harmonics and peaks of its spectra.
+//! The paper's statements about the harmonics and peaks of its spectra.
 
 use std::ops::Range;
 

@@ -1,4 +1,5 @@
-//! Lines of the paper's signals: against the numerical motion, those of free precession, and the slow one.
+//! Lines of the paper's signals: compared with the numerical motion, with the lines of free precession, and with the slow
+//! precession.
 
 use nalgebra::Complex;
 

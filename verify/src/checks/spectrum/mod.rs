@@ -1,4 +1,4 @@
-//! Lines and fundamental frequencies, and what the paper says of its spectra.
+//! Lines and fundamental frequencies, and the paper's statements about its spectra.
 
 pub(super) mod frequencies;
 pub(super) mod harmonics;

@@ -1,4 +1,4 @@
-//! The closed formula of the slow precession: against the averaged equation, in its limits, and against the motion.
+//! The closed formula of the slow precession: compared with the averaged equation, with its limits, and with the motion.
 
 use super::signals::rate;
 use crate::mean_rate::{kaiser, mean_rate};

@@ -1,4 +1,4 @@
-//! Splitting schemes: order conditions, measured orders, what they conserve, agreement with the Taylor motion, estimates.
+//! Splitting schemes: order conditions, measured orders, conserved quantities, agreement with the Taylor motion, estimates.
 
 mod many;
 mod order_conditions;

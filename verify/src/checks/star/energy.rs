@@ -1,4 +1,4 @@
-//! C and U^ij against quadratures of the six-dimensional integrals that know nothing of the coefficients A_i.
+//! C and U^ij compared with quadratures of the six-dimensional integrals, which do not use the coefficients A_i.
 
 use twofold::star::axisymmetric::{AxisymmetricBody, AxisymmetricIntegrals, axisymmetric_integrals};
 

@@ -1,4 +1,5 @@
-//! Numbers for neutron stars: centrifugal oblateness, I^zz / C, the unit of time, and where the estimates hold.
+//! Numbers for neutron stars: centrifugal oblateness, I^zz / C, the unit of time, and the range of validity of the
+//! estimates.
 
 use twofold::star::deformation::{CENTRIFUGAL_COEFFICIENT, PRINTED_CENTRIFUGAL_COEFFICIENT};
 use twofold::units::geometrised::{GRAM_PER_CUBIC_CENTIMETRE, HERTZ, KILOMETRE, SOLAR_MASS};

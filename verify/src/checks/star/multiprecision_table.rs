@@ -1,4 +1,4 @@
-//! Coefficients A_0, A_1, A_3 and C with their derivatives against a table of 34-digit values.
+//! Coefficients A_0, A_1, A_3 and C with their derivatives, compared with a table of 34-digit values.
 
 use crate::prelude::*;
 use crate::reference::records;

@@ -1,4 +1,4 @@
-//! Coefficients A_i against the printed closed forms, elliptic integrals, the defining integral and their sum rules.
+//! Coefficients A_i compared with the printed closed forms, elliptic integrals, the defining integral and their sum rules.
 
 use proptest::prelude::*;
 use twofold::star::ellipsoid::UniformEllipsoid;

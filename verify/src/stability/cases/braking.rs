@@ -1,4 +1,4 @@
-//! The torque of a wobbling star by its harmonics, and a wobble that friction damps.
+//! The harmonics of the torque on a wobbling star, and a wobble that friction damps.
 
 use twofold::spin_down::{Precession as FreePrecession, TorqueHarmonics};
 

@@ -1,4 +1,4 @@
-//! Potential, torque, energies, equations of motion, integrals, the source of the wave.
+//! Potential, torque, energies, equations of motion, integrals, the wave source.
 
 use twofold::dynamics::point_masses::preferred_frame_potential_of_masses;
 use twofold::lorentz_violation::preferred_frame_parameter;

@@ -1,4 +1,4 @@
-//! What an observer sees: spin axis, bounds, beams, pulses, position angle, wave harmonics, eta, epochs.
+//! Observables: spin axis, bounds, beams, pulses, position angle, wave harmonics, eta, epochs.
 
 use twofold::epoch::{DAY, Epoch};
 use twofold::observables::bound::{lambda_change, preferred_frame_bound};

@@ -1,4 +1,4 @@
-//! Vectors, tensors and bodies from the numbers of a case.
+//! Vectors, tensors and bodies built from the numbers of a case.
 
 pub(super) use crate::prelude::*;
 pub(super) use crate::stability::Input::{self, Above, Below, Fixed, In, Log, Near, Signed};

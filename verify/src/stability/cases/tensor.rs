@@ -1,4 +1,4 @@
-//! Principal axes of the tensor, the nearest symmetric one.
+//! Principal axes of the tensor, the nearest axisymmetric tensor.
 
 use twofold::lorentz_violation::{SymmetryOfTensor, principal_frame_along, principal_frame_with_derivatives};
 
