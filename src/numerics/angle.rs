@@ -98,6 +98,16 @@ mod tests {
 
     use super::*;
 
+    /// At small angles and near a half turn too, of vectors of any length.
+    #[test]
+    fn angles_between_vectors_keep_their_digits() {
+        for angle in [0.0, 1e-150, 1e-12, 1e-8, 0.3, 2.0] {
+            let (a, b) = (Vector3::new(0.0, 3.0, 0.0), Vector3::new(0.0, angle.cos(), angle.sin()) * 0.7);
+            assert!((between(&a, &b) - angle).abs() <= 4.0 * f64::EPSILON * angle, "{angle}");
+            assert!((between(&-a, &b) - (core::f64::consts::PI - angle)).abs() < 1e-15, "{angle}");
+        }
+    }
+
     #[test]
     fn an_angle_is_half_a_turn_from_zero_at_most() {
         for (angle, expected) in [(0.3, 0.3), (PI, -PI), (-PI, PI), (4.0, 4.0 - TAU), (-20.0, -20.0 + 3.0 * TAU)] {

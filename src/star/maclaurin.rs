@@ -88,6 +88,14 @@ mod tests {
         }
     }
 
+    /// The fluid star at rest.
+    #[test]
+    fn a_sphere_does_not_rotate() {
+        let star = MaclaurinSpheroid::new(UniformSpheroid::from_semi_axes(1.3, 1.3, 0.7).unwrap()).unwrap();
+        assert_eq!((star.rotation_rate_squared, star.rotational_energy), (0.0, 0.0));
+        assert!(MaclaurinSpheroid::new(UniformSpheroid::from_semi_axes(1.3, 1.31, 0.7).unwrap()).is_err());
+    }
+
     /// For a thin disc the components along the axis are proportional to its thickness, and so is the rounding of their balance.
     #[test]
     fn each_component_is_balanced_within_its_own_rounding() {

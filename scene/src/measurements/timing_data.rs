@@ -186,6 +186,11 @@ mod tests {
         let line = "x 0.0 55000.5 2.0 @";
         assert_eq!(read("data", &format!("\n# a\nC b\nFORMAT 1\n{line} -pn 3\n")).unwrap().arrivals, arrival(Some(3)));
         assert_eq!(read("data.tim", &format!("{line}\n")).unwrap().arrivals, arrival(None));
+        // A flag that changes the time is refused wherever it stands.
+        for flags in ["-to 1e-3", "-pn 3 -to 1e-3", "-fe L -pn 3 -padd 0.5"] {
+            let why = read("data.tim", &format!("{line} {flags}\n")).unwrap_err();
+            assert!(why.starts_with("data.tim:1: `-") && why.contains("changes the time or its phase"), "{why}");
+        }
         let header = "arrival_day [MJD],arrival_fraction [d],duration [s]\n";
         let data = read("data", &format!("{header}55000,0.5,3\n")).unwrap();
         assert_eq!((data.arrivals[0].time, data.arrivals[0].sigma), ([43_200.0, 0.0], 0.5));

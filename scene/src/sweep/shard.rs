@@ -55,6 +55,7 @@ mod tests {
     #[test]
     fn a_shard_is_written_i_of_n() {
         assert_eq!("3/16".parse(), Ok(Shard { part: 3, parts: 16 }));
+        assert_eq!("1000000/1000000".parse(), Ok(Shard { part: 1_000_000, parts: 1_000_000 }));
         for bad in ["", "3", "0/4", "5/4", "1/0", "-1/4", "1/2/3", "a/b", "1/1000001"] {
             assert!(bad.parse::<Shard>().is_err(), "{bad}");
         }

@@ -125,6 +125,26 @@ fn a_scene_that_is_wanted_has_its_own_row() {
 
 /// The first scene that is not written is reported each time that it changes, and the table is that of a single thread.
 #[test]
+fn a_part_with_half_a_last_row_is_not_merged() {
+    let lines = format!("{VARIED}[time]\ntimes = [3.0]\n");
+    let text = text(&lines);
+    let sweep = Sweep::new(&text).expect("a sweep");
+    let ([rows, _], _) = sweep.rows(0..sweep.scenes).expect("there is memory");
+    let whole = [csv_line(&sweep.header()), rows].concat();
+    let merged = |part: &[u8]| {
+        let mut parts =
+            vec![("part".to_owned(), Box::new(std::io::Cursor::new(part.to_vec())) as Box<dyn std::io::BufRead>)];
+        let mut table = Vec::new();
+        merge(&sweep, &mut parts, &mut table).map(|()| table)
+    };
+    assert_eq!(merged(&whole), Ok(whole.clone()));
+    for torn in 1..10 {
+        let why = merged(&whole[..whole.len() - torn]).unwrap_err();
+        assert!(why.starts_with("part has scene 8 where scene 8 is expected"), "{why}");
+    }
+}
+
+#[test]
 fn a_sweep_tells_how_far_it_is() {
     let text = text(&format!(
         "{VARIED}[[vary]]\nparameter = 'initial.phase'\ngrid = {{ from = 0.0, to = 1.0, points = 100 }}\n[time]\nend = 10.0\n"

@@ -59,3 +59,17 @@ pub(super) fn check_number(number: i64) -> Result<(), Error> {
     let allowed = "a whole number of at most 2^53 in size, which a double holds";
     Error::ensure(number.unsigned_abs() <= LARGEST, "pulse number", number as f64, allowed)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_without_weight_do_not_count() {
+        let points = [(0, 1.0), (1, 9.0), (2, 5.0), (4, 9.5)];
+        let fit = ConstantPeriod::fit(&points, Some(&[1.0, 0.0, 1.0, 1.0])).unwrap();
+        let without = ConstantPeriod::fit(&[points[0], points[2], points[3]], None).unwrap();
+        assert_eq!((fit.period, fit.epoch), (without.period, without.epoch));
+        assert_eq!(fit.residuals[1], 9.0 - fit.epoch - fit.period);
+    }
+}

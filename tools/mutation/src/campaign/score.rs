@@ -28,13 +28,13 @@ pub fn contents(tree: &Path, mutants: &[Value]) -> Result<HashMap<String, String
     files.into_iter().map(hash).collect()
 }
 
-/// FNV-1a of what stands before the module of tests.
+/// FNV-1a of the lines before the module of tests that are not comments.
 pub fn hash_without_tests(text: &str) -> String {
     // A line `mod tests;` is not the end: code follows it.
     let code = text.split("\n#[cfg(test)]\nmod tests {").next().unwrap_or(text);
-    let hash = code
-        .trim_end()
-        .bytes()
+    let lines = code.trim_end().lines().filter(|line| !line.trim_start().starts_with("//"));
+    let hash = lines
+        .flat_map(|line| line.bytes().chain([b'\n']))
         .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
     format!("{:012x}", hash >> 16)
 }
