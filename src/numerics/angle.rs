@@ -104,7 +104,7 @@ mod tests {
         for angle in [0.0, 1e-150, 1e-12, 1e-8, 0.3, 2.0] {
             let (a, b) = (Vector3::new(0.0, 3.0, 0.0), Vector3::new(0.0, angle.cos(), angle.sin()) * 0.7);
             assert!((between(&a, &b) - angle).abs() <= 4.0 * f64::EPSILON * angle, "{angle}");
-            assert!((between(&-a, &b) - (core::f64::consts::PI - angle)).abs() < 1e-15, "{angle}");
+            assert!((between(&-a, &b) - (PI - angle)).abs() < 1e-15, "{angle}");
         }
     }
 

@@ -205,6 +205,18 @@ mod tests {
         }
     }
 
+    /// From rest at the largest self-energy to the least: `I^xx |dn/dt|^2 / 2 = |C| (0.8 - (-0.8))`, which the bound meets for eigenvalues of this form.
+    #[test]
+    fn a_star_that_falls_from_rest_reaches_the_bound() {
+        let s = Matrix3::from_diagonal(&Vector3::new(0.8, 0.0, -0.8));
+        for constant_c in [0.7, -0.7] {
+            let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.9, constant_c };
+            let state = BodyState { axis: Vector3::x(), momentum: Vector3::zeros(), equatorial_axis: Vector3::y() };
+            let found = rate_bounds(&spheroid, &s, 0.0, &state);
+            assert_relative_eq!(found.first, (2.0_f64 * 0.7 * 1.6 / 1.3).sqrt(), max_relative = 1e-6);
+        }
+    }
+
     /// Without a torque, a star that rotates about its own axis does so uniformly: the derivative of order `k` is the `k`-th
     /// power of the rate.
     #[test]
