@@ -71,10 +71,10 @@ mod tests {
 
     #[test]
     fn a_column_has_its_name_its_unit_and_as_many_fields_as_there_are_rows() {
-        let (columns, rows) = columns_of(b"t [s],m.n,cut,note\n1.5,,,2\n2,-3e2,,x\n").unwrap();
+        let (columns, rows) = columns_of(b"t [s],m.n_rate [1/t_c],cut,note\n1.5,,,2\n2,-3e2,,x\n").unwrap();
         assert_eq!(rows, 2);
         let [time, pulse, cut, note] = &columns[..] else { panic!("{columns:?}") };
-        assert_eq!([&time.name, &time.unit, &pulse.name, &pulse.unit], ["t", "s", "m.n", ""]);
+        assert_eq!([&time.name, &time.unit, &pulse.name, &pulse.unit], ["t", "s", "m.n_rate", "1/t_c"]);
         assert!(matches!(&time.values, Values::Numbers(numbers) if numbers[..] == [1.5, 2.0]));
         assert!(matches!(&pulse.values, Values::Numbers(numbers) if numbers[0].is_nan() && numbers[1..] == [-300.0]));
         assert!(matches!(&cut.values, Values::Words(words) if words[..] == ["", ""]));

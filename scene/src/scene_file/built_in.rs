@@ -48,3 +48,15 @@ pub fn names() -> Vec<&'static str> {
 fn all() -> impl Iterator<Item = &'static BuiltIn> {
     BUILT_IN.iter().chain(PULSARS).chain(TEMPLATES)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pulsars_and_templates_are_among_the_names() {
+        let names = names();
+        assert!(["tp-1", "b1937+21", "isolated-pulsar"].iter().all(|name| names.contains(name)), "{names:?}");
+        assert!(names.iter().all(|name| built_in(name).is_some_and(|scene| scene.name == *name)));
+    }
+}

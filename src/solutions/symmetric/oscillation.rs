@@ -241,6 +241,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
+    use crate::numerics::elliptic::jacobi::complete_integral;
 
     fn oscillation(mean: f64, root_of_product: f64) -> Oscillation<f64> {
         let sum = mean + root_of_product;
@@ -257,6 +258,21 @@ mod tests {
             half_period: 1.3,
             since_high: 0.0,
             since_low: 1.3,
+        }
+    }
+
+    /// `P = (1 - v^2) (v^2 + e^2)`: half of the period is `2 K / sqrt(1 + e^2)` with the complementary parameter `e^2 / (1 + e^2)`, also where the conjugate
+    /// pair `+-i e` is so close to the path that `M + H = e^2 / 2` is the difference of nearly equal numbers.
+    #[test]
+    fn a_conjugate_pair_near_the_path_keeps_the_digits_of_the_period() {
+        for distance in [1.0_f64, 1e-2, 1e-4, 1e-6] {
+            let square = distance * distance;
+            let (at_low, at_high, condition) = (1.0 + square, 1.0 + square, 1.0);
+            let points =
+                TurningPoints { low: -1.0, high: 1.0, quotient: [square, 0.0, 1.0], at_low, at_high, condition };
+            let found = Oscillation::new(&points, distance).unwrap().half_period;
+            let expected = 2.0 * complete_integral(square / (1.0 + square)) / (1.0 + square).sqrt();
+            assert_relative_eq!(found, expected, max_relative = 4e-15);
         }
     }
 

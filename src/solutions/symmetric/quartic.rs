@@ -31,7 +31,7 @@ pub(super) struct InclinationQuartic<S> {
 pub(super) struct TurningPoints<S> {
     pub(super) low: S,
     pub(super) high: S,
-    quotient: [S; 3],
+    pub(super) quotient: [S; 3],
     /// `Q(low)` and `Q(high)`.
     pub(super) at_low: S,
     pub(super) at_high: S,
