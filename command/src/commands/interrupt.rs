@@ -99,3 +99,20 @@ pub(super) fn unfinished<T, E, R: Fn() + Send + 'static>(
     on_request.removals.push(Box::new(removal(&made)));
     Ok(made)
 }
+
+#[cfg(all(test, unix))]
+mod tests {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+
+    use super::*;
+
+    /// Bit n - 1 of the mask is signal n; a request to terminate is always heeded.
+    #[test]
+    fn signals_that_were_ignored_stay_ignored() {
+        let bit = |signal: i32| 1_u64 << (signal - 1);
+        assert_eq!(heeded(0), [SIGINT, SIGHUP, SIGTERM]);
+        assert_eq!(heeded(bit(SIGHUP)), [SIGINT, SIGTERM]);
+        assert_eq!(heeded(bit(SIGINT)), [SIGHUP, SIGTERM]);
+        assert_eq!(heeded(u64::MAX), [SIGTERM]);
+    }
+}

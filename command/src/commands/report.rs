@@ -30,10 +30,29 @@ pub(super) fn report(args: &ReportArgs) -> Result<(), Failure> {
     let seconds = start.elapsed().as_secs_f64();
     let figures = figures::all().map_err(Failure::Failed)?;
     let golden = figures::golden_tables(&figures).map_err(Failure::Failed)?;
-    let content = Content { results, seconds, golden, figures, environment: environment() };
-    folder.write(PAGE, page(&content).map_err(Failure::Failed)?.as_bytes())?;
+    finish(args, folder, &Content { results, seconds, golden, figures, environment: environment() })
+}
+
+/// Writes the page, and fails if a check does.
+fn finish(args: &ReportArgs, folder: OutputFolder, content: &Content) -> Result<(), Failure> {
+    folder.write(PAGE, page(content).map_err(Failure::Failed)?.as_bytes())?;
     folder.complete()?;
-    let summary = report::summary(&content.results, seconds);
+    let summary = report::summary(&content.results, content.seconds);
     tell(&format!("{summary}\n{}\n", args.out.join(PAGE).display()))?;
     conclude(&content.results)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::html_report::tests::FAILURES;
+
+    #[test]
+    fn a_report_of_failures_is_written_and_fails() {
+        let out = tempfile::tempdir().expect("a folder");
+        let args = ReportArgs { out: out.path().to_owned(), force: false };
+        let folder = OutputFolder::at(&args.out, false, |name| name == PAGE).ok().expect("an empty folder");
+        assert!(matches!(finish(&args, folder, &FAILURES.1), Err(Failure::Failed(_))));
+        assert_eq!(std::fs::read_to_string(out.path().join(PAGE)).expect("a page"), FAILURES.0);
+    }
 }

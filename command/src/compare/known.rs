@@ -85,3 +85,21 @@ pub(super) const KNOWN: [KnownFile; 12] = [
     file("gwtp1.dat", Content::Waves, "tp-I", 10_000, &[("h_+", 3.4e-6), ("h_x", 3.4e-6)]),
     file("gwtp2.dat", Content::Waves, "tp-II", 10_000, &[]),
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_are_in_rad_and_times_in_t_c() {
+        let columns = KNOWN.iter().flat_map(KnownFile::columns);
+        for Column { name, unit } in columns {
+            let expected = match name.split(',').next().expect("a name") {
+                "alpha" | "beta" => "rad",
+                "P" | "W / <Phi'>" | "period" | "duration" => "t_c",
+                _ => "1",
+            };
+            assert_eq!(unit, expected, "{name}");
+        }
+    }
+}

@@ -29,6 +29,8 @@ mod tests {
         for wrong in [r"\frac{1}{2", r"\nosuchcommand x", r"\begin{aligned} x", r"x_a_b"] {
             assert!(displayed(wrong).is_err(), "{wrong}");
         }
+        let shown = [displayed("x"), inline("x")].map(|maths| maths.expect("LaTeX").0.contains("display=\"block\""));
+        assert_eq!(shown, [true, false]);
         assert!(inline(r"\hat{n} < 1").expect("LaTeX").0.contains("&lt;"), "text is escaped");
     }
 }

@@ -114,7 +114,7 @@ fn environment_section(content: &Content) -> Markup {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use std::collections::BTreeSet;
     use std::sync::LazyLock;
 
@@ -124,7 +124,7 @@ mod tests {
     use twofold_verify::golden::Printed;
 
     /// A page of all checks, none of them run, two of which fail; and what is on it.
-    static FAILURES: LazyLock<(String, Content)> = LazyLock::new(|| {
+    pub(crate) static FAILURES: LazyLock<(String, Content)> = LazyLock::new(|| {
         let measured = |id| match id {
             "nordtvedt-form" => Ok(Measured::new(f64::NAN, "worst at <b>here</b> & there")),
             "forced-precession-direction" => Err("panicked: <script>alert(1)</script>".to_owned()),
@@ -250,6 +250,26 @@ mod tests {
             }
         }
         assert!(apart > 3, "{apart}");
+        assert!(
+            page.contains(&format!("{} in 1.0 s", content.results.len())),
+            "the time that all checks took together"
+        );
+        // The golden table of a figure has its name, with other strokes.
+        let mut linked = 0;
+        for figure in &content.figures {
+            let article = part(page, &cross_reference::figure(&figure.name), "</article>");
+            for table in
+                content.golden.iter().filter(|table| table.name.replace('_', "-") == format!("figure-{}", figure.name))
+            {
+                assert!(
+                    article.contains(&format!("href=\"#{}\"", cross_reference::golden(table.name))),
+                    "{}",
+                    table.name
+                );
+                linked += 1;
+            }
+        }
+        assert!(linked > 3, "{linked}");
         // Each form of an equation by the word before its remark in the source.
         let source = include_str!("../../data/equations.tex");
         for (word, name) in [("used", "Used"), ("corrected", "Corrected"), ("note", "Note")] {

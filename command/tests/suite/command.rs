@@ -182,3 +182,14 @@ fn the_commands_of_the_readme_work() {
         assert_eq!(output.status.code(), Some(0), "{arguments}: {}", stderr(&output));
     }
 }
+
+/// The file that a link points to is replaced, not the link.
+#[cfg(unix)]
+#[test]
+fn a_link_is_followed() {
+    let folder = Folder::with(&[("there.csv", "old")]);
+    std::os::unix::fs::symlink("there.csv", folder.at("link.csv")).expect("a link");
+    folder.succeeds(&["run", "tp-1", "--columns", "e_z", "--out", "link.csv", "--force"]);
+    assert!(folder.at("link.csv").is_symlink());
+    assert!(folder.read("there.csv").starts_with("t [t_c],e_z_X"));
+}

@@ -126,6 +126,22 @@ mod tests {
         assert_eq!(exponent(&rows, "other", |row| row.phase), None);
     }
 
+    /// The largest changes of the integrals so far do not become smaller.
+    #[test]
+    fn changes_are_the_largest_so_far() {
+        let rows = measure(&Effort { rounds: 1, longest: 1e4 }, |_| ()).expect("motions");
+        let mut compared = 0;
+        for (earlier, later) in rows.iter().zip(&rows[1..]).filter(|(earlier, later)| earlier.method == later.method) {
+            assert!(
+                earlier.time < later.time && earlier.energy > 0.0 && later.clebsch < 1e-10,
+                "{earlier:?} {later:?}"
+            );
+            assert!(later.energy >= earlier.energy && later.clebsch >= earlier.clebsch, "{earlier:?} {later:?}");
+            compared += 1;
+        }
+        assert!(compared >= METHODS.len(), "{compared}");
+    }
+
     /// The series on the torus against 1e7 t_c of motion in double-double numbers, both from a unit vector `n`.
     #[test]
     fn the_exact_motion_is_right_after_ten_million() {

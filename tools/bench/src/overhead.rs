@@ -177,3 +177,20 @@ fn whole_over<S: Real>(scene: &BenchScene, lift: impl Fn(f64) -> S) -> Result<()
     drop(scene.problem.map(lift).taylor((0.0, DURATION), TOLERANCE)?);
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of a whole motion, over the whole motion; of `n` and `L`, over that of these.
+    #[test]
+    fn what_comes_on_top_is_compared_with_a_motion_that_carries_the_same() {
+        let rows = measure(&Effort { rounds: 1, longest: 1e3 }, |_| ()).expect("motions");
+        for row in &rows {
+            let alone =
+                if row.what.starts_with("its gradient") { "the state at the end alone" } else { "the motion alone" };
+            let base = rows.iter().find(|base| base.what == alone && base.carries == row.carries).expect("its motion");
+            assert_eq!(row.ratio, row.times.least / base.times.least, "{}", row.what);
+        }
+    }
+}

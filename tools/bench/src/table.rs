@@ -170,3 +170,41 @@ pub fn csv(rows: &[work_precision::Row]) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::timing::Times;
+    use super::*;
+
+    fn row(method: &str, least: f64) -> work_precision::Row {
+        work_precision::Row {
+            scene: "tp-II".to_owned(),
+            method: method.to_owned(),
+            carries: Carries::Axis,
+            setting: 1e-9,
+            error: 1e-8,
+            times: Times { least, median: 5.0 * least },
+            steps: 20,
+            evaluations: 300,
+        }
+    }
+
+    #[test]
+    fn times_stand_over_those_of_the_baseline() {
+        let text = work_precision(&[row(BASELINE, 4e-3), row("ours", 1e-3)]);
+        let cells = |method: &str| {
+            let line = text.lines().find(|line| line.contains(method) && line.starts_with("| tp-II")).expect("a line");
+            line.split('|').map(|cell| cell.trim().to_owned()).collect::<Vec<_>>()
+        };
+        assert_eq!([&cells("ours")[3], &cells(BASELINE)[3]], ["1.000 (0.25)", "4.000"]);
+    }
+
+    #[test]
+    fn fields_are_those_of_the_header() {
+        let text = csv(&[row("ours", 1e-3)]);
+        let lines: Vec<Vec<_>> = text.lines().map(|line| line.split(',').collect()).collect();
+        let field = |name: &str| lines[1][lines[0].iter().position(|column| *column == name).expect("a column")];
+        let names = ["scene", "method", "setting", "error", "least_s", "median_s", "steps", "evaluations"];
+        assert_eq!(names.map(field), ["tp-II", "ours", "1e-9", "1e-8", "0.001", "0.005", "20", "300"]);
+    }
+}
