@@ -101,7 +101,7 @@ mod tests {
     /// At small angles and near a half turn too, of vectors of any length.
     #[test]
     fn angles_between_vectors_keep_their_digits() {
-        for angle in [0.0, 1e-150, 1e-12, 1e-8, 0.3, 2.0] {
+        for angle in [0.0_f64, 1e-150, 1e-12, 1e-8, 0.3, 2.0] {
             let (a, b) = (Vector3::new(0.0, 3.0, 0.0), Vector3::new(0.0, angle.cos(), angle.sin()) * 0.7);
             assert!((between(&a, &b) - angle).abs() <= 4.0 * f64::EPSILON * angle, "{angle}");
             assert!((between(&-a, &b) - (PI - angle)).abs() < 1e-15, "{angle}");

@@ -34,6 +34,9 @@ fn lines_of_a_spectrum_are_named() {
     assert!((noted(&output, "l' = ") + 0.027_972_468_2).abs() < 1e-10);
     assert!(stderr(&output).contains("h_plus has the constant term"), "{}", stderr(&output));
     assert_eq!(lines_of(&twofold(&["spectrum", "tp-1", "--of", "h_plus", "--most", "3"])).len(), 3);
+    // Without --least, every line above 1e-6 of the largest.
+    let by_default = stdout(&twofold(&["spectrum", "tp-1", "--of", "h_plus"]));
+    assert_eq!(by_default, stdout(&twofold(&["spectrum", "tp-1", "--of", "h_plus", "--least", "1e-6"])));
     // In turns.
     let turns = twofold(&["spectrum", "tp-1", "--of", "h_plus", "--least", "0.1", "--hertz"]);
     assert!(stdout(&turns).starts_with("frequency [turns/t_c],"));
