@@ -279,28 +279,6 @@ mod tests {
         assert!(((later - first) * TAU / rates[0] / 1e-8 - 1.0).abs() < 1e-6);
     }
 
-    /// The averaged motion is chosen if its truncation error is below rounding over the whole time asked for, not only at the start.
-    #[test]
-    fn the_averaged_motion_is_chosen_for_the_whole_time() {
-        let mut changes = 0;
-        for strength in [1e-3, 1e-5, 1e-6, 1e-7] {
-            let problem = problem([0.2, 0.1, -0.4].map(|value| value * strength));
-            let averaged = PhasedMotion::averaged(&problem, AveragingOrder::Second).unwrap();
-            let chosen = [0.0, 1e9].map(|longest| {
-                let motion = PhasedMotion::new(&problem, longest).unwrap();
-                let is_averaged = matches!(motion.solution, Solution::Averaged { .. });
-                assert_eq!(
-                    is_averaged,
-                    averaged.truncation(longest) <= averaged.rounding(longest),
-                    "{strength} {longest}"
-                );
-                is_averaged
-            });
-            changes += usize::from(chosen == [true, false]);
-        }
-        assert!(changes > 0);
-    }
-
     /// `L` on the middle axis has no torus nearby: for a weak torque the averaged motion is accurate to rounding, and for a strong torque the
     /// motion is refused.
     #[test]

@@ -284,7 +284,7 @@ mod tests {
             "{}",
             told.shows
         );
-        assert!(told.shows.contains("the part of geometry, times 50 (dashed"), "{}", told.shows);
+        assert!(told.shows.contains("the part due to geometry, times 50 (dashed"), "{}", told.shows);
         let parameters = "a period of 512 d and a wobble of 3 deg; magnetic axis at *χ* = 89 deg to the symmetry axis, beam of *ρ* = 6 deg, \
                           line of sight at *θ*_{o} = 88 deg to **L**. *F*1 = −3.6568 × 10^{−13} Hz/s";
         assert!(told.parameters.contains(parameters), "{}", told.parameters);
