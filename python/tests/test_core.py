@@ -474,6 +474,7 @@ class TestTimingModel:
             (lambda: twofold.TimingData([1.0], 1.0, numbers=[0.5]), ["number", "0.5", "whole"]),
             (lambda: twofold.TimingData(width_times=[1.0], widths=[1.0, 2.0], width_sigmas=[1.0]), ["1 width_times, 2 widths and 1 width_sigmas"]),
             (lambda: twofold.TimingData(width_times=[1.0], widths=[1.0], width_sigmas=[]), ["1 width_times, 1 widths and 0 width_sigmas"]),
+            (lambda: twofold.TimingData(width_times=[1.0], widths=[1.0], width_sigmas=[1.0, 2.0]), ["1 width_times, 1 widths and 2 width_sigmas"]),
             (lambda: twofold.TimingData.read([], None), ["epoch", "modified Julian date"]),
             (lambda: twofold.TimingData.read([], -1.0), ["epoch", "-1", "0 to 1e7"]),
             (lambda: twofold.TimingData.read([], 1e7), ["epoch", "10000000", "0 to 1e7"]),

@@ -65,8 +65,10 @@ def test_hands_follow_an_angular_momentum_that_turns():
     assert abs(added(pulsar, reference, dt, ("right", "left")) - whole).max() <= 1e-10 * size(pulsar, reference)
     whole = np.array(pulsar.wave(dt))
     assert abs(added(pulsar, 0.0, dt, ("right", "left")) - whole).max() <= 1e-10 * size(pulsar, 0.0)
-    with pytest.raises(twofold.Error, match="^psi: L turns by .* hand='right'"):
-        Waveform(pulsar, "twice")(1e9)
+    # To larger position angles and to smaller ones.
+    for dt in (1e9, -1e9):
+        with pytest.raises(twofold.Error, match="^psi: L turns by .* hand='right'"):
+            Waveform(pulsar, "twice")(dt)
 
 
 def test_a_strong_violation_by_hands():
