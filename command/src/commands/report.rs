@@ -51,7 +51,7 @@ mod tests {
     fn a_report_of_failures_is_written_and_fails() {
         let out = tempfile::tempdir().expect("a folder");
         let args = ReportArgs { out: out.path().to_owned(), force: false };
-        let folder = OutputFolder::at(&args.out, false, |name| name == PAGE).ok().expect("an empty folder");
+        let Ok(folder) = OutputFolder::at(&args.out, false, |name| name == PAGE) else { panic!("a folder is there") };
         assert!(matches!(finish(&args, folder, &FAILURES.1), Err(Failure::Failed(_))));
         assert_eq!(std::fs::read_to_string(out.path().join(PAGE)).expect("a page"), FAILURES.0);
     }

@@ -419,10 +419,11 @@ class TimingData:
         Numbers of the pulses, NaN where they are not known.
         """
     @staticmethod
-    def read(paths: SupportsGetItem[int, str | PathLike[str]], epoch: Any, *, observe: str | None = None) -> TimingData:
+    def read(paths: SupportsGetItem[int, str | PathLike[str]], epoch: Any, *, model: TimingModel | None = None, observe: str | None = None) -> TimingData:
         """
         The data of files: a `.tim` (FORMAT 1, barycentred), or tables as `Pulsar.arrivals` gives them, with the standard deviations in `observe`, as `"arrivals:1e-6,widths:1e-5"` (s). Times
-        are counted from the epoch of a model (MJD, TDB).
+        are counted from the epoch of a model (MJD, TDB). Each file numbers its pulses from its own first: where more than one has numbers, `model` is the
+        timing model by which they are matched.
         """
     @property
     def sigmas(self, /) -> NDArray[float64]:
