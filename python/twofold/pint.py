@@ -153,7 +153,7 @@ class _Beyond:
             (sin_chi * dip * sin**2 - cos * (sin_w * cos_chi + sin_chi * dip * cos)) * self.along
             - (2.0 * sin_chi * dip * cos + sin_w * cos_chi) * sin * self.across
         ) / norm
-        # The lateness at a fixed tau, over kappa.
+        # The delay at a fixed tau, over kappa.
         by_psi = self.q[0] * sin + 2.0 * self.q[1] * self.sin_2
         by_psi_0 = self.q[0] * np.sin(star.phase) + 2.0 * self.q[1] * np.sin(2.0 * star.phase)
         a_wobble = np.array(

@@ -17,5 +17,5 @@ mod torque;
 
 pub use precession::Precession;
 pub use stretched_time::{Braking, StretchedTime};
-pub(crate) use stretched_time::{late_by_torque, secular_lateness, slowing};
+pub(crate) use stretched_time::{secular_delay, slowing, torque_delay};
 pub use torque::TorqueHarmonics;

@@ -165,12 +165,12 @@ impl StretchedTime {
             return tau;
         }
         let series = self.secular.iter().rev().fold(DoubleDouble::from(0.0), |sum, term| (sum + *term) * tau);
-        tau + series * tau + self.late(tau.high).into()
+        tau + series * tau + self.delay(tau.high).into()
     }
 
     /// Timing delay due to the torque modulation since the time zero, `Q(tau) - Q(0)`.
-    pub fn late(&self, tau: f64) -> f64 {
-        late_by_torque(&self.braking, &self.precession, tau)
+    pub fn delay(&self, tau: f64) -> f64 {
+        torque_delay(&self.braking, &self.precession, tau)
     }
 
     /// `a = |L| / |L'| = d tau / dt` at a stretched time, from the braking law.
@@ -247,7 +247,7 @@ fn modulation<S: Real>(share: S, torque: &TorqueHarmonics<S>) -> S {
 
 /// `Q(tau) - Q(0)` of [`StretchedTime`], from differences, so that the rounding is that of the result. At the index 3 it has no derivative with
 /// respect to the index.
-pub(crate) fn late_by_torque<S: Real>(braking: &Braking<S>, precession: &Precession<S>, tau: S) -> S {
+pub(crate) fn torque_delay<S: Real>(braking: &Braking<S>, precession: &Precession<S>, tau: S) -> S {
     let Braking { rate, index, torque_share } = *braking;
     let Precession { torque, rate: w, phase, .. } = *precession;
     let modulation = modulation(torque_share, &torque);
@@ -292,7 +292,7 @@ pub(crate) fn late_by_torque<S: Real>(braking: &Braking<S>, precession: &Precess
 }
 
 /// `integral of u dtau - tau`: the secular part of `t - tau`.
-pub(crate) fn secular_lateness<S: Real>(braking: &Braking<S>, tau: S) -> S {
+pub(crate) fn secular_delay<S: Real>(braking: &Braking<S>, tau: S) -> S {
     let y = braking.index - S::from_f64(2.0);
     let (mut term, mut sum) = (tau, S::zero());
     for k in 1..TERMS {
@@ -427,7 +427,7 @@ mod tests {
             let expected = if y == -1.0 { -(1.0 - rate * tau).ln() / rate - tau } else { expected };
             for unit in [1.0, 1e12, 1e-12] {
                 let braking = Braking { rate: rate / unit, index, torque_share: 0.0 };
-                let found = secular_lateness(&braking, tau * unit) / unit;
+                let found = secular_delay(&braking, tau * unit) / unit;
                 assert!((found / expected - 1.0).abs() < 1e-13, "{rate} {index} {unit:e}: {found:e} {expected:e}");
             }
         }
@@ -451,7 +451,7 @@ mod tests {
     /// Over a small part of a slow precession the timing delay is `kappa g` times half the square of time and the difference of the torque from its
     /// mean, minus the advance of the rotation at the start; computed from the Taylor series.
     #[test]
-    fn a_short_time_has_a_small_lateness() {
+    fn a_short_time_has_a_small_delay() {
         let torque = TorqueHarmonics::new(0.2, 1.3);
         let (phase, w, kappa) = (0.7_f64, 1e-6, 1e-12);
         let braking = Braking { rate: kappa, index: 3.0, torque_share: 1.0 };
@@ -462,7 +462,7 @@ mod tests {
         let second = kappa * g * (torque.once * phase.cos() + torque.twice * (2.0 * phase).cos());
         for tau in [1e-3, 1.0, 1e2] {
             let expected = tau * (rate + 0.5 * second * tau);
-            assert!((stretched.late(tau) / expected - 1.0).abs() < 1e-8, "{tau}");
+            assert!((stretched.delay(tau) / expected - 1.0).abs() < 1e-8, "{tau}");
         }
         assert!(StretchedTime::new(&braking, &precession(1e-13)).is_err());
     }

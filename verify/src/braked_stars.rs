@@ -10,7 +10,7 @@ use crate::prelude::*;
 /// Most turns of the precession.
 const TURNS: f64 = 300.0;
 
-/// Roundings of the lateness, of what it is the difference of and of the phase, below which an error says nothing.
+/// Roundings of the delay, of what it is the difference of and of the phase, below which an error says nothing.
 const ROUNDINGS: f64 = 100.0;
 
 /// A star, and the stretched time at which it is looked at.
@@ -48,7 +48,7 @@ impl BrakedStar {
         Self { braking: Braking { rate: kappa, index, torque_share }, precession, tau }
     }
 
-    /// What [`StretchedTime::truncation`] states over the true error of the lateness; `None` where it is no more than rounding.
+    /// What [`StretchedTime::truncation`] states over the true error of the delay; `None` where it is no more than rounding.
     ///
     /// # Errors
     /// What the model refuses.
@@ -56,15 +56,15 @@ impl BrakedStar {
         let stretched = StretchedTime::new(&self.braking, &self.precession)?;
         let time = stretched.time_at([self.tau, 0.0]);
         stretched.stretched_at(time)?;
-        let (lateness, rounding) = self.lateness(&stretched);
+        let (delay, rounding) = self.delay(&stretched);
         let stated = stretched.truncation(time[0]);
-        Ok((stated >= ROUNDINGS * rounding).then(|| stated / (lateness - stretched.late(self.tau)).abs()))
+        Ok((stated >= ROUNDINGS * rounding).then(|| stated / (delay - stretched.delay(self.tau)).abs()))
     }
 
-    /// The lateness by the law, and the rounding of both lateness and law.
+    /// The delay by the law, and the rounding of both delay and law.
     ///
     /// `dt/dtau = (1 + (n - 2) kappa (tau + P))^(1 / (n - 2))` less the same without `P`, the integral of the varying torque; for `n = 3` with damping `d^2 t / dtau^2 = kappa (1 - q + q sin^2 theta_m) / (1 - q + q a_0)`.
-    fn lateness(&self, stretched: &StretchedTime) -> (f64, f64) {
+    fn delay(&self, stretched: &StretchedTime) -> (f64, f64) {
         let Braking { rate: kappa, index, torque_share: q } = self.braking;
         let Precession { wobble, chi, phase, rate: w, damping, .. } = self.precession;
         let harmonics = |theta: f64| {

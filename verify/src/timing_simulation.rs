@@ -101,7 +101,7 @@ fn random_star(random: &mut ChaCha8Rng) -> Result<(TimingModel, TimingData), two
         (Rho, within(0.7, 0.8)),
     ];
     let (span, count) = (within(10.0, 20.0) * YEAR, within(100.0, 300.0) as u32);
-    // So that the torque is seen to a hundredth: the lateness is some kappa / w^2.
+    // So that the torque is seen to a hundredth: the delay is some kappa / w^2.
     let late = (f1 / frequency).abs() * (period / TAU).powi(2) * 0.1;
     let sigma = late.min(0.1 / frequency) * 10.0_f64.powf(within(-3.0, -2.0));
     let truth = TimingModel::new([frequency, 1e-17 * frequency], &parameters)?;

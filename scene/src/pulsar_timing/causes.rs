@@ -51,7 +51,7 @@ impl PulsarScene {
             let even = number as f64 * period;
             let rest = (number as f64).mul_add(period, -even);
             points[0].push((number, without.midpoint));
-            points[1].push((number, [even, rest + time.late(stretched[0])]));
+            points[1].push((number, [even, rest + time.delay(stretched[0])]));
             points[2].push((number, [even, rest + violation]));
             let rate = -braking.rate / period * time.slowing(stretched[0]) * time.braking_over_mean(stretched[0]);
             spin_down_rate.push(rate);

@@ -1,7 +1,7 @@
 //! What stretched time states to leave out, beside what it leaves out, in random stars that slow down.
 //!
-//! `cargo run --release -p twofold-tools --bin estimates_of_torque [STARS] [SEED]`: 100,000 stars of seed 1 unless said. The true lateness is the law itself, integrated by Gauss' formula. A star whose
-//! lateness is further off than stated is listed with its number and makes the exit status 1.
+//! `cargo run --release -p twofold-tools --bin estimates_of_torque [STARS] [SEED]`: 100,000 stars of seed 1 unless said. The true delay is the law itself, integrated by Gauss' formula. A star whose
+//! delay is further off than stated is listed with its number and makes the exit status 1.
 
 use std::process::ExitCode;
 
@@ -11,7 +11,7 @@ use twofold_verify::braked_stars::BrakedStar;
 
 fn main() -> ExitCode {
     let (stars, seed): (u64, u64) = (argument(0, 100_000), argument(1, 1));
-    println!("{stars} stars of seed {seed}; error stated / true error of the lateness");
+    println!("{stars} stars of seed {seed}; error stated / true error of the delay");
     println!(
         "{:<10} {:>7} {:>8} {:>9} {:>8} {:>9} {:>9} {:>9} {:>9}",
         "star", "judged", "refused", "rounding", "below 1", "least", "1 %", "median", "99 %"

@@ -147,12 +147,12 @@ def bulge_components():
 
 def spin_down_quantities():
     """Rotation of a braked star, and a wobble that friction damps."""
-    late, time = spin_down.lateness()
-    # The lateness is a difference of periodic functions of this size.
+    late, time = spin_down.delay()
+    # The delay is a difference of periodic functions of this size.
     size = spin_down.braking * spin_down.MODULATION * (abs(spin_down.A_1) + abs(spin_down.A_2) / 4) / spin_down.rate**2
     return [
         Quantity("braked-rotation", [1 / spin_down.slowness(), time], exact=False),
-        Quantity("lateness-by-torque", [late], exact=False, scale=size),
+        Quantity("delay-by-torque", [late], exact=False, scale=size),
         Quantity("damped-wobble", spin_down.damped(), exact=False),
     ]
 

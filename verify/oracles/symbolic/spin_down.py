@@ -54,7 +54,7 @@ def slowness():
     return (1 + less_two * braking * (tau + OSCILLATING.subs(AT_TAU))) ** (1 / less_two)
 
 
-def lateness():
+def delay():
     """t - tau at the braking index 3, by the oscillating torque and in all."""
     twice = periodic_integral(OSCILLATING)
     late = braking * (twice.subs(AT_TAU) - twice.subs(psi, phase))

@@ -182,7 +182,7 @@ pub(super) fn long_dipole() -> Result<&'static LongDipole, String> {
 
 fn residual() -> Result<Measured, String> {
     let LongDipole { clock, times, states } = long_dipole()?;
-    let late = largest(times.iter().map(|&t| clock.stretched_time().late(t)));
+    let late = largest(times.iter().map(|&t| clock.stretched_time().delay(t)));
     let off = worst_of(times.iter().zip(states), |(time, state)| difference(clock, **time, state))?;
     Ok(Measured::new(off.figure / late, format!("delay up to {late:.1e} rad, differences up to {:.1e}", off.figure)))
 }
@@ -275,7 +275,7 @@ fn damped_residual() -> Result<Measured, String> {
     let time = clock.stretched_time();
     let times = equally(100, 1000.0 / rate);
     let states = integrated(&problem, (WOBBLE, CHI), time, &times)?;
-    let late = largest(times.iter().map(|&t| time.late(t)));
+    let late = largest(times.iter().map(|&t| time.delay(t)));
     let off = worst_of(times.iter().zip(&states), |(time, state)| difference(&clock, **time, state))?;
     Ok(Measured::new(off.figure / late, format!("delay up to {late:.1e} rad, differences up to {:.1e}", off.figure)))
 }

@@ -85,7 +85,7 @@ fn of_torque() -> Result<Measured, String> {
     let LongDipole { clock, times, states } = long_dipole()?;
     let (model, time) = (clock.timing_model()?, clock.stretched_time());
     let (sight, beam) = (sight(), beam(CHI));
-    let late = largest(times.iter().map(|&t| time.late(t)));
+    let late = largest(times.iter().map(|&t| time.delay(t)));
     let off = worst_of(times.iter().zip(states), |(time, state)| {
         let (l, o) = (state.momentum.normalize(), sight.direction);
         let (m, o) = (beam.direction(state), o - l * o.dot(&l));

@@ -102,7 +102,7 @@ pub(super) fn all() -> Vec<ClosedKernel> {
             let [time, rest] = braked(p, 3.0)?.time_at([tau, 0.0]);
             Ok(vec![braked(p, 2.0 + p.at("x_4"))?.slowing(tau), time + rest])
         }),
-        ("lateness-by-torque", |p| Ok(vec![braked(p, 3.0)?.late(stretched(p))])),
+        ("delay-by-torque", |p| Ok(vec![braked(p, 3.0)?.delay(stretched(p))])),
         ("damped-wobble", |p| {
             let (damped, tau) = (precession(p, p.at("x_5") / 16.0), stretched(p));
             Ok(vec![damped.wobble_at(tau), damped.ahead(tau)])

@@ -42,7 +42,7 @@ use crate::error::Error;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::scalar::Real;
 pub use crate::solutions::averaged::Turns;
-use crate::spin_down::{Braking, Precession, StretchedTime, late_by_torque, secular_lateness, slowing};
+use crate::spin_down::{Braking, Precession, StretchedTime, secular_delay, slowing, torque_delay};
 use TimingParameter::*;
 
 /// Number of parameters.
@@ -212,7 +212,7 @@ impl TimingModel {
         let seed = |k| -> Derivative<f64, Const<COUNT>, U1> { Derivative::derivative_generic(Const, U1, k) };
         let seeded = core::array::from_fn(|k| Dual::new(self.values[k], seed(k)));
         let (braking, precession, at) = (braking(&seeded), precession(&seeded), Dual::from_re(tau[0]));
-        let late = secular_lateness(&braking, at) + late_by_torque(&braking, &precession, at);
+        let late = secular_delay(&braking, at) + torque_delay(&braking, &precession, at);
         Ok((seeded, Dual::new(tau[0], late.eps * -self.time.slowing(tau[0])), tau))
     }
 }
