@@ -113,7 +113,11 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
     }
     let found = fit_timing(&start, &data, &unknowns).map_err(refused)?;
     let model = &found.fisher.parameters;
-    let [short, all] = uncertainties(&found.fisher, |unknown| (1.0, unknown.unit().to_owned()));
+    let [short, mut all] = uncertainties(&found.fisher, |unknown| (1.0, unknown.unit().to_owned()));
+    // A double of F0 is off by a turn in 1e16.
+    if let Some(row) = all.iter_mut().find(|row| row[0] == TimingParameter::F0.key()) {
+        row[1] = decimal(model.frequency());
+    }
     tell_fit(&found, &data, &pulsar);
     let mut page = readable(&short);
     let mut tables = all;
@@ -121,7 +125,14 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
     if unknowns.contains(&InclinationRate) && !are_larger {
         page += &limit_on_s(&found)?;
     }
-    if let Some(periods) = args.periods.filter(|_| !are_larger) {
+    if args.periods.is_some() && are_larger {
+        print(&(page + &assumptions(model, &unknowns, &data)))?;
+        return Err(Failure::Failed(format!(
+            "{}: --periods: no limits, because the residuals are larger than the errors",
+            args.scene
+        )));
+    }
+    if let Some(periods) = args.periods {
         let limits = wobble_limits(model, &data, &unknowns, &periods.rates(), CONFIDENCE).map_err(refused)?;
         let head = ["period [d]", "best wobble [rad]", "gain of chi^2", "limit of the wobble [rad]"]
             .map(String::from)

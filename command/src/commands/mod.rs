@@ -24,7 +24,9 @@ mod sweep;
 mod timing;
 mod verify;
 
+use std::ffi::OsString;
 use std::io::{self, Write};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
@@ -175,13 +177,33 @@ pub fn main() -> ExitCode {
         return end(1, &format!("signals cannot be handled: {error}"));
     }
     match Cli::try_parse() {
-        Ok(cli) => run_command(cli.command.unwrap_or(Command::Verify(verify::VerifyArgs::default()))),
+        Ok(cli) => match out_that_is_read(std::env::args_os()) {
+            Some(out) => end(2, &format!("--out {}: it is also read: allowed is another file", out.display())),
+            None => run_command(cli.command.unwrap_or(Command::Verify(verify::VerifyArgs::default()))),
+        },
         Err(misuse) if misuse.use_stderr() => {
             let _ = misuse.print();
             ExitCode::from(2)
         }
         Err(help_or_version) => status(print(&help_or_version.render().to_string())),
     }
+}
+
+/// The file that `--out` names if another argument is the same file: an output, even with `--force`, takes the place of no input.
+fn out_that_is_read(arguments: impl Iterator<Item = OsString>) -> Option<PathBuf> {
+    let (mut out, mut others, mut is_next) = (None, Vec::new(), false);
+    for argument in arguments.skip(1) {
+        let text = argument.to_string_lossy().into_owned();
+        match text.strip_prefix("--out=") {
+            Some(path) => out = Some(PathBuf::from(path)),
+            None if is_next => out = Some(PathBuf::from(argument)),
+            None => others.push(PathBuf::from(text.split_once('=').map_or(&*text, |(_, value)| value))),
+        }
+        is_next = text == "--out";
+    }
+    let file = |path: &PathBuf| std::fs::canonicalize(path).ok().filter(|path| path.is_file());
+    let same = out.as_ref().and_then(file)?;
+    others.iter().any(|other| file(other).as_ref() == Some(&same)).then_some(out)?
 }
 
 /// Carries out a command; its exit status.

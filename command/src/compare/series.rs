@@ -29,9 +29,14 @@ pub(super) fn by_stamps(
             _ => train.durations().collect(),
         };
         let distance = |stamped: &Stamped, row: &[f64]| (stamped.time - row[0]).abs();
-        let near = |row: &[f64]| {
-            let nearest = ours.iter().min_by(|a, b| distance(a, row).total_cmp(&distance(b, row)));
-            nearest.filter(|stamped| distance(stamped, row) < SAME_PULSE)
+        let mut taken = vec![false; ours.len()];
+        // A pulse is that of one row.
+        let mut near = |row: &[f64]| {
+            let nearest =
+                (0..ours.len()).min_by(|&a, &b| distance(&ours[a], row).total_cmp(&distance(&ours[b], row)))?;
+            let is_its = distance(&ours[nearest], row) < SAME_PULSE && !taken[nearest];
+            taken[nearest] |= is_its;
+            is_its.then_some(&ours[nearest])
         };
         let pairs: Vec<(&[f64], &Stamped)> =
             table.rows.iter().filter_map(|row| near(row).map(|stamped| (row.as_slice(), stamped))).collect();
@@ -50,7 +55,7 @@ pub(super) fn by_stamps(
         let mut notes = Vec::new();
         if alone > 0 {
             let rows = if alone == 1 { "row of the file has" } else { "rows of the file have" };
-            notes.push(format!("{alone} {rows} nothing of ours within {SAME_PULSE} t_c"));
+            notes.push(format!("{alone} {rows} nothing of ours within {SAME_PULSE} t_c, but for what another row has"));
         }
         let (first, last) = (table.rows[0][0], table.last_time());
         let in_file = |stamped: &Stamped| pairs.iter().any(|(_, ours)| *ours == stamped);
@@ -89,6 +94,9 @@ mod tests {
         assert_eq!(verdicts(&rows), [[Agrees, Agrees], [NotJudged, NotJudged]]);
         rows.insert(1, vec![(rows[0][0] + rows[1][0]) / 2.0, rows[0][1]]);
         assert_eq!(verdicts(&rows), [[Differs, Differs], [NotJudged, NotJudged]]);
+        // The second row again, a little earlier, in the place of the first.
+        rows.splice(..2, [vec![rows[2][0] - 1e-6, rows[2][1]]]);
+        assert_eq!(verdicts(&rows), [[Differs, Differs], [NotJudged, NotJudged]]);
     }
 
     /// Periods are some 4.4 t_c long: a stamp in the middle of two is of neither.
@@ -106,7 +114,7 @@ mod tests {
         let [first, second] = [&ours[0], &ours[1]].map(|stamped| [stamped.time, stamped.value]);
         let middle = [(first[0] + second[0]) / 2.0, first[1]];
         let alone =
-            |notes: &[String]| notes.iter().filter(|note| note.contains("nothing of ours within 1 t_c")).count();
+            |notes: &[String]| notes.iter().filter(|note| note.contains("nothing of ours within 1 t_c, but")).count();
         assert_eq!(alone(&notes(&[first, second])), 0);
         // Beside both starts of ours.
         let found = notes(&[first, middle, second]);

@@ -49,7 +49,7 @@ fn star(subject: &Subject) -> String {
     let body = if units.are_physical() {
         format!(
             "*ε* = {oblateness}, *I*^{{*xx*}} = {} g cm^{{2}}, *t*_{{c}} = {} s, *Ω*^{{*z*}}/(2π) = {} Hz",
-            number(units.momentum * units.time),
+            number(units.momentum * units.time * spheroid.inertia_xx),
             number(units.time),
             number(scale.frequency(subject.spin()))
         )

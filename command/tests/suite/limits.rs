@@ -108,7 +108,7 @@ fn widths_limit_the_motion_of_the_axis_and_s() {
     let args = ["limits", "star.toml", "star.csv", "--observe", "widths:1e-6"];
     let page = stdout(&folder.succeeds(&args));
     let again = folder.run(&["limits", "star.toml", "star.csv", "star.csv", "--observe", "widths:1e-6"]);
-    is_refused(&again, &["star.csv: its first datum is also in an earlier file"]);
+    is_refused(&again, &["star.csv: the datum of MJD ", "also in an earlier file"]);
     // In two files they are the same data.
     let table = folder.read("star.csv");
     let lines: Vec<_> = table.lines().collect();
@@ -159,10 +159,13 @@ fn what_is_wrong_is_named() {
         ("flag.tim", line("a 0.0 55321.5 1.0 @ -padd 0.3")),
         ("no.csv", "x,y\n1,2\n".to_owned()),
         ("empty.tim", "FORMAT 1\n".to_owned()),
+        ("twice.tim", line("a 0.0 55321.5 1.0 @\nb 0.0 55322.5 1.0 @\nc 0.0 55322.5 2.0 @")),
+        ("half.tim", line("a 0.0 55321.5 1.0 @\nb 0.0 55322.5 1.0 @")),
+        ("rest.tim", line("a 0.0 55320.5 1.0 @\nb 0.0 55321.5 1.0 @")),
     ] {
         std::fs::write(folder.at(name), text).expect("a file");
     }
-    let refusals: [(&[&str], &[&str]); 22] = [
+    let refusals: [(&[&str], &[&str]); 25] = [
         (&["site.tim"], &["site.tim:2: site `ao`", "allowed are @"]),
         (&["frequency.tim"], &["frequency.tim:2: frequency `1400`", "allowed is 0"]),
         (&["error.tim"], &["error.tim:2: uncertainty `-1.0`", "from 1e-9 to 1e12"]),
@@ -179,7 +182,9 @@ fn what_is_wrong_is_named() {
         (&["b1937+21.tim", "--prior", "all:1.2:0.1"], &["all:1.2:0.1", "allowed is a parameter"]),
         (&["flag.tim"], &["flag.tim:2: `-padd` changes the time"]),
         (&["empty.tim"], &["empty.tim: no data"]),
-        (&["b1937+21.tim", "b1937+21.tim"], &["its first datum is also in an earlier file", "measured once"]),
+        (&["b1937+21.tim", "b1937+21.tim"], &["b1937+21.tim: the datum of MJD ", "measured once"]),
+        (&["twice.tim"], &["twice.tim: the datum of MJD 55322.5 is there twice", "measured once"]),
+        (&["half.tim", "rest.tim"], &["rest.tim: the datum of MJD 55321.5 ", "also in an earlier file"]),
         (&["b1937+21.tim", "--observe", "widths:1e-5"], &["--observe widths: there is no such datum"]),
         (&["b1937+21.tim", "--periods", "1:1e-5:2"], &["--periods: 1e-5 d", "at least a thousand pulses, 1.803e-5 d"]),
         (&["b1937+21.tim", "--prior", "rho:0.2:1e-320"], &["rho:0.2:1e-320", "at least 1e-100"]),
@@ -187,6 +192,7 @@ fn what_is_wrong_is_named() {
             &["b1937+21.tim", "--parameters", "phase,chi", "--prior", "chi:1.3:0.2", "--periods", "50:90:2"],
             &["chi", "held fixed"],
         ),
+        (&["b1937+21.tim", "--out", "b1937+21.tim", "--force"], &["--out b1937+21.tim: it is also read"]),
         (&["b1937+21.tim", "--periods", "50:20"], &["50:20", "two periods"]),
     ];
     for (args, reasons) in refusals {
@@ -211,8 +217,13 @@ fn what_is_wrong_is_named() {
     }
     folder.write("late.csv", text);
     let other = ["limits", "b1937+21", "late.csv", "--observe", "arrivals:1e-6", "--periods", "50:90:2"];
-    let other = folder.succeeds(&other);
+    let other = ends(folder.run(&[&other[..], &["--out", "limits.csv"]].concat()), 1);
     assert!(stderr(&other).contains("No limit is printed") && !stdout(&other).contains("limit of the wobble"));
+    assert!(
+        stderr(&other).contains("--periods: no limits")
+            && stdout(&other).contains("F0")
+            && !folder.at("limits.csv").exists()
+    );
 }
 
 /// F2 of a star whose F1 is zero at the start of the fit, and one of timing noise; and numbers that two files count differently.

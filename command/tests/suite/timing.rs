@@ -181,7 +181,7 @@ fn the_causes_of_residuals_add_up() {
         let days = |row: &[f64]| row[1] - 49_621.0 + row[2];
         for row in &rows {
             let [residual, geometry, torque, violation] = [row[3], row[16], row[17], row[18]];
-            assert!((residual - geometry - torque - violation).abs() < 1e-6, "{row:?}");
+            assert!((residual - geometry - torque - violation).abs() < 3e-11, "{row:?}");
             assert!(geometry.abs() < 1e-4 && violation.abs() < 1e-11);
             assert!((row[19] / -3.6568e-13 - 1.0).abs() < 4e-3, "{row:?}");
         }

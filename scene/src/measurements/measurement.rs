@@ -122,8 +122,11 @@ impl Measurement {
 
     /// Factor by which the value of an unknown is multiplied for the output, and its unit there.
     pub fn unit(&self, unknown: Parameter) -> (f64, String) {
-        let units = &self.scene.units;
+        let (units, body) = (&self.scene.units, self.scene.problem.spheroid());
         match unknown {
+            Parameter::InertiaXx | Parameter::InertiaZz => (1.0 / body.inertia_xx, "1".to_owned()),
+            Parameter::ConstantC => (1.0 / body.constant_c, "1".to_owned()),
+            Parameter::Strain => (body.inertia_xx, "1".to_owned()),
             Parameter::Spin | Parameter::AlphaRate | Parameter::BetaRate => {
                 (1.0 / units.time, format!("rad/{}", units.time_name))
             }

@@ -1,5 +1,7 @@
 //! Arrival times and pulse widths over decades: `.tim` files, and tables in the format of `twofold timing`.
 
+use std::collections::HashSet;
+
 use twofold::epoch::Epoch;
 use twofold::inference::{MeasuredArrival, MeasuredWidth, Noise, Observable, TimingData};
 use twofold::observables::pulsar::timing_model::TimingModel;
@@ -21,8 +23,7 @@ const CHANGING: [&str; 4] = ["-to", "-padd", "-addsat", "-jump"];
 /// `model` relates these origins ([`TimingData::numbered`]). Without a model the numbers are unchanged, and only one file may have numbers.
 ///
 /// # Errors
-/// A file that cannot be read; a second file with numbers if there is no model; a file whose first datum also occurs in an
-/// earlier file.
+/// A file that cannot be read; a second file with numbers if there is no model; the same datum twice.
 pub fn read_timing(
     paths: &[String],
     epoch: &Epoch,
@@ -44,15 +45,25 @@ pub fn read_timing(
             }
             None => (),
         }
-        let again =
-            more.arrivals.first().is_some_and(|first| data.arrivals.iter().any(|other| other.time == first.time));
-        if again || more.widths.first().is_some_and(|first| data.widths.iter().any(|other| other.time == first.time)) {
-            return Err(format!("{path}: its first datum is also in an earlier file: allowed are data measured once"));
-        }
         data.arrivals.extend(more.arrivals);
         data.widths.extend(more.widths);
+        if let Some(time) = measured_twice(&data) {
+            let date = epoch.after(time).map_err(|error| format!("{path}: {error}"))?;
+            return Err(format!(
+                "{path}: the datum of MJD {date} is there twice, or also in an earlier file: allowed are data measured once"
+            ));
+        }
     }
     Ok(data)
+}
+
+/// The time (s) of an arrival at the time of another one, or of a width with time and length of another one: no two measurements agree to sixteen digits.
+fn measured_twice(data: &TimingData) -> Option<[f64; 2]> {
+    let (mut arrivals, mut widths) = (HashSet::new(), HashSet::new());
+    let arrival =
+        data.arrivals.iter().map(|arrival| arrival.time).find(|time| !arrivals.insert(time.map(f64::to_bits)));
+    let width = data.widths.iter().find(|width| !widths.insert([width.time, width.duration].map(f64::to_bits)));
+    arrival.or(width.map(|width| [width.time, 0.0]))
 }
 
 impl DataFile {

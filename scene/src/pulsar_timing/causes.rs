@@ -1,15 +1,19 @@
 //! Contributions to the residuals of a pulsar: geometry, torque, Lorentz violation.
 
 use nalgebra::Matrix3;
-use twofold::Error;
 use twofold::dynamics::Problem;
 use twofold::observables::pulsar::{PulsarClock, SpinFit};
 use twofold::propagation::PhasedMotion;
+use twofold::spin_down::{Braking, StretchedTime};
 
 use super::{PulsarScene, Timing};
 
-/// The contributions to the residuals (s), each fitted in the same way as the arrival times. They add up to the residuals, except for the part of the
-/// secular spin-down that no fit removes, and for the rounding of arrival times, which they do not contain.
+/// The contributions to the residuals (s): the delay by each cause at the arrival times, without what the fit of the arrival times absorbs. They add up
+/// to the residuals, except for the part of the secular spin-down that no fit removes, and for the rounding of arrival times, which they do not
+/// contain.
+///
+/// A pulse of number `N` has left the star at the stretched time `tau = N P + geometry + violation`, where the secular law of braking alone would
+/// have its clock at `tau_s(t) = tau + torque`. So the turns `N` are those of `tau_s(t)`, which the fit removes, less the three delays over `P`.
 #[derive(Debug, Clone)]
 pub struct Causes {
     /// Free precession changes the times at which the beam points at the observer.
@@ -34,7 +38,8 @@ impl PulsarScene {
         let free = PulsarClock::on(PhasedMotion::new(&free, 0.0)?, &self.beam, &self.observer)?;
         let free = free.damped(time.precession().damping)?;
         let (period, braking) = (self.clock.period(), time.braking());
-        let mut points = [const { Vec::new() }; 3];
+        let secular = StretchedTime::new(&Braking { torque_share: 0.0, ..*braking }, time.precession())?;
+        let mut delays = [const { Vec::new() }; 3];
         let mut spin_down_rate = Vec::with_capacity(timing.pulses.len());
         for timed in &timing.pulses {
             let number = timed.pulse.number;
@@ -46,21 +51,23 @@ impl PulsarScene {
                      violation that delays the pulses by less than a turn"
                 )
             })?;
-            // Delay relative to uniform turns, which the fit removes.
-            let violation = (stretched[0] - without.midpoint[0]) + (stretched[1] - without.midpoint[1]);
+            let later = |time: [f64; 2], than: [f64; 2]| (time[0] - than[0]) + (time[1] - than[1]);
             let even = number as f64 * period;
             let rest = (number as f64).mul_add(period, -even);
-            points[0].push((number, without.midpoint));
-            points[1].push((number, [even, rest + time.delay(stretched[0])]));
-            points[2].push((number, [even, rest + violation]));
-            let rate = -braking.rate / period * time.slowing(stretched[0]) * time.braking_over_mean(stretched[0]);
+            delays[0].push(later(without.midpoint, [even, rest]));
+            delays[1].push(later(secular.stretched_at(timed.pulse.midpoint)?, stretched));
+            delays[2].push(later(stretched, without.midpoint));
+            let rate =
+                (0.0 - braking.rate) / period * time.slowing(stretched[0]) * time.braking_over_mean(stretched[0]);
             spin_down_rate.push(rate);
         }
-        let residuals = |points: &[(i64, [f64; 2])]| -> Result<Vec<f64>, Error> {
-            Ok(SpinFit::new(points, timing.derivatives)?.residuals)
-        };
-        let [geometry, torque, violation] = &points;
-        let (geometry, torque, violation) = (residuals(geometry)?, residuals(torque)?, residuals(violation)?);
+        let times: Vec<_> = timing.pulses.iter().map(|timed| timed.arrival.seconds_since(&timing.epoch)[0]).collect();
+        // In turns, and by the fitted frequency in seconds.
+        let seconds = 1.0 / (period * timing.fit.frequency[0]);
+        let [geometry, torque, violation] = delays.map(|delays| {
+            let delays = delays.iter().map(|delay| delay * seconds).collect();
+            SpinFit::residuals_of_delays(&times, delays, timing.derivatives)
+        });
         Ok(Causes { geometry, torque, violation, spin_down_rate })
     }
 }

@@ -24,9 +24,9 @@ use super::rotation::{Rotation, WobbleAngles, rotation};
 pub struct Units {
     /// `t_c` in the unit of time.
     pub time: f64,
-    /// `I^xx / t_c` in the unit of angular momentum.
+    /// The model's unit of angular momentum in that of the output: `I^xx / t_c`, but for a factor that is one to `2.2e-16 / oblateness`.
     pub momentum: f64,
-    /// `C` in the unit of energy.
+    /// The model's unit of energy in that of the output: `C`, but for the same factor.
     pub energy: f64,
     /// Name of the unit of time.
     pub time_name: &'static str,
@@ -41,7 +41,7 @@ impl Units {
     pub const PAPER: Self =
         Self { time: 1.0, momentum: 1.0, energy: 1.0, time_name: "t_c", momentum_name: "I_xx/t_c", energy_name: "C" };
 
-    /// `I^xx` of a physical star in kg m^2.
+    /// The model's unit of the moment of inertia of a physical star in kg m^2.
     pub fn inertia_in_si(&self) -> f64 {
         self.momentum * self.time * GRAM_SQUARE_CENTIMETRE
     }
@@ -53,7 +53,7 @@ impl Units {
 }
 
 pub(super) struct Star {
-    /// In units of `I^xx` and `C`.
+    /// In units of `I^xx` and `C`, or near them.
     pub(super) spheroid: RigidSpheroid<f64>,
     /// `Omega^z` in 1/t_c.
     pub(super) spin: f64,
@@ -122,20 +122,32 @@ fn physical(section: &Section<'_>, angles: &WobbleAngles) -> Result<(Star, Optio
         );
         spin_entry.refuse_because(&why).message
     });
+    let spheroid = rigid_spheroid(oblateness);
     let star = Star {
-        spheroid: RigidSpheroid::in_units_of_tc(1.0 + oblateness),
+        spheroid,
         spin: TAU * frequency * time,
-        bulge: section.optional("bulge").map_or(Ok(0.0), |entry| bulge(&entry))?,
+        bulge: section.optional("bulge").map_or(Ok(0.0), |entry| bulge(&entry))? / spheroid.inertia_xx,
         units: Units {
             time,
-            momentum: inertia.xx / (GRAM * CENTIMETRE * CENTIMETRE) / time,
-            energy: body.c() / ERG,
+            momentum: inertia.xx / (GRAM * CENTIMETRE * CENTIMETRE) / time / spheroid.inertia_xx,
+            energy: body.c() / ERG / spheroid.constant_c,
             time_name: "s",
             momentum_name: "g cm^2/s",
             energy_name: "erg",
         },
     };
     Ok((star, caution))
+}
+
+/// The spheroid of an oblateness, with `C = I^xx`, so that the unit of time is `t_c`.
+///
+/// `1 + epsilon` is rounded by up to 1.1e-16, which is 1e-8 of an oblateness of 1e-8, and as much of a precession period. So `I^zz - I^xx` is a whole
+/// number of roundings, `k 2^-52`, and `I^xx = k 2^-52 / epsilon` is as near above one as such a number allows: both moments of inertia are doubles
+/// (below 2, where these are multiples of `2^-52`), and `(I^zz - I^xx) / I^xx` is `epsilon` to two roundings of itself.
+fn rigid_spheroid(oblateness: f64) -> RigidSpheroid<f64> {
+    let difference = (oblateness / f64::EPSILON).ceil() * f64::EPSILON;
+    let inertia_xx = difference / oblateness;
+    RigidSpheroid { inertia_xx, inertia_zz: inertia_xx + difference, constant_c: inertia_xx }
 }
 
 /// For a fluid it is `1 / (4 I^xx)`: `C_f` is half of the rotational energy.

@@ -115,10 +115,9 @@ fn pulses_come_as_the_magnetic_axis_goes_round() {
                 format!("pulsar.chi = {chi:?}"),
             ];
             let scene = assert_taken(PHYSICAL, &given);
-            let (state, inertia_zz) = (scene.problem.initial(), scene.problem.spheroid().inertia_zz);
-            assert_relative_eq!(inertia_zz, 1.0 + oblateness, max_relative = 1e-15);
-            let spin = state.axis.dot(&state.momentum) / inertia_zz;
-            let per_second = state.momentum.norm().copysign(spin) - turns_back * oblateness * spin;
+            let (state, body) = (scene.problem.initial(), scene.problem.spheroid());
+            let spin = state.axis.dot(&state.momentum) / body.inertia_zz;
+            let per_second = (state.momentum.norm() / body.inertia_xx).copysign(spin) - turns_back * oblateness * spin;
             assert_relative_eq!(per_second / scene.units.time / TAU, frequency, max_relative = 1e-13);
         }
     }
@@ -379,4 +378,22 @@ fn a_braking_law_is_taken_up_to_the_ends_of_its_ranges() {
     let law = |second: f64| SpinDown { index: IndexOrSecond::Second(second), ..read(&[]) }.braking(2.0);
     assert_eq!(law(1.5e-24).map(|law| (law.index, law.rate)), Ok((3.0, 5e-13)));
     assert!(law(1.49e-23).is_ok() && law(-1.49e-23).is_ok() && law(1.51e-23).is_err() && law(-1.51e-23).is_err());
+}
+
+/// However small it is; of 1.5e-15 a rounded `I^zz / I^xx` would leave one digit. `C t_c^2 = I^xx` in the units of the output as well.
+#[test]
+fn the_oblateness_has_all_its_digits() {
+    for oblateness in [0.7, 0.1, 3.1e-5, 1.234_567_8e-9, 7e-13, 1.5e-15] {
+        let scene =
+            assert_taken(PHYSICAL, &[format!("star.oblateness = {oblateness:?}"), "star.bulge = 1.0".to_owned()]);
+        let (body, units) = (scene.problem.spheroid(), &scene.units);
+        assert_relative_eq!(body.oblateness(), oblateness, max_relative = 3e-16);
+        let ratio = |of: f64| of / body.inertia_xx;
+        assert_relative_eq!(ratio(body.constant_c), 1.0, max_relative = 1e-15);
+        assert_relative_eq!(ratio(0.25) / scene.problem.bulge(), 1.0, max_relative = 1e-15);
+        assert_relative_eq!(units.momentum / units.time / units.energy, 1.0, max_relative = 1e-14);
+        // Eqs. (77), (78) of a nearly spherical star: I^xx = 2 M R^2 / 5.
+        let inertia = units.inertia_in_si() * body.inertia_xx;
+        assert!(oblateness > 1e-3 || (inertia / (0.4 * 1.4 * 1.988_4e30 * 1.44e8) - 1.0).abs() < 1e-3, "{inertia:e}");
+    }
 }

@@ -1,5 +1,7 @@
 //! A pulsar as a clock: its pulse near any time, with turns counted continuously over any number of them. Eqs. (44), (47).
 
+use core::f64::consts::{FRAC_PI_2, PI, TAU};
+
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 
 use super::edge_search::{EdgeSearch, Event};
@@ -147,7 +149,7 @@ impl PulsarClock {
         let turns = TurnCount::new(&motion, beam, &observer.direction)?;
         let problem = &motion.problem;
         let bounds = rate_bounds(problem.spheroid(), problem.coefficients(), problem.bulge(), problem.initial());
-        let rotation = core::f64::consts::TAU * bounds.first / turns.rate(&motion);
+        let rotation = TAU * bounds.first / turns.rate(&motion);
         Error::ensure(
             (0.0..=MOST_ROTATION).contains(&rotation),
             "rotation (rad) of the body in a turn of the magnetic axis about L",
@@ -198,13 +200,16 @@ impl PulsarClock {
     }
 
     /// The star as a [`TimingModel`], which has free precession and a line of sight whose angle to `L` changes linearly. It is accurate to
-    /// `x = C |s| I^xx / |L|^2` in angles, over times in which `L` turns by a small angle.
+    /// `x = C |s| I^xx / |L|^2` in angles, over times in which `L` turns by a small angle. Where `n` is more than a right angle from `L`, as of a star
+    /// of negative spin, the angles of the model are those from `-n`.
     ///
     /// # Errors
     /// As for [`TimingModel::new`] and [`precession_rates`](Self::precession_rates).
     pub fn timing_model(&self) -> Result<TimingModel, Error> {
-        let Precession { wobble, chi, phase, rate: precession_rate, damping, .. } =
-            self.precession(self.time.precession().damping)?;
+        let Precession { wobble, chi, phase, rate, damping, .. } = self.precession(self.time.precession().damping)?;
+        // The same star with its axis the other way round, about which angles change their sign.
+        let [wobble, chi, phase, precession_rate] =
+            if wobble > FRAC_PI_2 { [PI - wobble, PI - chi, -phase, -rate] } else { [wobble, chi, phase, rate] };
         let Braking { rate, index, torque_share } = *self.time.braking();
         let frequency = self.turns.per_time(&self.motion);
         let f1 = -rate * frequency.high;
@@ -226,7 +231,7 @@ impl PulsarClock {
         let look = self.turns.look(&self.motion, [0.0; 2])?;
         // Less than half a turn from the mean.
         let at_zero = model.phase([0.0; 2])?.fraction;
-        model.moved(&[(Phase, look.phase / core::f64::consts::TAU - at_zero)])
+        model.moved(&[(Phase, look.phase / TAU - at_zero)])
     }
 
     /// Angle of the line of sight to `L` at the time zero, and its mean rate over the time in which `L` turns by a hundredth of a radian about its
@@ -270,7 +275,7 @@ impl PulsarClock {
     /// Mean time between two pulses; for a star that slows down, at the time zero. It is positive because turns are counted
     /// about `L`.
     pub fn period(&self) -> f64 {
-        core::f64::consts::TAU / self.turns.rate(&self.motion)
+        TAU / self.turns.rate(&self.motion)
     }
 
     /// Error of a midpoint at the time `t` because of effects that the motion neglects: the error of directions over the rotation rate. For a star
@@ -343,7 +348,7 @@ impl PulsarClock {
         let counted = look.phase + change;
         let turned = counted + wrapped(damped - counted);
         let phase = wrapped(turned);
-        Ok(Look { number: look.number + ((turned - phase) / core::f64::consts::TAU).round() as i64, phase })
+        Ok(Look { number: look.number + ((turned - phase) / TAU).round() as i64, phase })
     }
 
     /// A state of the motion with `L` reduced to its value at a stretched time.
@@ -449,8 +454,6 @@ fn nearest(train: &PulseTrain, time: f64) -> Option<Pulse> {
 
 #[cfg(test)]
 mod tests {
-    use core::f64::consts::{PI, TAU};
-
     use super::*;
     use crate::observables::pulsar::margin::tests::search_of;
 

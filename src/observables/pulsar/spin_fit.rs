@@ -76,32 +76,9 @@ impl SpinFit {
             .collect();
         // Times in units of the length of the chord.
         let unit = span.high;
-        let x: Vec<_> = points.iter().map(|&(_, time)| since(time).high / unit).collect();
-
-        let size = points.len() as f64;
-        let mean = |value: &dyn Fn(f64) -> f64, of: &[f64]| of.iter().map(|&u| value(u)).sum::<f64>() / size;
-        let middle = mean(&|x| x, &x);
-        let u: Vec<_> = x.iter().map(|x| x - middle).collect();
-        let basis = orthogonal(&u, 1 + derivatives);
-        let mut fitted = [0.0; 4];
-        let mut residues = left;
-        // Twice: the second pass removes what rounding left.
-        for _ in 0..2 {
-            let change: Vec<_> = basis
-                .iter()
-                .map(|p| {
-                    let along: f64 = u.iter().zip(&residues).map(|(&u, z)| horner(p, u)[0] * z).sum();
-                    let square: f64 = u.iter().map(|&u| horner(p, u)[0].powi(2)).sum();
-                    along / square
-                })
-                .collect();
-            for (p, change) in basis.iter().zip(&change) {
-                (0..4).for_each(|power| fitted[power] += change * p[power]);
-            }
-            for (z, &u) in residues.iter_mut().zip(&u) {
-                *z -= basis.iter().zip(&change).map(|(p, change)| change * horner(p, u)[0]).sum::<f64>();
-            }
-        }
+        let times: Vec<_> = points.iter().map(|&(_, time)| since(time).high / unit).collect();
+        let middle = times.iter().sum::<f64>() / times.len() as f64;
+        let (fitted, rest) = without_polynomial(&times, left, 1 + derivatives);
 
         // At the caller's time zero.
         let zero = DoubleDouble::default() - start;
@@ -111,8 +88,16 @@ impl SpinFit {
             phase: (DoubleDouble::from(first as f64) + chord * zero + there.into()).into(),
             frequency: frequency.into(),
             derivatives: [second / (unit * unit), third / (unit * unit * unit)],
-            residuals: residues.iter().map(|z| -z / frequency.high).collect(),
+            residuals: rest.iter().map(|z| -z / frequency.high).collect(),
         })
+    }
+
+    /// What the fit of phase, frequency and `derivatives` derivatives to pulses at some times leaves of small delays of these pulses: the contribution
+    /// of the delays to the residuals. For as many delays as times, and more different times than fitted parameters.
+    pub fn residuals_of_delays(times: &[f64], delays: Vec<f64>, derivatives: usize) -> Vec<f64> {
+        let unit = times.iter().fold(0.0_f64, |largest, time| largest.max(time.abs()));
+        let times: Vec<_> = times.iter().map(|time| time / unit).collect();
+        without_polynomial(&times, delays, 1 + derivatives).1
     }
 
     /// The time at which the fit has the phase `number`, as the unevaluated sum of two doubles, by Newton's method from the root
@@ -138,6 +123,32 @@ impl SpinFit {
 
 /// Number of Newton steps, each of which squares the error: from a thousandth to 32 digits in four.
 const NEWTON_STEPS: usize = 5;
+
+/// The cubic polynomial of a degree of at most 3 fitted to values at times, by powers of the time since the mean one, and what it leaves of the values.
+fn without_polynomial(times: &[f64], values: Vec<f64>, degree: usize) -> ([f64; 4], Vec<f64>) {
+    let middle = times.iter().sum::<f64>() / times.len() as f64;
+    let u: Vec<_> = times.iter().map(|time| time - middle).collect();
+    let basis = orthogonal(&u, degree);
+    let (mut fitted, mut rest) = ([0.0; 4], values);
+    // Twice: the second pass removes what rounding left.
+    for _ in 0..2 {
+        let change: Vec<_> = basis
+            .iter()
+            .map(|p| {
+                let along: f64 = u.iter().zip(&rest).map(|(&u, z)| horner(p, u)[0] * z).sum();
+                let square: f64 = u.iter().map(|&u| horner(p, u)[0].powi(2)).sum();
+                along / square
+            })
+            .collect();
+        for (p, change) in basis.iter().zip(&change) {
+            (0..4).for_each(|power| fitted[power] += change * p[power]);
+        }
+        for (z, &u) in rest.iter_mut().zip(&u) {
+            *z -= basis.iter().zip(&change).map(|(p, change)| change * horner(p, u)[0]).sum::<f64>();
+        }
+    }
+    (fitted, rest)
+}
 
 /// Coefficients, by powers of `u`, of the polynomials up to a degree of at most 3 that are orthogonal over points whose mean is
 /// zero.
