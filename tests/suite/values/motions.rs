@@ -5,12 +5,12 @@ use twofold::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationSt
 use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::parameters::{Parameter, Parameters};
-use twofold::plan::{Method, Output, Request, StateFunction, gradient};
+use twofold::plan::{Method, Output, Request, gradient};
 use twofold::propagation::splitting::SCHEMES;
 use twofold::propagation::{ContinuousAngles, ErrorEstimates, Motion, SampledProblem, states_of_many};
 use twofold::solutions::perturbation::Precession;
 use twofold::solutions::steady::steady_precession_rate;
-use twofold::{Error, Real};
+use twofold::Error;
 
 use crate::values::scene::{ANGLES, PROLATE, STAR, general, problem, start, state, tensor};
 use crate::values::table::Table;
@@ -196,20 +196,6 @@ fn dense_samples_of_many_motions_are_those_of_each_alone() {
     }
 }
 
-/// The state itself.
-struct Whole;
-
-impl StateFunction for Whole {
-    fn len(&self) -> usize {
-        9
-    }
-
-    fn values<S: Real>(&self, _: &RigidSpheroid<S>, _: &Matrix3<S>, state: &BodyState<S>, values: &mut [S]) {
-        let BodyState { axis, momentum, equatorial_axis } = state;
-        values.iter_mut().zip(axis.iter().chain(momentum).chain(equatorial_axis)).for_each(|(value, x)| *value = *x);
-    }
-}
-
 /// The size of the state's derivatives by each parameter. Their components are held by `gradient-both-ways` and `gradient-reference`.
 #[test]
 fn gradients() {
@@ -232,7 +218,7 @@ fn gradients() {
                     let plan = Problem::new(start.spheroid, start.coefficients, start.state())
                         .and_then(|problem| problem.plan(&request));
                     let times = [2.0, 20.5];
-                    let found = plan.and_then(|plan| gradient(&plan, &start, &Whole, &times));
+                    let found = plan.and_then(|plan| gradient(&plan, &start, &times));
                     table.found(&name, found, |table, found| {
                         let sizes = found.jacobians[1].column_iter().map(|column| column.norm());
                         let by: Vec<_> = request.derivatives.iter().map(|by| by.symbol()).zip(sizes).collect();
