@@ -51,11 +51,7 @@ pub fn gradient(plan: &Plan, start: &Parameters<f64>, times: &[f64]) -> Result<G
 ///
 /// # Errors
 /// As for [`gradient`].
-pub(crate) fn gradient_in_parts(
-    plan: &Plan,
-    start: &Parameters<f64>,
-    times: &[[f64; 2]],
-) -> Result<Gradient, Error> {
+pub(crate) fn gradient_in_parts(plan: &Plan, start: &Parameters<f64>, times: &[[f64; 2]]) -> Result<Gradient, Error> {
     let count = plan.derivatives.len();
     let mut found = Gradient {
         values: DMatrix::zeros(times.len(), COMPONENTS),

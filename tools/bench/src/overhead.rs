@@ -9,7 +9,7 @@ use twofold::observables::Observer;
 use twofold::observables::pulsar::{Beam, pulse_train};
 use twofold::parameters::{Parameter, Parameters};
 use twofold::plan::{Output, Request, gradient};
-use twofold::propagation::{ErrorEstimates, Motion};
+use twofold::propagation::Motion;
 
 use super::Effort;
 use super::method::Carries;
@@ -131,10 +131,9 @@ fn seeded() -> impl Fn(f64) -> DualSVec64<{ PARAMETERS.len() }> {
 
 /// The state after the motion, of which nothing else is kept.
 fn at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
-    let none = ErrorEstimates::NotWanted;
     match carries {
-        Carries::Axis => drop(black_box(scene.problem.reduced().taylor_states(0.0, &[DURATION], TOLERANCE, none)?)),
-        Carries::Orientation => drop(black_box(scene.problem.taylor_states(0.0, &[DURATION], TOLERANCE, none)?)),
+        Carries::Axis => drop(black_box(scene.problem.reduced().taylor_states(0.0, &[DURATION], TOLERANCE)?)),
+        Carries::Orientation => drop(black_box(scene.problem.taylor_states(0.0, &[DURATION], TOLERANCE)?)),
     }
     Ok(())
 }

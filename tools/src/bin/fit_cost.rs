@@ -11,6 +11,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use nalgebra::{DMatrix, DVector};
+use twofold::Error;
 use twofold::dynamics::{BodyState, Problem, RotationState};
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::wave_of_state;
@@ -19,7 +20,6 @@ use twofold::observables::spectrum::QuasiPeriodicMotion;
 use twofold::parameters::{Parameter, Parameters};
 use twofold::plan::{Cost, Method, Output, PlannedMotion, Request, State, gradient};
 use twofold::propagation::Motion;
-use twofold::Error;
 use twofold_tools::least_time;
 use twofold_verify::reference::reference_motion;
 
