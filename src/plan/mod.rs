@@ -49,5 +49,5 @@ pub use gradient::{Gradient, gradient};
 pub use method::Method;
 pub use motion::PlannedMotion;
 pub use output::{Evaluations, Need, Output, State};
-pub use request::{Request, Samples};
+pub use request::Request;
 pub use work::{Counted, Work};
