@@ -64,6 +64,11 @@ impl<S: Scalar> PrincipalCoefficients<S> {
         self.xx - self.yy
     }
 
+    /// The same values in another number type.
+    pub fn map<T>(&self, convert: impl Fn(S) -> T) -> PrincipalCoefficients<T> {
+        PrincipalCoefficients { xx: convert(self.xx), yy: convert(self.yy), zz: convert(self.zz) }
+    }
+
     /// The same tensor in the frame Y-Z-X, Eq. (36): `Z -> X, X -> Y, Y -> Z`. Applied three times it is the identity.
     pub fn permuted(&self) -> Self {
         Self { xx: self.yy, yy: self.zz, zz: self.xx }
@@ -71,7 +76,7 @@ impl<S: Scalar> PrincipalCoefficients<S> {
 
     /// All three multiplied by `factor`.
     pub fn scaled(&self, factor: S) -> Self {
-        Self { xx: self.xx * factor, yy: self.yy * factor, zz: self.zz * factor }
+        self.map(|value| value * factor)
     }
 }
 
@@ -129,8 +134,7 @@ pub fn principal_frame_with_derivatives<S: Real>(
     let frame = principal_frame(&tensor.map(S::re))?;
     let mut rotation = frame.principal_from_given.map(S::from_f64);
     if !S::HAS_DERIVATIVES {
-        let PrincipalCoefficients { xx, yy, zz } = frame.coefficients;
-        return Ok((PrincipalCoefficients::new([xx, yy, zz].map(S::from_f64)), rotation));
+        return Ok((frame.coefficients.map(S::from_f64), rotation));
     }
     let PrincipalCoefficients { xx, yy, zz } = frame.coefficients;
     let size = xx.max(-zz);

@@ -171,7 +171,7 @@ impl Parameters<f64> {
             coefficients: self.coefficients.map(of),
             bulge: of(self.bulge),
             s_scale: of(self.s_scale),
-            angles: EulerAngles { alpha: of(angles.alpha), beta: of(angles.beta), gamma: of(angles.gamma) },
+            angles: angles.map(of),
             alpha_rate: of(self.alpha_rate),
             beta_rate: of(self.beta_rate),
             third_rate: match self.third_rate {
