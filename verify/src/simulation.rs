@@ -66,12 +66,7 @@ impl Simulation {
             let start = beside(&fisher, 3.0, &mut random)?;
             return Ok(Self { seed, campaign, truth, unknowns: fisher.unknowns, data, start, end, refused });
         }
-        Err(Error::NotConverged {
-            what: "draw of a scene that its data determine",
-            iterations: MOST_DRAWN,
-            residual: f64::NAN,
-        }
-        .into())
+        Err(Error::not_found("draw of a scene that its data determine").into())
     }
 
     /// The fit.
