@@ -7,7 +7,8 @@ use super::run::{failed, read_scene};
 use super::{Failure, MeasurementArgs, TableArgs, note};
 use crate::text_table::text_table;
 use twofold::inference::{Fisher, InferenceError, Model, Signal, Unknown};
-use twofold_scene::measurements::{self, MeasurementError};
+use twofold_scene::Refusal;
+use twofold_scene::measurements;
 use twofold_scene::scene_file::Columns;
 use twofold_scene::significant::significant;
 
@@ -30,8 +31,8 @@ impl Measurement {
         let scene = read_scene(&args.scene, Columns::Unused)?;
         let of = measurements::Measurement::new(scene, &args.observe, args.parameters.as_deref());
         let of = of.map_err(|error| match error {
-            MeasurementError::Refused(why) => Failure::BadInput(format!("{why} ({})", args.scene)),
-            MeasurementError::Model(error) => failed(error),
+            Refusal::Input(why) => Failure::BadInput(format!("{why} ({})", args.scene)),
+            Refusal::Model(error) => failed(error),
         })?;
         Ok(Self { name: args.scene.clone(), of })
     }
