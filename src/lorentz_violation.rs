@@ -101,13 +101,7 @@ pub fn principal_frame(tensor: &Matrix3<f64>) -> Result<PrincipalFrame, Error> {
     for &entry in tensor.iter() {
         Error::ensure(entry.abs() <= 1e300, "entry of s^IJ", entry, "a finite number of at most 1e300 in size")?;
     }
-    let asymmetry = (tensor - tensor.transpose()).amax();
-    Error::ensure(
-        asymmetry <= 1e-12 * tensor.amax(),
-        "largest |s^IJ - s^JI|",
-        asymmetry,
-        "at most 1e-12 of the largest entry: s^IJ is symmetric",
-    )?;
+    ensure_symmetric(tensor)?;
     let eigen = SymmetricEigen::new((tensor + tensor.transpose()) * 0.5);
     let mut order = [0, 1, 2];
     order.sort_by(|&i, &j| eigen.eigenvalues[j].total_cmp(&eigen.eigenvalues[i]));
@@ -120,6 +114,22 @@ pub fn principal_frame(tensor: &Matrix3<f64>) -> Result<PrincipalFrame, Error> {
         coefficients: PrincipalCoefficients::new(order.map(|i| eigen.eigenvalues[i])),
         principal_from_given: Matrix3::from_rows(&[x.transpose(), y.transpose(), z.transpose()]),
     })
+}
+
+/// Refuses an asymmetry above 1e-12 of the largest entry.
+pub(crate) fn ensure_symmetric<S: Real>(tensor: &Matrix3<S>) -> Result<(), Error> {
+    let asymmetry = (tensor - tensor.transpose()).map(S::re).amax();
+    Error::ensure(
+        asymmetry <= 1e-12 * tensor.map(S::re).amax(),
+        "largest |s^IJ - s^JI|",
+        asymmetry,
+        "at most 1e-12 of the largest entry: s^IJ is symmetric",
+    )
+}
+
+/// The tensor without its isotropic part, which exerts no torque.
+pub(crate) fn traceless<S: Scalar>(tensor: &Matrix3<S>) -> Matrix3<S> {
+    tensor - Matrix3::from_diagonal_element(tensor.trace() / 3.0)
 }
 
 /// Eigenvalues in descending order and the proper rotation to the principal frame, with their derivatives: the real parts are those of
