@@ -3,7 +3,7 @@
 use std::ops::Deref;
 
 use super::output_file::OutputFile;
-use super::run::{failed, read_scene};
+use super::run::read_scene;
 use super::{Failure, MeasurementArgs, TableArgs, note};
 use crate::text_table::text_table;
 use twofold::inference::{Fisher, InferenceError, Model, Signal, Unknown};
@@ -32,7 +32,7 @@ impl Measurement {
         let of = measurements::Measurement::new(scene, &args.observe, args.parameters.as_deref());
         let of = of.map_err(|error| match error {
             Refusal::Input(why) => Failure::BadInput(format!("{why} ({})", args.scene)),
-            Refusal::Model(error) => failed(error),
+            Refusal::Model(error) => error.into(),
         })?;
         Ok(Self { name: args.scene.clone(), of })
     }
@@ -51,7 +51,7 @@ impl Measurement {
 
     pub(super) fn refused(&self, error: InferenceError) -> Failure {
         match error {
-            InferenceError::Model(error) => failed(error),
+            InferenceError::Model(error) => error.into(),
             error @ InferenceError::Rounding { .. } => Failure::BadInput(format!("{}: {error}", self.name)),
             error => Failure::Failed(format!("{}: {error}", self.name)),
         }
