@@ -14,11 +14,11 @@ pub enum Error {
         /// The allowed values, in words.
         allowed: &'static str,
     },
-    /// A request that cannot be met, whatever the numbers are.
+    /// A request that cannot be met, or a search that found nothing.
     Unsupported {
         /// The request.
         what: &'static str,
-        /// The reason why it is not supported.
+        /// The reason.
         why: &'static str,
     },
     /// An iteration that did not converge.
@@ -27,7 +27,7 @@ pub enum Error {
         what: &'static str,
         /// Iterations spent.
         iterations: usize,
-        /// Remaining residual; NaN if no solution was found.
+        /// Remaining residual.
         residual: f64,
     },
 }
@@ -44,6 +44,11 @@ impl Error {
     pub fn ensure(allowed_if: bool, quantity: &'static str, value: f64, allowed: &'static str) -> Result<(), Self> {
         if allowed_if { Ok(()) } else { Err(Error::Domain { quantity, value, allowed }) }
     }
+
+    /// Of a search that found nothing.
+    pub fn not_found(what: &'static str) -> Self {
+        Error::Unsupported { what, why: "not found" }
+    }
 }
 
 impl fmt::Display for Error {
@@ -58,7 +63,6 @@ impl fmt::Display for Error {
                 }
             }
             Error::Unsupported { what, why } => write!(f, "{what}: {why}"),
-            Error::NotConverged { what, residual, .. } if residual.is_nan() => write!(f, "{what}: not found"),
             Error::NotConverged { what, iterations, residual } => {
                 write!(f, "{what}: no convergence in {iterations} iterations, residual {residual:e}")
             }

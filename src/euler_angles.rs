@@ -40,6 +40,13 @@ pub struct EulerAngles<S> {
     pub gamma: S,
 }
 
+impl<S: Copy> EulerAngles<S> {
+    /// The same angles in another number type.
+    pub fn map<T>(&self, convert: impl Fn(S) -> T) -> EulerAngles<T> {
+        EulerAngles { alpha: convert(self.alpha), beta: convert(self.beta), gamma: convert(self.gamma) }
+    }
+}
+
 /// Time derivatives of the Euler angles (rad per unit of time).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EulerRates<S> {
@@ -49,6 +56,13 @@ pub struct EulerRates<S> {
     pub beta: S,
     /// Rate of `gamma`.
     pub gamma: S,
+}
+
+impl<S: Copy> EulerRates<S> {
+    /// The same rates in another number type.
+    pub fn map<T>(&self, convert: impl Fn(S) -> T) -> EulerRates<T> {
+        EulerRates { alpha: convert(self.alpha), beta: convert(self.beta), gamma: convert(self.gamma) }
+    }
 }
 
 /// Rotation matrix `R^{iI} = e_i . e_I`, Eqs. (8) `[rmat]` and (9) `[trans]`: rows are the body axes x, y, z, columns the

@@ -64,6 +64,11 @@ impl<S: Scalar> PrincipalCoefficients<S> {
         self.xx - self.yy
     }
 
+    /// The same values in another number type.
+    pub fn map<T>(&self, convert: impl Fn(S) -> T) -> PrincipalCoefficients<T> {
+        PrincipalCoefficients { xx: convert(self.xx), yy: convert(self.yy), zz: convert(self.zz) }
+    }
+
     /// The same tensor in the frame Y-Z-X, Eq. (36): `Z -> X, X -> Y, Y -> Z`. Applied three times it is the identity.
     pub fn permuted(&self) -> Self {
         Self { xx: self.yy, yy: self.zz, zz: self.xx }
@@ -71,7 +76,7 @@ impl<S: Scalar> PrincipalCoefficients<S> {
 
     /// All three multiplied by `factor`.
     pub fn scaled(&self, factor: S) -> Self {
-        Self { xx: self.xx * factor, yy: self.yy * factor, zz: self.zz * factor }
+        self.map(|value| value * factor)
     }
 }
 
@@ -96,13 +101,7 @@ pub fn principal_frame(tensor: &Matrix3<f64>) -> Result<PrincipalFrame, Error> {
     for &entry in tensor.iter() {
         Error::ensure(entry.abs() <= 1e300, "entry of s^IJ", entry, "a finite number of at most 1e300 in size")?;
     }
-    let asymmetry = (tensor - tensor.transpose()).amax();
-    Error::ensure(
-        asymmetry <= 1e-12 * tensor.amax(),
-        "largest |s^IJ - s^JI|",
-        asymmetry,
-        "at most 1e-12 of the largest entry: s^IJ is symmetric",
-    )?;
+    ensure_symmetric(tensor)?;
     let eigen = SymmetricEigen::new((tensor + tensor.transpose()) * 0.5);
     let mut order = [0, 1, 2];
     order.sort_by(|&i, &j| eigen.eigenvalues[j].total_cmp(&eigen.eigenvalues[i]));
@@ -117,6 +116,22 @@ pub fn principal_frame(tensor: &Matrix3<f64>) -> Result<PrincipalFrame, Error> {
     })
 }
 
+/// Refuses an asymmetry above 1e-12 of the largest entry.
+pub(crate) fn ensure_symmetric<S: Real>(tensor: &Matrix3<S>) -> Result<(), Error> {
+    let asymmetry = (tensor - tensor.transpose()).map(S::re).amax();
+    Error::ensure(
+        asymmetry <= 1e-12 * tensor.map(S::re).amax(),
+        "largest |s^IJ - s^JI|",
+        asymmetry,
+        "at most 1e-12 of the largest entry: s^IJ is symmetric",
+    )
+}
+
+/// The tensor without its isotropic part, which exerts no torque.
+pub(crate) fn traceless<S: Scalar>(tensor: &Matrix3<S>) -> Matrix3<S> {
+    tensor - Matrix3::from_diagonal_element(tensor.trace() / 3.0)
+}
+
 /// Eigenvalues in descending order and the proper rotation to the principal frame, with their derivatives: the real parts are those of
 /// [`principal_frame`], and infinitesimal rotations remove the off-diagonal derivatives.
 ///
@@ -129,8 +144,7 @@ pub fn principal_frame_with_derivatives<S: Real>(
     let frame = principal_frame(&tensor.map(S::re))?;
     let mut rotation = frame.principal_from_given.map(S::from_f64);
     if !S::HAS_DERIVATIVES {
-        let PrincipalCoefficients { xx, yy, zz } = frame.coefficients;
-        return Ok((PrincipalCoefficients::new([xx, yy, zz].map(S::from_f64)), rotation));
+        return Ok((frame.coefficients.map(S::from_f64), rotation));
     }
     let PrincipalCoefficients { xx, yy, zz } = frame.coefficients;
     let size = xx.max(-zz);

@@ -75,9 +75,7 @@ pub mod geometrised {
     pub const GRAM: f64 = 1e-3 * KILOGRAM;
     /// Solar mass in s, `G M_sun / c^3`: 4.9255 microseconds.
     pub const SOLAR_MASS: f64 = SOLAR_MASS_PARAMETER / (C * C * C);
-    /// Kilogram per cubic metre [s^-2], `G (1 kg m^-3)`.
-    pub const KILOGRAM_PER_CUBIC_METRE: f64 = G;
-    /// Gram per cubic centimetre [s^-2].
+    /// Gram per cubic centimetre [s^-2], `G (1 g cm^-3)`.
     pub const GRAM_PER_CUBIC_CENTIMETRE: f64 = G * 1e3;
     /// Joule in s, `G (1 J) / c^5`.
     pub const JOULE: f64 = KILOGRAM / (C * C);
@@ -137,7 +135,6 @@ mod tests {
             (geometrised::KILOGRAM, 2.477_100_430_965_033e-36),
             (geometrised::GRAM, 2.477_100_430_965_033e-39),
             (geometrised::SOLAR_MASS, 4.925_490_947_641_267e-6),
-            (geometrised::KILOGRAM_PER_CUBIC_METRE, 6.674_3e-11),
             (geometrised::GRAM_PER_CUBIC_CENTIMETRE, 6.674_3e-8),
             (geometrised::JOULE, 2.756_145_933_363_686e-53),
             (geometrised::ERG, 2.756_145_933_363_686_4e-60),

@@ -219,7 +219,7 @@ impl Scene {
     ) -> PyResult<Table> {
         let scene = self.with(columns, method, tolerance)?;
         scene.check_rotation(&scene.columns).map_err(raised)?;
-        Ok(written(py, progress, |writer, tell| write_csv(&scene, writer, tell))?.0)
+        written(py, progress, |writer, tell| write_csv(&scene, writer, tell))
     }
 
     /// The pulses in the span of the scene, as `twofold pulses` writes them.
@@ -233,7 +233,7 @@ impl Scene {
     ) -> PyResult<Table> {
         let scene = self.with(None, method, tolerance)?;
         scene.check_rotation(&[Output::Pulses]).map_err(raised)?;
-        Ok(written(py, progress, |writer, tell| write_pulses(&scene, writer, tell))?.0)
+        written(py, progress, |writer, tell| write_pulses(&scene, writer, tell))
     }
 
     /// The spectral lines of a column (`"m.n"`, `"h_plus"`), strongest first, down to the fraction `least` of the largest amplitude. Frequencies are in rad per
@@ -243,7 +243,7 @@ impl Scene {
         twofold::Error::ensure((1e-12..=1.0).contains(&least), "least", least, "from 1e-12 to 1").map_err(raised)?;
         let column = Column::oscillating(column, &self.scene).map_err(raised)?;
         let wanted = LinesWanted { least, most, in_turns: false };
-        Ok(written(py, None, |writer, _| write_lines(&self.scene, &column, &wanted, writer))?.0)
+        written(py, None, |writer, _| write_lines(&self.scene, &column, &wanted, writer))
     }
 
     /// The plan for groups of columns, or for those of the scene, in words: the method, its cost and error, and what is left out.

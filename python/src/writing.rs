@@ -39,12 +39,12 @@ impl Write for Writing<'_> {
     }
 }
 
-/// The table that `write` writes, and what it returns. `progress` is called with the part that is done, from 0 to 1; its error stops the work.
+/// The table that `write` writes. `progress` is called with the part that is done, from 0 to 1; its error stops the work.
 pub fn written<T: Send>(
     py: Python<'_>,
     progress: Option<Py<PyAny>>,
     write: impl FnOnce(&mut dyn Write, &mut dyn FnMut(f64)) -> Result<T, TrajectoryError> + Send,
-) -> PyResult<(Table, T)> {
+) -> PyResult<Table> {
     let stopped = OnceLock::new();
     let mut writing = Writing { bytes: Vec::new(), looked: 0, stopped: &stopped };
     let mut told = -STEP;
@@ -64,9 +64,9 @@ pub fn written<T: Send>(
     if let Some(error) = stopped.into_inner() {
         return Err(error);
     }
-    let found = result.map_err(raised)?;
+    result.map_err(raised)?;
     if let Some(progress) = progress.filter(|_| told < 1.0) {
         progress.call1(py, (1.0,))?;
     }
-    Ok((Table::of_csv(bytes).map_err(raised)?, found))
+    Table::of_csv(bytes).map_err(raised)
 }

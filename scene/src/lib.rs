@@ -9,6 +9,7 @@ pub mod pulsar_table;
 pub mod pulsar_timing;
 pub mod random;
 pub mod read_table;
+mod refusal;
 mod samples;
 pub mod scene_file;
 pub mod significant;
@@ -16,6 +17,8 @@ pub mod sweep;
 pub mod trajectory;
 pub mod wave;
 mod window;
+
+pub use refusal::Refusal;
 
 /// The compiler of this build.
 pub const COMPILER: &str = env!("TWOFOLD_RUSTC");

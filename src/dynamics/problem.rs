@@ -5,6 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::dynamics::{AxisState, BodyState, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::euler_angles::{EulerAngles, EulerRates};
+use crate::lorentz_violation::ensure_symmetric;
 use crate::numerics::scalar::{Real, Scalar, real_part};
 
 /// A spheroid, the tensor `s^IJ` and the initial state, all in one arbitrary inertial frame.
@@ -176,13 +177,7 @@ fn check<S: Real, X: RotationState<S>>(spheroid: &RigidSpheroid<S>, s: &Matrix3<
     for entry in s.iter() {
         Error::ensure(entry.re().is_finite(), "entry of s^IJ", entry.re(), "a finite number")?;
     }
-    let asymmetry = (s - s.transpose()).map(S::re).amax();
-    Error::ensure(
-        asymmetry <= 1e-12 * s.map(S::re).amax(),
-        "largest |s^IJ - s^JI|",
-        asymmetry,
-        "at most 1e-12 of the largest entry: s^IJ is symmetric",
-    )?;
+    ensure_symmetric(s)?;
     let [axis, momentum, equatorial_axis] = state.vectors().each_ref().map(real_part);
     for component in momentum.iter() {
         Error::ensure(component.is_finite(), "component of L", *component, "a finite number")?;

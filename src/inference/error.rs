@@ -45,8 +45,6 @@ pub enum InferenceError {
         /// Its limit.
         value: f64,
     },
-    /// Periods were requested in a forecast: each epoch of a forecast has one pulse, and a period requires two.
-    PeriodsForecast,
     /// The motion cannot be computed.
     Model(Error),
 }
@@ -95,9 +93,6 @@ impl fmt::Display for InferenceError {
             Self::OnLimit { unknown, value } => {
                 write!(f, "the fit ended at {unknown} = {value:?}, a limit of its range: no error bar holds there")
             }
-            Self::PeriodsForecast => f.write_str(
-                "periods: allowed for a forecast are observables of a single pulse, such as arrivals and widths",
-            ),
             Self::Model(error) => error.fmt(f),
         }
     }

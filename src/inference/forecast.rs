@@ -1,6 +1,7 @@
 //! Forecasts: the standard deviation of an unknown as a function of span, number of data and their errors.
 
 use super::{Datum, Fisher, InferenceError, Noise, Observable, Signal, data_of};
+use crate::error::Error;
 use crate::numerics::straight_line::{Slope, slope};
 use crate::parameters::{Parameter, Parameters};
 
@@ -21,7 +22,7 @@ pub struct Forecast {
 /// The standard deviation of `target` for every pair of a span and a number of epochs.
 ///
 /// # Errors
-/// A motion that cannot be computed; [`InferenceError::PeriodsForecast`].
+/// A motion that cannot be computed; [`Error::Unsupported`] for periods: each epoch of a forecast has one pulse, and a period requires two.
 pub fn forecast(
     parameters: &Parameters<f64>,
     noise: &[Noise],
@@ -31,7 +32,8 @@ pub fn forecast(
     epochs: &[usize],
 ) -> Result<Vec<Forecast>, InferenceError> {
     if noise.iter().any(|(observable, _)| *observable == Observable::Periods) {
-        return Err(InferenceError::PeriodsForecast);
+        let why = "allowed for a forecast are observables of a single pulse, such as arrivals and widths";
+        return Err(Error::Unsupported { what: Observable::Periods.key(), why }.into());
     }
     let mut found = Vec::new();
     for &span in spans {

@@ -4,7 +4,7 @@
 use nalgebra::DMatrix;
 
 use super::least_squares::{Comparison, Fit};
-use super::{InferenceError, Jacobian, Model, Symmetry, Unknown};
+use super::{InferenceError, Jacobian, Model, Observable, Symmetry, Unknown};
 use crate::error::Error;
 
 /// The names of the three numbers.
@@ -86,6 +86,9 @@ pub(super) struct Functions {
     pub(super) all_rounding: bool,
 }
 
+/// The error for residuals that are to be treated as rounding.
+pub(super) const ROUNDING: InferenceError = InferenceError::Rounding { observable: Observable::Widths, rounding: 0.0 };
+
 impl Comparison<Numbers> for Functions {
     fn len(&self) -> usize {
         self.count
@@ -102,7 +105,7 @@ impl Comparison<Numbers> for Functions {
     }
 
     fn rounding(&self, _: &Fit<Numbers>) -> Result<Option<InferenceError>, InferenceError> {
-        Ok(self.all_rounding.then_some(InferenceError::PeriodsForecast))
+        Ok(self.all_rounding.then_some(ROUNDING))
     }
 }
 

@@ -6,17 +6,16 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use nalgebra::{DMatrix, DVector, Vector3};
 use num_dual::Dual64;
 
 use super::signal::{TOLERANCE, strain, turning_rate};
 use super::{Datum, Event, InferenceError, Observable, Place, long_span};
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::BodyState;
 use crate::error::Error;
-use crate::numerics::scalar::Real;
 use crate::observables::pulsar::event_time::event_time;
 use crate::parameters::{Parameter, Parameters};
-use crate::plan::{Gradient, Method, Output, Request, StateFunction, gradient_in_parts};
+use crate::plan::{Gradient, Method, Output, Request, gradient_in_parts};
 
 /// Derivatives of data with respect to unknowns.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,20 +78,6 @@ fn weights(parameters: &Parameters<f64>, unknowns: &[Parameter]) -> (Vec<Paramet
     (used.iter().map(|row| numbers[*row]).collect(), all.select_rows(&used))
 }
 
-/// `n`, `L` and `e_x`.
-struct Vectors;
-
-impl StateFunction for Vectors {
-    fn len(&self) -> usize {
-        9
-    }
-
-    fn values<S: Real>(&self, _: &RigidSpheroid<S>, _: &Matrix3<S>, state: &BodyState<S>, values: &mut [S]) {
-        let all = state.axis.iter().chain(&state.momentum).chain(&state.equatorial_axis);
-        values.iter_mut().zip(all).for_each(|(value, component)| *value = *component);
-    }
-}
-
 /// Order of two times, each in two parts.
 fn order(a: &[f64; 2], b: &[f64; 2]) -> Ordering {
     a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
@@ -118,7 +103,7 @@ impl States {
             ..Request::new(&[output], (0.0, last(&times)), times.len(), TOLERANCE)
         };
         let plan = long_span::plan(parameters, request)?;
-        let found = gradient_in_parts(&plan, parameters, &Vectors, &times)?;
+        let found = gradient_in_parts(&plan, parameters, &times)?;
         Ok(Self { times, found, phases_are_kept: plan.method.is_some_and(Method::keeps_phases) })
     }
 

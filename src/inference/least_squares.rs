@@ -242,7 +242,7 @@ impl<M: Model, C: Comparison<M>> MPFitter for Search<'_, M, C> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::inference::functions::{A, B, Fraction, Functions, Name, Numbers};
+    use crate::inference::functions::{A, B, Fraction, Functions, Name, Numbers, ROUNDING};
 
     /// Seven measurements of a straight line `a + b x`: x, y, sigma.
     const POINTS: [[f64; 3]; 7] = [
@@ -426,7 +426,7 @@ mod tests {
         let found = least_squares(&Numbers::unbounded([0.0; 3]), &large(false), &[A]).expect("a fit");
         assert_eq!(found.judged(), Residuals::Larger);
         let found = least_squares(&Numbers::unbounded([0.0; 3]), &large(true), &[A]).expect_err("rounding");
-        assert_eq!(found, InferenceError::PeriodsForecast);
+        assert_eq!(found, ROUNDING);
         let off = Functions {
             count: 3,
             residuals: |[a, ..]| Some(vec![1.0 + a, 0.0, 0.0]),
@@ -434,7 +434,7 @@ mod tests {
             all_rounding: true,
         };
         let found = least_squares(&Numbers::unbounded([0.0; 3]), &off, &[A]).expect_err("rounding");
-        assert_eq!(found, InferenceError::PeriodsForecast);
+        assert_eq!(found, ROUNDING);
     }
 
     /// For `r = (x + curvature x^2 + cubic x^3, constant)`, one standard deviation from x = 0 changes `chi^2` by `(1 + curvature + cubic)^2`, or by

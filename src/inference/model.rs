@@ -1,5 +1,6 @@
 //! What can be fitted: a model with named parameters.
 
+use core::f64::consts::PI;
 use core::fmt::Debug;
 
 use super::Symmetry;
@@ -56,7 +57,13 @@ impl Unknown for Parameter {
     }
 
     fn limits(self) -> (Option<f64>, Option<f64>) {
-        Self::limits(self)
+        match self {
+            Self::Beta | Self::ThetaO | Self::Chi => (Some(0.0), Some(PI)),
+            Self::Rho => (Some(1e-6), Some(PI - 1e-6)),
+            // I^zz <= I^xx + I^yy.
+            Self::Oblateness => (Some(-0.999), Some(1.0)),
+            _ => (None, None),
+        }
     }
 }
 
@@ -72,7 +79,13 @@ impl Model for Parameters<f64> {
     }
 
     fn range(&self, unknown: Parameter) -> f64 {
-        unknown.range(self)
+        use Parameter::{AlphaRate, BetaRate, GammaRate, Spin};
+        match unknown {
+            Spin | GammaRate | AlphaRate | BetaRate => {
+                self.alpha_rate.abs().max(self.spin().abs()).max(self.beta_rate.abs())
+            }
+            _ => 1.0,
+        }
     }
 
     fn symmetries(&self) -> Vec<Symmetry<Parameter>> {
@@ -90,7 +103,12 @@ impl Unknown for TimingParameter {
     }
 
     fn limits(self) -> (Option<f64>, Option<f64>) {
-        Self::limits(self)
+        match self {
+            Self::Wobble => (Some(0.0), Some(PI / 2.0)),
+            Self::Chi | Self::Inclination | Self::Rho => (Some(0.0), Some(PI)),
+            Self::TorqueShare => (Some(0.0), Some(1.0)),
+            _ => (None, None),
+        }
     }
 }
 

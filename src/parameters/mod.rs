@@ -171,7 +171,7 @@ impl Parameters<f64> {
             coefficients: self.coefficients.map(of),
             bulge: of(self.bulge),
             s_scale: of(self.s_scale),
-            angles: EulerAngles { alpha: of(angles.alpha), beta: of(angles.beta), gamma: of(angles.gamma) },
+            angles: angles.map(of),
             alpha_rate: of(self.alpha_rate),
             beta_rate: of(self.beta_rate),
             third_rate: match self.third_rate {
@@ -213,6 +213,7 @@ mod tests {
     use super::*;
     use crate::dynamics::RotationState;
     use crate::dynamics::fixture::{ANGLES, RATES, STAR};
+    use crate::inference::{Model, Unknown};
 
     fn parameters() -> Parameters<f64> {
         let s = Matrix3::new(0.03, 0.002, -0.004, 0.002, 0.01, 0.005, -0.004, 0.005, -0.02);
@@ -300,9 +301,9 @@ mod tests {
         // A radian, or the largest of the rates of alpha and beta and of the spin.
         let of = |alpha: f64, beta: f64, spin: f64| {
             let rates = EulerRates { alpha, beta, gamma: spin - alpha * ANGLES.beta.cos() };
-            Parameter::GammaRate.range(&Parameters::new(STAR, Matrix3::zeros(), ANGLES, rates))
+            Parameters::new(STAR, Matrix3::zeros(), ANGLES, rates).range(Parameter::GammaRate)
         };
-        assert_eq!((Parameter::Chi.range(&parameters()), of(-3.0, 0.1, 0.2), of(0.1, -3.0, 0.2)), (1.0, 3.0, 3.0));
+        assert_eq!((parameters().range(Parameter::Chi), of(-3.0, 0.1, 0.2), of(0.1, -3.0, 0.2)), (1.0, 3.0, 3.0));
         assert!((of(0.1, 0.2, -3.0) - 3.0).abs() < 1e-15);
     }
 }

@@ -163,29 +163,6 @@ impl Parameter {
         matches!(self, S(..) | SScale | SAxial | SAsymmetry | STrace)
     }
 
-    /// Largest possible deviation of its value from a known one: a radian, the rate of rotation, one.
-    pub(crate) fn range(self, parameters: &Parameters<f64>) -> f64 {
-        match self {
-            Spin | GammaRate | AlphaRate | BetaRate => {
-                let Parameters { alpha_rate, beta_rate, .. } = parameters;
-                alpha_rate.abs().max(parameters.spin().abs()).max(beta_rate.abs())
-            }
-            _ => 1.0,
-        }
-    }
-
-    /// Interval that a fit stays within, if there is one.
-    pub(crate) fn limits(self) -> (Option<f64>, Option<f64>) {
-        use std::f64::consts::PI;
-        match self {
-            Beta | ThetaO | Chi => (Some(0.0), Some(PI)),
-            Rho => (Some(1e-6), Some(PI - 1e-6)),
-            // I^zz <= I^xx + I^yy.
-            Oblateness => (Some(-0.999), Some(1.0)),
-            _ => (None, None),
-        }
-    }
-
     /// Its value.
     pub fn value<T: Scalar>(self, parameters: &Parameters<T>) -> T {
         let s = &parameters.coefficients;

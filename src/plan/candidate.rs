@@ -233,7 +233,7 @@ fn taylor(problem: &Problem<f64>, request: &Request, state: State, span: (f64, f
 pub(super) fn evaluations(request: &Request, rotation: f64) -> f64 {
     use super::Evaluations as E;
     let needs = || request.outputs.iter().map(|output: &Output| output.need().evaluations);
-    let samples = request.samples.count as f64;
+    let samples = request.samples as f64;
     let at_samples = needs().any(|e| matches!(e, E::AtSamples | E::CountingTurns { .. }));
     let beside: f64 = needs()
         .map(|e| match e {

@@ -31,7 +31,7 @@ pub struct Plan {
     pub method: Option<Method>,
     /// Whether the method was requested by name.
     pub forced: bool,
-    /// From the initial state to the last time needed.
+    /// From the initial state to the end.
     pub span: (f64, f64),
     /// Number of samples that are evaluated; zero if only events are requested.
     pub samples: usize,
@@ -55,9 +55,8 @@ impl Plan {
             |wanted: fn(Evaluations) -> bool| request.outputs.iter().any(|output| wanted(output.need().evaluations));
         let at_samples = evaluated(|e| matches!(e, Evaluations::AtSamples | Evaluations::CountingTurns { .. }));
         let for_events = evaluated(|e| matches!(e, Evaluations::ForEvents { .. }));
-        let end = if for_events { request.span.1 } else { request.samples.last };
-        let span = (request.span.0, end);
-        let rotation = (end - span.0).abs() * turning_rate(problem);
+        let span = request.span;
+        let rotation = (span.1 - span.0).abs() * turning_rate(problem);
         let count = evaluations(request, rotation);
         let mut plan = Self {
             outputs: request.outputs.clone(),
@@ -65,7 +64,7 @@ impl Plan {
             method: None,
             forced: request.method.is_some(),
             span,
-            samples: if at_samples { request.samples.count } else { 0 },
+            samples: if at_samples { request.samples } else { 0 },
             derivatives: request.derivatives.clone(),
             tolerance: request.tolerance,
             prediction: None,
@@ -90,7 +89,7 @@ impl Plan {
             let (method, prediction) = plan.choose()?;
             (plan.method, plan.prediction) = (Some(method), Some(prediction));
         }
-        plan.skipped = plan.left_out(request, for_events);
+        plan.skipped = plan.left_out(for_events);
         Ok(plan)
     }
 
@@ -136,7 +135,7 @@ impl Plan {
         }
     }
 
-    fn left_out(&self, request: &Request, for_events: bool) -> Vec<Skipped> {
+    fn left_out(&self, for_events: bool) -> Vec<Skipped> {
         let mut skipped = Vec::new();
         let mut skip = |what, why| skipped.push(Skipped { what, why });
         match self.state {
@@ -158,9 +157,6 @@ impl Plan {
         }
         if self.state != State::Nothing && self.samples == 0 {
             skip("samples", "events are found on the dense output, wherever they are");
-        }
-        if self.span.1 != request.span.1 {
-            skip("the span after the last sample", "nothing is requested there");
         }
         if self.derivatives.is_empty() {
             skip("derivatives", "none is requested");

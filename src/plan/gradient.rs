@@ -1,13 +1,12 @@
 //! Outputs and their derivatives with respect to named parameters of a scene.
 
-use nalgebra::{DMatrix, Matrix3};
+use nalgebra::DMatrix;
 use num_dual::Dual64;
 
 use super::{Method, Plan, State};
-use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
+use crate::dynamics::{BodyState, Problem, RotationState};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame_along;
-use crate::numerics::scalar::Real;
 use crate::parameters::Parameters;
 #[cfg(target_arch = "x86_64")]
 use crate::propagation::check_time;
@@ -17,35 +16,23 @@ use crate::propagation::splitting::require_tangent_maps;
 use crate::propagation::{AveragedMotion, Motion, SymmetricMotion, TorusMotion, UniformMotion};
 use crate::solutions::averaged::AveragingOrder;
 
-/// Functions of the state at one time, for any scalar type. They do not depend on how the derivatives of the state are
-/// computed.
-pub trait StateFunction {
-    /// Number of values.
-    fn len(&self) -> usize;
-
-    /// Whether there are no values.
-    fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// Writes the values into `values`, [`len`](Self::len) of them. The equatorial axis is zero where the plan does not carry it.
-    fn values<S: Real>(&self, spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, state: &BodyState<S>, values: &mut [S]);
-}
-
-/// Values of outputs at samples, and their derivatives.
+/// States at samples, and their derivatives. A state has nine components, those of `n`, `L` and `e_x`. Those of `e_x` mean something only if the plan
+/// carries it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gradient {
-    /// A row for each time, a column for each value.
+    /// A row for each time, a column for each component.
     pub values: DMatrix<f64>,
-    /// For each time a matrix with a row for each value and a column for each parameter of the plan.
+    /// For each time a matrix with a row for each component and a column for each parameter of the plan.
     pub jacobians: Vec<DMatrix<f64>>,
 }
 
-/// Values of `outputs` at `times` and their derivatives with respect to exactly the [`derivatives`](Plan::derivatives) of a
-/// plan.
+/// Number of components of a state.
+const COMPONENTS: usize = 9;
+
+/// States at `times` and their derivatives with respect to exactly the [`derivatives`](Plan::derivatives) of a plan.
 ///
 /// The method of the plan is used throughout. By splitting, one motion with the tangent map of each of its flows gives the derivatives with respect
-/// to up to sixteen parameters at once, and the outputs follow by forward duals. Values and derivatives then belong to one numerical motion, computed
+/// to up to sixteen parameters at once. Values and derivatives then belong to one numerical motion, computed
 /// to the tolerance of the plan, relative to the largest derivative. On the torus, values come from the Fourier series, and a forward dual for each
 /// parameter follows one flow of less than a turn of its angles ([`TorusDerivative`](crate::solutions::torus::TorusDerivative)). With the other
 /// methods a forward dual follows the motion for each parameter; steps of a series are chosen from real parts alone, and the error of its derivatives
@@ -54,14 +41,9 @@ pub struct Gradient {
 /// # Errors
 /// As for the motion; [`Error::Domain`] for times outside its span; [`Error::Unsupported`] for derivatives by splitting on a processor without
 /// vectors of four doubles, for which no plan chooses splitting.
-pub fn gradient(
-    plan: &Plan,
-    start: &Parameters<f64>,
-    outputs: &impl StateFunction,
-    times: &[f64],
-) -> Result<Gradient, Error> {
+pub fn gradient(plan: &Plan, start: &Parameters<f64>, times: &[f64]) -> Result<Gradient, Error> {
     let in_parts: Vec<[f64; 2]> = times.iter().map(|&t| [t, 0.0]).collect();
-    gradient_in_parts(plan, start, outputs, &in_parts)
+    gradient_in_parts(plan, start, &in_parts)
 }
 
 /// As [`gradient`], at times that are sums of two doubles. The averaged motion and the motion on the torus use both: after 1e10 turns a double does
@@ -69,30 +51,23 @@ pub fn gradient(
 ///
 /// # Errors
 /// As for [`gradient`].
-pub(crate) fn gradient_in_parts(
-    plan: &Plan,
-    start: &Parameters<f64>,
-    outputs: &impl StateFunction,
-    times: &[[f64; 2]],
-) -> Result<Gradient, Error> {
-    let (width, count) = (outputs.len(), plan.derivatives.len());
+pub(crate) fn gradient_in_parts(plan: &Plan, start: &Parameters<f64>, times: &[[f64; 2]]) -> Result<Gradient, Error> {
+    let count = plan.derivatives.len();
     let mut found = Gradient {
-        values: DMatrix::zeros(times.len(), width),
-        jacobians: vec![DMatrix::zeros(width, count); times.len()],
+        values: DMatrix::zeros(times.len(), COMPONENTS),
+        jacobians: vec![DMatrix::zeros(COMPONENTS, count); times.len()],
     };
     if times.is_empty() {
         return Ok(found);
     }
     if count == 0 {
-        found.values = values(plan, start, outputs, times)?;
+        found.values = values(plan, start, times)?;
         return Ok(found);
     }
     let seeded = plan.derivatives.iter().map(|parameter| start.seeded(*parameter).problem());
     let seeded: Vec<Problem<Dual64>> = seeded.collect::<Result<_, Error>>()?;
-    let mut here = vec![Dual64::from_re(0.0); width];
-    let mut write = |row: usize, index: usize, seeded: &Problem<Dual64>, state: &BodyState<Dual64>| {
-        outputs.values(seeded.spheroid(), seeded.coefficients(), state, &mut here);
-        for (column, value) in here.iter().enumerate() {
+    let mut write = |row: usize, index: usize, state: &BodyState<Dual64>| {
+        for (column, value) in state.vectors().iter().flatten().enumerate() {
             found.values[(row, column)] = value.re;
             found.jacobians[row][(column, index)] = value.eps;
         }
@@ -101,8 +76,8 @@ pub(crate) fn gradient_in_parts(
         require_tangent_maps()?;
         let sums: Vec<f64> = times.iter().map(|t| t[0] + t[1]).collect();
         for (row, states) in states_by_splitting(plan, &seeded, &sums)?.iter().enumerate() {
-            for (index, (seeded, state)) in seeded.iter().zip(states).enumerate() {
-                write(row, index, seeded, state);
+            for (index, state) in states.iter().enumerate() {
+                write(row, index, state);
             }
         }
         return Ok(found);
@@ -118,33 +93,26 @@ pub(crate) fn gradient_in_parts(
             None => seeded_motion(plan, seeded)?,
         };
         for (row, &t) in times.iter().enumerate() {
-            write(row, index, seeded, &state_at(t)?);
+            write(row, index, &state_at(t)?);
         }
     }
     if plan.method == Some(Method::Averaged) {
         // Derivatives treat nearly equal eigenvalues as equal; values do not.
-        found.values = values(plan, start, outputs, times)?;
+        found.values = values(plan, start, times)?;
     }
     Ok(found)
 }
 
-fn values(
-    plan: &Plan,
-    start: &Parameters<f64>,
-    outputs: &impl StateFunction,
-    times: &[[f64; 2]],
-) -> Result<DMatrix<f64>, Error> {
-    let mut found = DMatrix::zeros(times.len(), outputs.len());
+fn values(plan: &Plan, start: &Parameters<f64>, times: &[[f64; 2]]) -> Result<DMatrix<f64>, Error> {
+    let mut found = DMatrix::zeros(times.len(), COMPONENTS);
     let problem = start.problem()?;
     let states = if plan.state == State::Orientation {
         states(&plan.motion(&problem)?, times)
     } else {
         states(&plan.motion(&problem.reduced())?, times)
     };
-    let mut here = vec![0.0; outputs.len()];
     for (row, state) in states?.iter().enumerate() {
-        outputs.values(problem.spheroid(), problem.coefficients(), state, &mut here);
-        found.row_mut(row).iter_mut().zip(&here).for_each(|(value, here)| *value = *here);
+        found.row_mut(row).iter_mut().zip(state.vectors().iter().flatten()).for_each(|(value, here)| *value = *here);
     }
     Ok(found)
 }
@@ -208,6 +176,8 @@ fn seeded_motion(plan: &Plan, problem: &Problem<Dual64>) -> Result<StateAt<'stat
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector3;
+
     use super::*;
     use crate::dynamics::fixture::{ANGLES, RATES, STAR, tensor};
     use crate::euler_angles::EulerRates;
@@ -217,17 +187,9 @@ mod tests {
     use crate::solutions::perturbation::Precession;
     use crate::solutions::steady::steady_precession_rate;
 
-    /// The first components of `n`, as many as the number says.
-    struct Components(usize);
-
-    impl StateFunction for Components {
-        fn len(&self) -> usize {
-            self.0
-        }
-
-        fn values<S: Real>(&self, _: &RigidSpheroid<S>, _: &Matrix3<S>, state: &BodyState<S>, values: &mut [S]) {
-            values.copy_from_slice(&state.axis.as_slice()[..self.0]);
-        }
+    /// The components of `n` at a time.
+    fn axis_of(values: &DMatrix<f64>, row: usize) -> Vector3<f64> {
+        values.fixed_view::<1, 3>(row, 0).transpose()
     }
 
     fn start(s: [f64; 3]) -> Parameters<f64> {
@@ -241,11 +203,6 @@ mod tests {
         start.problem().unwrap().plan(&request).unwrap()
     }
 
-    #[test]
-    fn functions_without_values_are_empty() {
-        assert_eq!([0, 1, 2].map(|count| Components(count).is_empty()), [true, false, false]);
-    }
-
     /// Whether the method was requested or chosen, with and without derivatives: the values are those of the motion of that name, to the last
     /// bit if it is the same motion (the one with tangent maps has other steps).
     #[test]
@@ -256,14 +213,14 @@ mod tests {
             let by = |method, derivatives: bool| {
                 let mut plan = Plan { forced, ..plan(&start, method, (0.0, 20.0), 1e-5) };
                 plan.derivatives.truncate(if derivatives { 2 } else { 0 });
-                gradient(&plan, &start, &Components(3), &times)
+                gradient(&plan, &start, &times)
             };
             for (method, derivatives) in [(Method::Taylor, true), (Method::Taylor, false), (Method::Splitting, false)] {
                 let plan = plan(&start, method, (0.0, 20.0), 1e-5);
                 let motion = plan.motion(&start.problem().unwrap().reduced()).unwrap();
                 let found = by(method, derivatives).unwrap().values;
                 for (row, t) in times.into_iter().enumerate() {
-                    let off = (found.row(row).transpose() - motion.axis_state(t).unwrap().axis).amax();
+                    let off = (axis_of(&found, row) - motion.axis_state(t).unwrap().axis).amax();
                     // Duals compute the series without vectors of doubles: different steps of the same accuracy.
                     assert!(off <= if derivatives { 1e-6 } else { 0.0 }, "{method:?}, {derivatives}: {off}");
                 }
@@ -298,15 +255,15 @@ mod tests {
     fn derivatives_on_the_torus_are_at_both_parts_of_a_time() {
         let start = start([0.2, 0.1, -0.3]);
         let plan = plan(&start, Method::Torus, (0.0, 1e15), 1e-12);
-        let at = |t: [f64; 2]| gradient_in_parts(&plan, &start, &Components(3), &[t]).unwrap();
+        let at = |t: [f64; 2]| gradient_in_parts(&plan, &start, &[t]).unwrap();
         let [a, b, same] = [[8e14, 0.0], [8e14, 0.03], [8e14 - 0.5, 0.53]].map(at);
-        assert!((&a.values - &b.values).amax() > 1e-3);
-        assert!((&b.values - &same.values).amax() < 1e-12);
-        let [b, same] = [&b, &same].map(|found| &found.jacobians[0]);
+        assert!((axis_of(&a.values, 0) - axis_of(&b.values, 0)).amax() > 1e-3);
+        assert!((axis_of(&b.values, 0) - axis_of(&same.values, 0)).amax() < 1e-12);
+        let [b, same] = [&b, &same].map(|found| found.jacobians[0].rows(0, 3));
         assert!((b - same).amax() < 1e-12 * b.amax());
         let without = Plan { derivatives: Vec::new(), ..plan.clone() };
-        let values = gradient_in_parts(&without, &start, &Components(3), &[[8e14, 0.0]]).unwrap().values;
-        assert_eq!(values, a.values);
+        let values = gradient_in_parts(&without, &start, &[[8e14, 0.0]]).unwrap().values;
+        assert_eq!(axis_of(&values, 0), axis_of(&a.values, 0));
     }
 
     /// Steady precession about the axis of a symmetric tensor is not a free rotation.
@@ -321,18 +278,18 @@ mod tests {
         let request =
             Request { method: Some(Method::Steady), ..Request::new(&[Output::SymmetryAxis], (0.0, 20.0), 3, 1e-9) };
         let plan = start.problem().unwrap().plan(&request).unwrap();
-        let found = gradient(&plan, &start, &Components(3), &[17.0]).unwrap().values;
+        let found = gradient(&plan, &start, &[17.0]).unwrap().values;
         let expected = UniformMotion::steady(&start.problem().unwrap(), (0.0, 20.0)).unwrap();
-        assert_eq!(found.row(0).transpose(), expected.axis_state(17.0).unwrap().axis);
+        assert_eq!(axis_of(&found, 0), expected.axis_state(17.0).unwrap().axis);
         let free = UniformMotion::free(&start.problem().unwrap(), (0.0, 20.0));
-        assert!((free.axis_state(17.0).unwrap().axis - found.row(0).transpose()).amax() > 0.1);
+        assert!((free.axis_state(17.0).unwrap().axis - axis_of(&found, 0)).amax() > 0.1);
     }
 
     #[test]
     fn times_may_come_in_any_order() {
         let start = start([0.2, 0.1, -0.3]);
         let plan = plan(&start, Method::Splitting, (20.0, -10.0), 1e-5);
-        let at = |times: &[f64]| gradient(&plan, &start, &Components(3), times).unwrap();
+        let at = |times: &[f64]| gradient(&plan, &start, times).unwrap();
         let (mixed, ordered) = (at(&[-8.0, 15.0, 3.0]), at(&[15.0, 3.0, -8.0]));
         for (place, ordered_place) in [(0, 2), (1, 0), (2, 1)] {
             assert_eq!(mixed.values.row(place), ordered.values.row(ordered_place));
@@ -346,7 +303,7 @@ mod tests {
         let start = start([2e-6, -1e-6 + 1.2e-14, -1e-6 - 1.2e-14]);
         let with_derivatives = plan(&start, Method::Averaged, (0.0, 1e6), 1e-2);
         let without = Plan { derivatives: Vec::new(), ..with_derivatives.clone() };
-        let values = |plan: &Plan| gradient(plan, &start, &Components(3), &[3e5, 1e6]).unwrap().values;
+        let values = |plan: &Plan| gradient(plan, &start, &[3e5, 1e6]).unwrap().values;
         assert_eq!(values(&with_derivatives), values(&without));
     }
 }

@@ -13,21 +13,10 @@
 //!
 //! ```
 //! use nalgebra::Matrix3;
-//! use twofold::dynamics::{BodyState, RigidSpheroid};
+//! use twofold::dynamics::RigidSpheroid;
 //! use twofold::euler_angles::{EulerAngles, EulerRates};
 //! use twofold::parameters::{Parameter, Parameters};
-//! use twofold::plan::{Output, Request, StateFunction, gradient};
-//! use twofold::numerics::scalar::Real;
-//!
-//! struct Height;
-//! impl StateFunction for Height {
-//!     fn len(&self) -> usize {
-//!         1
-//!     }
-//!     fn values<S: Real>(&self, _: &RigidSpheroid<S>, _: &Matrix3<S>, state: &BodyState<S>, values: &mut [S]) {
-//!         values[0] = state.axis.z;
-//!     }
-//! }
+//! use twofold::plan::{Output, Request, gradient};
 //!
 //! let (angles, rates) = (EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 }, EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 });
 //! let (spheroid, coefficients) = (RigidSpheroid::in_units_of_tc(1.1), Matrix3::new(0.02, 0., 0., 0., 0.01, 0., 0., 0., -0.03));
@@ -36,8 +25,9 @@
 //! let request = Request::new(&[Output::SymmetryAxis], (0.0, 100.0), 1000, 1e-12);
 //! let plan = start.problem()?.plan(&Request { derivatives: vec![Parameter::S(2, 2), Parameter::Beta], ..request })?;
 //! assert!(plan.method.is_some() && plan.prediction.is_some());
-//! let found = gradient(&plan, &start, &Height, &[0.0])?;
-//! assert!((found.jacobians[0][(0, 1)] + angles.beta.sin()).abs() < 1e-14);
+//! // The third row is that of n^Z = cos(beta), the second column that of beta.
+//! let found = gradient(&plan, &start, &[0.0])?;
+//! assert!((found.jacobians[0][(2, 1)] + angles.beta.sin()).abs() < 1e-14);
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
@@ -55,9 +45,9 @@ pub use candidate::{Candidate, Prediction, Promise};
 pub use cost::{Cost, MACHINE};
 pub use decision::{Plan, Skipped};
 pub(crate) use gradient::gradient_in_parts;
-pub use gradient::{Gradient, StateFunction, gradient};
+pub use gradient::{Gradient, gradient};
 pub use method::Method;
 pub use motion::PlannedMotion;
 pub use output::{Evaluations, Need, Output, State};
-pub use request::{Request, Samples};
+pub use request::Request;
 pub use work::{Counted, Work};

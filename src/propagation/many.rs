@@ -4,11 +4,11 @@ use crate::dynamics::{AxisState, Problem};
 use crate::error::Error;
 #[cfg(target_arch = "x86_64")]
 use crate::numerics::registers::Register;
+use crate::propagation::Samples;
 #[cfg(target_arch = "x86_64")]
 use crate::propagation::splitting::lanes::{Ready, propagate_in_lanes};
 #[cfg(target_arch = "x86_64")]
 use crate::propagation::taylor::{axis_states_in_lanes, span_of};
-use crate::propagation::{ErrorEstimates, Samples};
 
 /// One of many motions: the input of [`Problem::taylor_states`].
 #[derive(Debug, Clone, Copy)]
@@ -47,7 +47,7 @@ pub fn states_of_many(motions: &[SampledProblem<'_>]) -> Vec<Result<Samples<Axis
         }
     }
     let alone = |SampledProblem { problem, start, times, tolerance }: &SampledProblem| {
-        problem.taylor_states(*start, times, *tolerance, ErrorEstimates::NotWanted)
+        problem.taylor_states(*start, times, *tolerance)
     };
     motions.iter().map(alone).collect()
 }

@@ -6,7 +6,7 @@
 //! use nalgebra::{Matrix3, Vector3};
 //! use twofold::dynamics::{Problem, RigidSpheroid};
 //! use twofold::euler_angles::{EulerAngles, EulerRates};
-//! use twofold::propagation::{ContinuousAngles, ErrorEstimates, Motion};
+//! use twofold::propagation::{ContinuousAngles, Motion};
 //!
 //! let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.04));
 //! let (angles, rates) = (EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 }, EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 });
@@ -15,7 +15,7 @@
 //! assert!(motion.error_estimate(100.0) < 1e-11);
 //! // Angles that count their turns; and n and L alone, at two times.
 //! assert!(ContinuousAngles::new(&motion, 0.0, &angles)?.at(100.0)?.alpha > 100.0);
-//! let at = problem.reduced().taylor_states(0.0, &[50.0, 100.0], 1e-13, ErrorEstimates::NotWanted)?;
+//! let at = problem.reduced().taylor_states(0.0, &[50.0, 100.0], 1e-13)?;
 //! assert!((at.states[1].axis - motion.state(100.0)?.axis).amax() < 1e-11);
 //! # Ok::<(), twofold::Error>(())
 //! ```
@@ -38,7 +38,5 @@ pub use many::{SampledProblem, states_of_many};
 pub use motion::Motion;
 pub use phased::PhasedMotion;
 pub(crate) use taylor::projected_by_segments;
-pub use taylor::{
-    ErrorEstimates, STEP_LIMIT, Samples, SeriesProjection, TOLERANCE_RANGE, TaylorForecast, TaylorMotion,
-};
+pub use taylor::{STEP_LIMIT, Samples, SeriesProjection, TOLERANCE_RANGE, TaylorForecast, TaylorMotion};
 pub use turning::{GivenRates, Turning};

@@ -4,7 +4,8 @@ use crate::prelude::*;
 use numeris::Vector;
 use numeris::ode::{AdaptiveSettings, RKAdaptive, RKV98, RKV98NoInterp};
 
-fn settings(tolerance: f64) -> AdaptiveSettings<f64> {
+/// Settings for an absolute and a relative tolerance.
+pub fn settings(tolerance: f64) -> AdaptiveSettings<f64> {
     AdaptiveSettings { abs_tol: tolerance, rel_tol: tolerance, max_steps: 10_000_000, ..AdaptiveSettings::default() }
 }
 

@@ -9,7 +9,7 @@ use twofold_scene::measurements::{beside, with_noise};
 
 /// Kinds of simulated measurements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Campaign {
+enum Campaign {
     /// Arrival times and widths of pulses: thirteen unknowns.
     Pulses,
     /// Both polarizations of the wave: ten unknowns.
@@ -21,10 +21,6 @@ pub enum Campaign {
 /// One simulated measurement of a random star.
 #[derive(Debug, Clone)]
 pub struct Simulation {
-    /// Number of the random draws.
-    pub seed: u64,
-    /// Kind.
-    pub campaign: Campaign,
     /// The truth.
     pub truth: Parameters<f64>,
     /// What is fitted.
@@ -64,14 +60,9 @@ impl Simulation {
             let Some((exact, fisher)) = determined(&truth, campaign, end, sigma)? else { continue };
             let data = with_noise(&exact, &mut random);
             let start = beside(&fisher, 3.0, &mut random)?;
-            return Ok(Self { seed, campaign, truth, unknowns: fisher.unknowns, data, start, end, refused });
+            return Ok(Self { truth, unknowns: fisher.unknowns, data, start, end, refused });
         }
-        Err(Error::NotConverged {
-            what: "draw of a scene that its data determine",
-            iterations: MOST_DRAWN,
-            residual: f64::NAN,
-        }
-        .into())
+        Err(Error::not_found("draw of a scene that its data determine").into())
     }
 
     /// The fit.

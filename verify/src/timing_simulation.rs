@@ -78,8 +78,7 @@ impl TimingSimulation {
             let start = beside(&fisher, 3.0, &mut random)?;
             return Ok(Self { truth, start, data, refused });
         }
-        let what = "draw of a star whose error bars are linear";
-        Err(twofold::Error::NotConverged { what, iterations: MOST_DRAWN, residual: f64::NAN }.into())
+        Err(twofold::Error::not_found("draw of a star whose error bars are linear").into())
     }
 }
 

@@ -103,7 +103,7 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
         return Err(refuse(format!("--prior {key}: allowed is a parameter that is fitted; --parameters has no {key}")));
     }
     let refused = |error: InferenceError| match error {
-        InferenceError::Model(error) => super::run::failed(error),
+        InferenceError::Model(error) => error.into(),
         error => Failure::Failed(format!("{}: {error}", args.scene)),
     };
     if let Some(periods) = args.periods {

@@ -3,11 +3,12 @@
 use std::ops::Deref;
 
 use super::output_file::OutputFile;
-use super::run::{failed, read_scene};
+use super::run::read_scene;
 use super::{Failure, MeasurementArgs, TableArgs, note};
 use crate::text_table::text_table;
 use twofold::inference::{Fisher, InferenceError, Model, Signal, Unknown};
-use twofold_scene::measurements::{self, MeasurementError};
+use twofold_scene::Refusal;
+use twofold_scene::measurements;
 use twofold_scene::scene_file::Columns;
 use twofold_scene::significant::significant;
 
@@ -30,8 +31,8 @@ impl Measurement {
         let scene = read_scene(&args.scene, Columns::Unused)?;
         let of = measurements::Measurement::new(scene, &args.observe, args.parameters.as_deref());
         let of = of.map_err(|error| match error {
-            MeasurementError::Refused(why) => Failure::BadInput(format!("{why} ({})", args.scene)),
-            MeasurementError::Model(error) => failed(error),
+            Refusal::Input(why) => Failure::BadInput(format!("{why} ({})", args.scene)),
+            Refusal::Model(error) => error.into(),
         })?;
         Ok(Self { name: args.scene.clone(), of })
     }
@@ -50,7 +51,7 @@ impl Measurement {
 
     pub(super) fn refused(&self, error: InferenceError) -> Failure {
         match error {
-            InferenceError::Model(error) => failed(error),
+            InferenceError::Model(error) => error.into(),
             error @ InferenceError::Rounding { .. } => Failure::BadInput(format!("{}: {error}", self.name)),
             error => Failure::Failed(format!("{}: {error}", self.name)),
         }

@@ -112,10 +112,6 @@ pub(super) fn force_method(scene: &mut Scene, args: &PlanArgs, name: &str) -> Re
     scene.choose_method(method).map_err(|why| Failure::BadInput(format!("--method for {name}: {why}")))
 }
 
-pub(super) fn failed(error: twofold::Error) -> Failure {
-    error.into()
-}
-
 /// The scene of a command that does not follow a star that slows down, with notes of what in it looks like a mistake.
 pub(super) fn read_scene(name: &str, columns: Columns<'_>) -> Result<Scene, Failure> {
     let scene = read_with_spin_down(name, columns)?;

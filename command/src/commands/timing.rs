@@ -10,7 +10,8 @@ use super::output_folder::OutputFolder;
 use super::run::read_with_spin_down;
 use super::{Failure, note, tell};
 use crate::figures::{png, residuals};
-use twofold_scene::pulsar_timing::{PulsarScene, Series, Timing, TimingError, csv, decimal, par, strain_series, tim};
+use twofold_scene::Refusal;
+use twofold_scene::pulsar_timing::{PulsarScene, Series, Timing, csv, decimal, par, strain_series, tim};
 use twofold_scene::scene_file::{Columns, Scene, like_julian_date};
 
 #[derive(Args)]
@@ -81,8 +82,8 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
         (false, false) => 0,
     };
     let timing = pulsar.timed(&epochs, derivatives).map_err(|error| match error {
-        TimingError::NoPulse(why) => refused(why),
-        TimingError::Motion(error) => error.into(),
+        Refusal::Input(why) => refused(why),
+        Refusal::Model(error) => error.into(),
     })?;
     let causes = args.causes.then(|| pulsar.causes(&timing)).transpose().map_err(refused)?;
     folder.write(&file("csv"), csv(&pulsar, &timing, causes.as_ref()).as_bytes())?;

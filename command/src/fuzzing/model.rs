@@ -20,8 +20,7 @@ use twofold::observables::spectrum::QuasiPeriodicMotion;
 use twofold::plan::{Method, Output, Request};
 use twofold::propagation::splitting::SCHEMES;
 use twofold::propagation::{
-    AveragedMotion, ContinuousAngles, ErrorEstimates, Motion, SampledProblem, SymmetricMotion, UniformMotion,
-    states_of_many,
+    AveragedMotion, ContinuousAngles, Motion, SampledProblem, SymmetricMotion, UniformMotion, states_of_many,
 };
 use twofold::solutions::averaged::slow_precession::slow_precession;
 use twofold::solutions::averaged::{AveragingOrder, middle_axis_growth};
@@ -142,7 +141,7 @@ fn numerical(case: &Case) {
     if let Ok(motion) = problem.taylor(*span, *tolerance) {
         look_within(&motion, case);
     }
-    let _ = black_box(problem.taylor_states(span.0, &case.times(), *tolerance, ErrorEstimates::Wanted));
+    let _ = black_box(problem.taylor_states(span.0, &case.times(), *tolerance));
 }
 
 fn look_within<M: Motion<f64, State = BodyState<f64>>>(motion: &M, case: &Case) {

@@ -6,6 +6,7 @@ use super::Content;
 use super::cross_reference::{self, Index};
 use super::typography::typeset;
 use twofold_verify::check::{Check, Outcome};
+use twofold_verify::claims::capital;
 use twofold_verify::report::{self, KINDS};
 
 pub(super) fn section(content: &Content, index: &Index) -> Markup {
@@ -98,9 +99,4 @@ pub(super) fn failures(content: &Content) -> Markup {
             }
         }
     }
-}
-
-pub(super) fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }

@@ -2,12 +2,11 @@
 
 use maud::{Markup, html};
 
-use super::checks::capital;
 use super::cross_reference::{self, Index};
 use super::equations::row;
 use super::typography::typeset;
 use super::{Content, golden};
-use twofold_verify::claims::{Claim, Verdict, claims};
+use twofold_verify::claims::{Claim, Verdict, capital, claims};
 use twofold_verify::report;
 
 pub(super) fn note(index: &mut Index) {

@@ -5,6 +5,7 @@ use twofold::inference::{Datum, Event, Noise, Place, Signal, Unknown, check_span
 use twofold::parameters::{Parameter, Parameters};
 
 use super::{DataFile, missing_section, parameters_of, parse_noise};
+use crate::Refusal;
 use crate::scene_file::{Scene, nearest};
 
 /// Largest number of times of a scene at which data are taken.
@@ -25,32 +26,14 @@ pub struct Measurement {
     pub end: f64,
 }
 
-/// Reasons why a scene cannot be measured as requested.
-#[derive(Debug)]
-pub enum MeasurementError {
-    /// The request is not allowed; a sentence.
-    Refused(String),
-    /// The scene has no parameters.
-    Model(Error),
-}
-
-impl std::fmt::Display for MeasurementError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Refused(why) => f.write_str(why),
-            Self::Model(error) => error.fmt(f),
-        }
-    }
-}
-
 impl Measurement {
     /// The data are those named by `observe`, in the format of [`parse_noise`]. The unknowns are the `parameters` in a list of names, or all of them;
     /// by default those that such data can determine.
     ///
     /// # Errors
-    /// Unknown names, sections that the scene lacks, or a backward span.
-    pub fn new(scene: Scene, observe: &str, parameters: Option<&str>) -> Result<Self, MeasurementError> {
-        let refused = MeasurementError::Refused;
+    /// [`Refusal::Input`] for unknown names, sections that the scene lacks, or a backward span; [`Refusal::Model`] for a scene without parameters.
+    pub fn new(scene: Scene, observe: &str, parameters: Option<&str>) -> Result<Self, Refusal> {
+        let refused = Refusal::Input;
         let noise = parse_noise(observe, scene.units.time).map_err(|why| refused(format!("--observe: {why}")))?;
         for (observable, _) in &noise {
             if let Some(section) = missing_section(&scene, *observable) {
@@ -70,7 +53,7 @@ impl Measurement {
         if end <= 0.0 {
             return Err(refused(format!("[time] has a span of {end:?} t_c: allowed here is one forwards, above zero")));
         }
-        let parameters = parameters_of(&scene).map_err(MeasurementError::Model)?;
+        let parameters = parameters_of(&scene)?;
         if sees_pulses {
             check_span(&parameters, end).map_err(|why| refused(why.to_string()))?;
         }

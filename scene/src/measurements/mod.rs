@@ -7,7 +7,7 @@ mod timing_data;
 
 pub use data_file::DataFile;
 pub use errors::{add_timing_noise, beside, with_noise};
-pub use measurement::{Measurement, MeasurementError, named};
+pub use measurement::{Measurement, named};
 pub use timing_data::read_timing;
 
 use twofold::Error;

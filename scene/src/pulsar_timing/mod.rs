@@ -19,11 +19,11 @@ use twofold::observables::gravitational_wave::strain_unit;
 use twofold::observables::pulsar::{Beam, ClockPulse, PulsarClock, SpinFit};
 use twofold::propagation::PhasedMotion;
 
+use crate::Refusal;
 use crate::scene_file::Scene;
 
 pub use causes::Causes;
 pub use decimal::decimal;
-pub use no_pulse::TimingError;
 pub use parameters::{par, tim};
 pub use strain::{Series, strain_series};
 pub use table::csv;
@@ -122,9 +122,9 @@ impl PulsarScene {
     /// have none.
     ///
     /// # Errors
-    /// There is no pulse at any epoch (with the closest approach); and as for [`PulsarClock::pulse_near`] and
+    /// [`Refusal::Input`] if there is no pulse at any epoch (with the closest approach); [`Refusal::Model`] as for [`PulsarClock::pulse_near`] and
     /// [`SpinFit::new`].
-    pub fn timed(&self, epochs: &[Epoch], derivatives: usize) -> Result<Timing, TimingError> {
+    pub fn timed(&self, epochs: &[Epoch], derivatives: usize) -> Result<Timing, Refusal> {
         let mut pulses = Vec::with_capacity(epochs.len());
         let (mut seen, mut dark) = (HashSet::new(), 0);
         for at in epochs {

@@ -1,21 +1,12 @@
 //! Reasons why a pulsar has no arrival times.
 
 use std::f64::consts::TAU;
-use std::fmt;
 
 use twofold::Error;
 use twofold::epoch::Epoch;
 
 use super::PulsarScene;
-
-/// Reasons why there are no arrival times.
-#[derive(Debug, Clone, PartialEq)]
-pub enum TimingError {
-    /// No epoch has a pulse; a sentence with the closest approach.
-    NoPulse(String),
-    /// The motion cannot be followed to an epoch, or too few pulses are left for the fit.
-    Motion(Error),
-}
+use crate::Refusal;
 
 /// Largest number of epochs, equally spaced, in whose turns the angles are evaluated.
 const MOST: usize = 1000;
@@ -25,10 +16,10 @@ const MOST: usize = 1000;
 const LOOKS: usize = 180;
 
 /// The reason why the turns of `epochs` have no pulse.
-pub(super) fn no_pulse(pulsar: &PulsarScene, epochs: &[Epoch]) -> TimingError {
+pub(super) fn no_pulse(pulsar: &PulsarScene, epochs: &[Epoch]) -> Refusal {
     let found = angles_to_line_of_sight(pulsar, epochs);
-    found.map_or_else(TimingError::Motion, |[nearest, farthest]| {
-        TimingError::NoPulse(sentence(nearest, farthest, pulsar.beam.half_opening))
+    found.map_or_else(Refusal::Model, |[nearest, farthest]| {
+        Refusal::Input(sentence(nearest, farthest, pulsar.beam.half_opening))
     })
 }
 
@@ -61,27 +52,6 @@ fn angles_to_line_of_sight(pulsar: &PulsarScene, epochs: &[Epoch]) -> Result<[f6
     }
     let angle = |margin: f64| (margin + edge).clamp(-1.0, 1.0).acos();
     Ok([angle(most), angle(least)])
-}
-
-impl From<Error> for TimingError {
-    fn from(error: Error) -> Self {
-        Self::Motion(error)
-    }
-}
-
-impl From<TimingError> for String {
-    fn from(error: TimingError) -> Self {
-        error.to_string()
-    }
-}
-
-impl fmt::Display for TimingError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoPulse(why) => f.write_str(why),
-            Self::Motion(error) => error.fmt(f),
-        }
-    }
 }
 
 /// The reason, from the smallest and the largest angle (rad) of the magnetic axis to the line of sight.

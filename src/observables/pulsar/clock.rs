@@ -253,7 +253,7 @@ impl PulsarClock {
     /// sense, with the axis directed so that its largest component in the frame of the initial state is positive. It is zero where `L` stays fixed.
     ///
     /// # Errors
-    /// As for [`QuasiPeriodicMotion::new`]; [`Error::NotConverged`] if the turns about `n` or of `L` cannot be counted.
+    /// As for [`QuasiPeriodicMotion::new`]; [`Error::Unsupported`] if the turns about `n` or of `L` cannot be counted.
     pub fn precession_rates(&self) -> Result<[f64; 2], Error> {
         if let Some(of_momentum) = self.motion.precession_of_momentum() {
             let [.., of_body] = self.motion.rates();
@@ -262,7 +262,7 @@ impl PulsarClock {
         let motion = QuasiPeriodicMotion::new(&self.motion.problem)?;
         let rate = |symbol: &str, what| {
             let rate = motion.frequencies().rate(symbol);
-            rate.ok_or(Error::NotConverged { what, iterations: 1, residual: f64::NAN })
+            rate.ok_or(Error::not_found(what))
         };
         Ok([rate("psi'", "turns of the body about its axis")?, rate("l'", "turns of L about its axis")?])
     }

@@ -15,6 +15,7 @@ use nalgebra::Matrix3;
 use crate::dynamics::equations_of_motion::angular_velocity;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
+use crate::lorentz_violation::traceless;
 use crate::numerics::scalar::{Real, real_part};
 use crate::propagation::{MOST_COUNTED, Motion, Turning};
 
@@ -118,7 +119,7 @@ const HIGHEST: usize = 6;
 pub fn rate_bounds<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, bulge: S, state: &BodyState<S>) -> RateBounds {
     let (xx, zz) = (spheroid.inertia_xx.re(), spheroid.inertia_zz.re());
     let s = s.map(S::re);
-    let anisotropic = s - Matrix3::from_diagonal_element(s.trace() / 3.0);
+    let anisotropic = traceless(&s);
     let torque = spheroid.constant_c.re().abs() * anisotropic.norm() * core::f64::consts::SQRT_2 / xx;
     let omega = real_part(&angular_velocity(spheroid, &state.axis, &state.momentum));
     let axis = real_part(&state.axis);

@@ -169,7 +169,7 @@ impl Problem<f64> {
         let motion = self.taylor(span, tolerance)?;
         let train = pulse_train(&motion, beam, line_of_sight, span)?;
         let (step_count, order) = (motion.step_count, motion.order);
-        Ok((train, Samples { states: vec![motion.state(span.1)?], error_estimates: Vec::new(), step_count, order }))
+        Ok((train, Samples { states: vec![motion.state(span.1)?], step_count, order }))
     }
 }
 

@@ -22,7 +22,7 @@ pub struct AveragedMotion<S> {
     /// The motion in the principal frame of `s`, and its rates. Times are counted from the initial state, or from the epoch of
     /// [`near`](Self::near).
     pub mean: AveragedSolution<S>,
-    given_from_principal: Matrix3<S>,
+    pub(in crate::propagation) given_from_principal: Matrix3<S>,
 }
 
 impl<S: Real> AveragedMotion<S> {
@@ -85,7 +85,7 @@ impl<S: Real> AveragedMotion<S> {
         Ok(self.mean.phases_at(self.elapsed(t)))
     }
 
-    fn state_of(&self, phases: &AveragedPhases<S>) -> BodyState<S> {
+    pub(in crate::propagation) fn state_of(&self, phases: &AveragedPhases<S>) -> BodyState<S> {
         self.mean.state_at(phases).rotated(&self.given_from_principal)
     }
 }

@@ -73,9 +73,9 @@ impl<S: Real> SymmetricMotion<S> {
         let real = spheroid.map(S::re);
         let start = Start {
             spheroid: real,
-            coefficients: PrincipalCoefficients { xx: equal.re(), yy: equal.re(), zz: diagonal.z.re() },
-            angles: EulerAngles { alpha: angles.alpha.re(), beta: angles.beta.re(), gamma: angles.gamma.re() },
-            rates: EulerRates { alpha: rates.alpha.re(), beta: rates.beta.re(), gamma: rates.gamma.re() },
+            coefficients: coefficients.map(S::re),
+            angles: angles.map(S::re),
+            rates: rates.map(S::re),
         };
         Ok(Self {
             problem: *problem,
@@ -139,10 +139,8 @@ impl<S: Real> SymmetricMotion<S> {
         let Start { spheroid, coefficients, angles, rates } = &self.start;
         let dual = Dual64::from_re;
         let body = spheroid.map(dual);
-        let s =
-            PrincipalCoefficients { xx: dual(coefficients.xx), yy: dual(coefficients.yy), zz: dual(coefficients.zz) };
-        let mut angles = EulerAngles { alpha: dual(angles.alpha), beta: dual(angles.beta), gamma: dual(angles.gamma) };
-        let mut rates = EulerRates { alpha: dual(rates.alpha), beta: dual(rates.beta), gamma: dual(rates.gamma) };
+        let s = coefficients.map(dual);
+        let (mut angles, mut rates) = (angles.map(dual), rates.map(dual));
         seed(&mut angles, &mut rates);
         let Ok(solution) = SymmetricSolution::new(&body, &s, &angles, &rates) else { return f64::INFINITY };
         let state = state_of(&body, &solution, dual(elapsed));

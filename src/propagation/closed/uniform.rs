@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::dynamics::equations_of_motion::{angular_velocity, torque_on_axis};
 use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
-use crate::lorentz_violation::SymmetryOfTensor;
+use crate::lorentz_violation::{SymmetryOfTensor, traceless};
 use crate::numerics::scalar::{Real, real_part};
 use crate::propagation::Motion;
 use crate::propagation::input::check_time;
@@ -44,7 +44,7 @@ impl<S: Real> UniformMotion<S> {
     pub fn free(problem: &Problem<S>, span: (f64, f64)) -> Self {
         let (spheroid, initial) = (problem.spheroid(), problem.initial());
         let s = problem.coefficients().map(S::re);
-        let anisotropic = s - Matrix3::from_diagonal_element(s.trace() / 3.0);
+        let anisotropic = traceless(&s);
         let turn = initial.momentum / spheroid.inertia_xx;
         let spin = initial.momentum.dot(&initial.axis) / spheroid.inertia_zz;
         Self {
@@ -187,7 +187,7 @@ impl UniformMotion<f64> {
 /// square root of two times the Frobenius norm of the anisotropic part.
 pub fn largest_torque<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>) -> f64 {
     let s = s.map(S::re);
-    let anisotropic = s - Matrix3::from_diagonal_element(s.trace() / 3.0);
+    let anisotropic = traceless(&s);
     core::f64::consts::SQRT_2 * spheroid.constant_c.re().abs() * anisotropic.norm()
 }
 

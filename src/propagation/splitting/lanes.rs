@@ -158,7 +158,7 @@ fn propagate_side_by_side<R: Register, const N: usize>(
     }
     for Progress { ready, states, .. } in progress {
         let (step_count, order) = (ready.steps as usize, scheme.order() as usize);
-        outcomes[ready.index] = Some(Ok(Samples { states, error_estimates: Vec::new(), step_count, order }));
+        outcomes[ready.index] = Some(Ok(Samples { states, step_count, order }));
     }
 }
 

@@ -136,7 +136,6 @@ mod tests {
     use super::*;
     use crate::dynamics::fixture::axis_problem;
     use crate::numerics::arithmetic::plain;
-    use crate::propagation::ErrorEstimates;
     use crate::propagation::taylor::samples::visited;
 
     /// More motions than lanes, forwards and backwards in time, of several orders.
@@ -155,8 +154,7 @@ mod tests {
             let SampledProblem { problem, start, times, tolerance } = motion;
             let span = (*start, times[times.len() - 1]);
             let setup = ScaledProblem::new((true, Work::Quadratic), problem, span, *tolerance).unwrap();
-            let alone =
-                visited(&setup, plain(), times, ErrorEstimates::NotWanted, |vectors: [Vector3<f64>; 2], _| vectors);
+            let alone = visited(&setup, plain(), times, |vectors: [Vector3<f64>; 2], _| vectors);
             let (found, alone) = (found.unwrap(), alone.unwrap());
             assert_eq!((found.step_count, found.order), (alone.step_count, alone.order));
             assert!(found.step_count > 3 && found.states.len() == times.len());

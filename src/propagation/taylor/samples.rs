@@ -8,7 +8,6 @@ use crate::numerics::arithmetic::{LoadStore, plain};
 use crate::numerics::fused::run_fused;
 use crate::numerics::scalar::{Real, Scalar};
 use crate::propagation::taylor::clock::{Interval, StepLimit};
-use crate::propagation::taylor::errors::{StepError, TaylorErrors};
 use crate::propagation::taylor::scaled_problem::ScaledProblem;
 use crate::propagation::taylor::{fused_for, work_of};
 use crate::propagation::third_angle::{body_state, rate_about_axis};
@@ -17,27 +16,15 @@ use crate::propagation::third_angle::{body_state, rate_about_axis};
 pub(super) const LIMIT: StepLimit =
     StepLimit { steps: 10_000_000_000, allowed: "at most 1e10 steps: take earlier times or a larger tolerance" };
 
-/// States at given times, with their error estimates.
+/// States at given times.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Samples<T> {
     /// One state for each requested time, in order.
     pub states: Vec<T>,
-    /// Estimated error of each, as [`Motion::error_estimate`](crate::propagation::Motion::error_estimate); empty if not
-    /// requested.
-    pub error_estimates: Vec<f64>,
     /// Number of steps of the motion.
     pub step_count: usize,
     /// Order of its series, or of its splitting scheme.
     pub order: usize,
-}
-
-/// Whether errors are estimated, which takes longer than the states.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ErrorEstimates {
-    /// Errors of all states.
-    Wanted,
-    /// No errors.
-    NotWanted,
 }
 
 impl<S: Real, X: RotationState<S>> Problem<S, X> {
@@ -48,21 +35,15 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
     /// # Errors
     /// As for [`taylor`](Self::taylor) except for the number of steps, and [`Error::Domain`] if there are no times or if the
     /// times do not lie on one side of `start`, in the order in which the motion reaches them.
-    pub fn taylor_states(
-        &self,
-        start: f64,
-        times: &[f64],
-        tolerance: f64,
-        estimates: ErrorEstimates,
-    ) -> Result<Samples<X>, Error> {
+    pub fn taylor_states(&self, start: f64, times: &[f64], tolerance: f64) -> Result<Samples<X>, Error> {
         if const { X::VECTORS == 3 } {
             let AxisState { axis, momentum } = self.initial().axis_state();
             let rate = rate_about_axis(self.spheroid(), &axis, &momentum);
             let state = |vectors, t| X::from_vectors(body_state(vectors, rate * (t - S::from_f64(start))).vectors());
-            sampled(self, start, times, (tolerance, estimates), state)
+            sampled(self, start, times, tolerance, state)
         } else {
             let state = |[n, l]: [Vector3<S>; 2], _| X::from_vectors([n, l, Vector3::zeros()]);
-            sampled(self, start, times, (tolerance, estimates), state)
+            sampled(self, start, times, tolerance, state)
         }
     }
 }
@@ -85,7 +66,7 @@ fn sampled<S: Real, X: RotationState<S>, T, const V: usize>(
     problem: &Problem<S, X>,
     start: f64,
     times: &[f64],
-    (tolerance, estimates): (f64, ErrorEstimates),
+    tolerance: f64,
     state: impl Fn([Vector3<S>; V], S) -> T,
 ) -> Result<Samples<T>, Error> {
     let span = span_of(start, times)?;
@@ -94,14 +75,14 @@ fn sampled<S: Real, X: RotationState<S>, T, const V: usize>(
         let samples = run_fused(
             fused,
             #[inline(always)]
-            || visited(&real, fused, times, estimates, |vectors, t| (vectors, t)),
+            || visited(&real, fused, times, |vectors, t| (vectors, t)),
         )?;
-        let Samples { states, error_estimates, step_count, order } = samples;
+        let Samples { states, step_count, order } = samples;
         let given = |(vectors, t): ([Vector3<f64>; V], f64)| state(vectors.map(|v| v.map(S::from_f64)), S::from_f64(t));
-        return Ok(Samples { states: states.into_iter().map(given).collect(), error_estimates, step_count, order });
+        return Ok(Samples { states: states.into_iter().map(given).collect(), step_count, order });
     }
     let setup = ScaledProblem::new(work_of(None), problem, span, tolerance)?;
-    visited(&setup, plain(), times, estimates, state)
+    visited(&setup, plain(), times, state)
 }
 
 /// Evaluates each step at the times within it.
@@ -110,11 +91,9 @@ pub(super) fn visited<A: LoadStore, T, const V: usize>(
     setup: &ScaledProblem<A::Scalar, V>,
     a: A,
     times: &[f64],
-    estimates: ErrorEstimates,
     state: impl Fn([Vector3<A::Scalar>; V], A::Scalar) -> T,
 ) -> Result<Samples<T>, Error> {
     let mut samples = Samples::with_room(times.len(), setup.order);
-    let mut errors = (estimates == ErrorEstimates::Wanted).then(|| TaylorErrors::of(setup));
     // A closure that is not inlined is compiled without AVX2, and each vector operation then becomes a call.
     setup.drive().run(
         a,
@@ -122,11 +101,6 @@ pub(super) fn visited<A: LoadStore, T, const V: usize>(
         #[inline(always)]
         |step, series| {
             samples.step_count += 1;
-            if let Some(errors) = &mut errors {
-                let h = step.length * setup.direction() / setup.scale.time;
-                let error = errors.step(series, |v| a.store(*v).vector().map(A::Scalar::re), h);
-                samples.take_errors(setup, times, step, &error);
-            }
             samples.take(
                 setup,
                 times,
@@ -147,7 +121,7 @@ pub(super) fn visited<A: LoadStore, T, const V: usize>(
 impl<T> Samples<T> {
     /// No samples yet, with capacity for `count`.
     pub(super) fn with_room(count: usize, order: usize) -> Self {
-        Self { states: Vec::with_capacity(count), error_estimates: Vec::new(), step_count: 0, order }
+        Self { states: Vec::with_capacity(count), step_count: 0, order }
     }
 
     /// Evaluates those of the `times` that lie in a step and have not been evaluated.
@@ -165,25 +139,6 @@ impl<T> Samples<T> {
                 break;
             }
             self.states.push(state_at(time));
-        }
-    }
-
-    /// The errors of the states from [`take`](Self::take).
-    fn take_errors<S: Real, const V: usize>(
-        &mut self,
-        setup: &ScaledProblem<S, V>,
-        times: &[f64],
-        step: &Interval,
-        error: &StepError,
-    ) {
-        while let Some(&time) = times.get(self.error_estimates.len()) {
-            let elapsed = (time - setup.span.0).abs();
-            if elapsed >= step.end {
-                break;
-            }
-            let into = elapsed - step.start.high;
-            let into = if into > 0.0 { into / step.length } else { 0.0 };
-            self.error_estimates.push(error.at(into, setup.order) + setup.error_of_time(time));
         }
     }
 }

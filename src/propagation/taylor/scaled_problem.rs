@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
+use crate::lorentz_violation::traceless;
 use crate::numerics::arithmetic::{LoadStore, Padded};
 use crate::numerics::compensated::Compensated;
 use crate::numerics::rounding::two_sum;
@@ -45,7 +46,7 @@ impl<S: Real, const V: usize> ScaledProblem<S, V> {
         let (spheroid, s, start) = (problem.spheroid(), problem.coefficients(), problem.start::<V>());
         let duration = (span.1 - span.0).abs();
         // An isotropic part of s^IJ exerts no torque, but if it were left in, its rounding would.
-        let anisotropic = s - Matrix3::from_diagonal_element(s.trace() / 3.0);
+        let anisotropic = traceless(s);
         let scale = Scale::of(spheroid, &anisotropic, &start[MOMENTUM]);
         Error::ensure(
             scale.turning_rate.is_finite(),

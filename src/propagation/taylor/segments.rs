@@ -57,7 +57,7 @@ pub(crate) fn projected_by_segments(
         || kept.sum(&setup, fused, kept.count() - 1, span.1),
     );
     let end = setup.body_state(vectors.map(|v| v.vector()), span.1);
-    Ok(Some(Samples { states: vec![end], error_estimates: Vec::new(), step_count, order: setup.order }))
+    Ok(Some(Samples { states: vec![end], step_count, order: setup.order }))
 }
 
 #[cfg(test)]

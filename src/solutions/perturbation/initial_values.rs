@@ -69,12 +69,11 @@ impl<S: Scalar> Inversion<S> {
     /// The same numbers in another type.
     fn map<T>(&self, to: impl Fn(S) -> T) -> Inversion<T> {
         let AxisAngles { alpha, beta, alpha_rate, beta_rate } = self.initial;
-        let PrincipalCoefficients { xx, yy, zz } = self.s;
         Inversion {
             form: self.form,
             kind: self.kind,
             spheroid: self.spheroid.map(&to),
-            s: PrincipalCoefficients { xx: to(xx), yy: to(yy), zz: to(zz) },
+            s: self.s.map(&to),
             spin: to(self.spin),
             initial: AxisAngles {
                 alpha: to(alpha),

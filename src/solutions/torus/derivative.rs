@@ -48,12 +48,11 @@ impl<'a> TorusDerivative<'a> {
     ///
     /// # Errors
     /// [`Error::NotConverged`] for a torus so thin that its two flows are nearly parallel, as in steady motion, whose neighbours have a different
-    /// number of frequencies. Also if a closed orbit is not finite.
+    /// number of frequencies; [`Error::Unsupported`] if a closed orbit is not finite.
     pub fn new(solution: &'a TorusSolution, problem: &Problem<Dual64>) -> Result<Self, Error> {
-        let refused =
-            |what, residual| -> Result<Self, Error> { Err(Error::NotConverged { what, iterations: 1, residual }) };
         if solution.width <= THINNEST {
-            return refused("derivatives on the torus: n is on L, or L on an axis", solution.width);
+            let what = "derivatives on the torus: n is on L, or L on an axis";
+            return Err(Error::NotConverged { what, iterations: 1, residual: solution.width });
         }
         let (spheroid, coefficients) = (problem.spheroid(), problem.coefficients());
         let torus_from_given = solution.given_from_torus.transpose().map(Dual64::from_re);
@@ -75,7 +74,7 @@ impl<'a> TorusDerivative<'a> {
             let mut end = found.integrals.moved(*period, &start);
             let open = change - joined(&end, size, derivative);
             if !open.norm().is_finite() {
-                return refused("periods of the tori beside that of the motion", f64::NAN);
+                return Err(Error::not_found("periods of the tori beside that of the motion"));
             }
             let rates = found.integrals.both_rates(&end);
             let tangents = tangents(&rates, size);

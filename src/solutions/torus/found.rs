@@ -35,7 +35,7 @@ impl Torus {
     /// maps the torus to itself.
     ///
     /// # Errors
-    /// [`Error::Domain`] for isotropic `s`; [`Error::NotConverged`] if the search over the torus does not find its symmetric states.
+    /// [`Error::Domain`] for isotropic `s`; [`Error::Unsupported`] if the search over the torus does not find its symmetric states.
     pub(super) fn of(problem: &Problem<f64>) -> Result<Self, Error> {
         let frame = principal_frame(problem.coefficients())?.principal_from_given;
         let principal = problem.rotated(&frame);
@@ -61,13 +61,12 @@ impl Torus {
             let start = [initial.axis, initial.momentum, initial.equatorial_axis];
             (turn, integrals, start)
         };
-        let lost = |what| Error::NotConverged { what, iterations: 1, residual: f64::NAN };
         let (turn, integrals, start) = in_frame(x);
-        let found =
-            lattice(&integrals, unit, &start).ok_or(lost("symmetric states of the torus, as near the separatrix"))?;
+        let found = lattice(&integrals, unit, &start)
+            .ok_or(Error::not_found("symmetric states of the torus, as near the separatrix"))?;
         let (turn, integrals, initial) = if found.about_x { in_frame(z) } else { (turn, integrals, start) };
         let ways = ClosedWays::near(&integrals, unit, &initial, [found.to_plane, found.fast, found.slow]);
-        let ways = ways.ok_or(lost("periods of the torus, as near the separatrix"))?;
+        let ways = ways.ok_or(Error::not_found("periods of the torus, as near the separatrix"))?;
         Ok(Self { spheroid, spread, unit, initial, ways, integrals, from_given: turn * frame })
     }
 

@@ -75,8 +75,8 @@ impl TorusSolution {
     /// the closed orbits are computed to 32 digits, which takes a few ms.
     ///
     /// # Errors
-    /// [`Error::Domain`] for isotropic `s` and a time that is not finite; [`Error::NotConverged`] near the separatrix, where the closed orbits are
-    /// not found or need more coefficients than a table may have; [`Error::Unsupported`] for a star with a bulge.
+    /// [`Error::Domain`] for isotropic `s` and a time that is not finite; near the separatrix [`Error::Unsupported`], where the closed orbits are
+    /// not found, or [`Error::NotConverged`], where they need more coefficients than a table may have; [`Error::Unsupported`] for a star with a bulge.
     pub fn new(problem: &Problem<f64>, tolerance: f64, longest: f64) -> Result<Self, Error> {
         problem.require_rigid()?;
         Error::ensure(longest.is_finite(), "longest time", longest, "a finite number")?;
@@ -93,12 +93,8 @@ impl TorusSolution {
         let wide = WideTorus::near(&torus, problem)?;
         let torus = wide.rounded(&torus);
         let starts = |quarter: usize| Some(torus.starts(quarter).unwrap_or_else(|| wide.starts(quarter)));
-        let what = "Fourier series on the torus";
-        Self::of(&torus, wide.phases, wide.drift, tolerance, starts)?.ok_or(Error::NotConverged {
-            what,
-            iterations: 1,
-            residual: f64::NAN,
-        })
+        let found = Self::of(&torus, wide.phases, wide.drift, tolerance, starts)?;
+        found.ok_or(Error::not_found("Fourier series on the torus"))
     }
 
     /// The series on a torus with these phases, from states at the points of the second angle; `None` if there are none.

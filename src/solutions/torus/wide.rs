@@ -32,7 +32,7 @@ impl WideTorus {
     /// Refines a torus found in doubles.
     ///
     /// # Errors
-    /// [`Error::NotConverged`] if Newton's method does not converge from there.
+    /// [`Error::Unsupported`] if Newton's method does not converge from there.
     pub(super) fn near(torus: &Torus, problem: &Problem<f64>) -> Result<Self, Error> {
         let wide = |value: f64| DoubleDouble::from(value);
         let spheroid = torus.spheroid.map(wide);
@@ -44,8 +44,7 @@ impl WideTorus {
         // n is a unit vector, whatever the rounding of its length.
         initial[0] /= length(&initial[0]);
         let ways = ClosedWays::near(&integrals, torus.unit, &initial, torus.ways.times().map(|times| times.map(wide)));
-        let what = "periods of the torus in 32 digits";
-        let ways = ways.ok_or(Error::NotConverged { what, iterations: 1, residual: f64::NAN })?;
+        let ways = ways.ok_or(Error::not_found("periods of the torus in 32 digits"))?;
         let phases = phases(&spheroid, &initial, &ways);
         // The torque of the remaining off-diagonal elements, which is not zero if two eigenvalues are nearly equal.
         let beside = [(0, 1), (1, 2), (2, 0)].map(|place| tensor[place].re().abs()).iter().sum::<f64>();

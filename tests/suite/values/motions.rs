@@ -1,16 +1,16 @@
 //! Motions of every method: states, errors, steps, forecasts, derivatives.
 
 use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
+use twofold::Error;
+use twofold::dynamics::{AxisState, BodyState, Problem, RotationState};
 use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::parameters::{Parameter, Parameters};
-use twofold::plan::{Method, Output, Request, StateFunction, gradient};
+use twofold::plan::{Method, Output, Request, gradient};
 use twofold::propagation::splitting::SCHEMES;
-use twofold::propagation::{ContinuousAngles, ErrorEstimates, Motion, SampledProblem, states_of_many};
+use twofold::propagation::{ContinuousAngles, Motion, SampledProblem, states_of_many};
 use twofold::solutions::perturbation::Precession;
 use twofold::solutions::steady::steady_precession_rate;
-use twofold::{Error, Real};
 
 use crate::values::scene::{ANGLES, PROLATE, STAR, general, problem, start, state, tensor};
 use crate::values::table::Table;
@@ -154,13 +154,11 @@ fn samples() {
     let mut table = Table::default();
     let times = [2.0, 3.5, 9.0, 9.0, 31.0];
     let problem = problem(general());
-    for estimates in [ErrorEstimates::Wanted, ErrorEstimates::NotWanted] {
-        table.result(&format!("{estimates:?}"), problem.taylor_states(SPAN.0, &times, 1e-11, estimates));
-    }
-    let back = problem.reduced().taylor_states(2.0, &[1.0, -5.0], 1e-9, ErrorEstimates::Wanted);
+    table.result("orientation", problem.taylor_states(SPAN.0, &times, 1e-11));
+    let back = problem.reduced().taylor_states(2.0, &[1.0, -5.0], 1e-9);
     table.result("axis backwards", back);
     for (name, times) in [("times not in order", &[5.0, 4.0, 6.0][..]), ("no times", &[])] {
-        table.result(name, problem.taylor_states(2.0, times, 1e-9, ErrorEstimates::NotWanted));
+        table.result(name, problem.taylor_states(2.0, times, 1e-9));
     }
     table.check("samples");
 }
@@ -185,7 +183,7 @@ fn dense_samples_of_many_motions_are_those_of_each_alone() {
     motions[11].tolerance = 1.0;
     for (k, (motion, found)) in motions.iter().zip(states_of_many(&motions)).enumerate() {
         let SampledProblem { problem, start, times, tolerance } = motion;
-        let alone = problem.taylor_states(*start, times, *tolerance, ErrorEstimates::NotWanted);
+        let alone = problem.taylor_states(*start, times, *tolerance);
         assert_eq!(found.is_err(), [9, 11].contains(&k), "{k}: {found:?}");
         let (Ok(found), Ok(alone)) = (found, alone) else { continue };
         assert_eq!(found.states.len(), times.len(), "{k}");
@@ -193,20 +191,6 @@ fn dense_samples_of_many_motions_are_those_of_each_alone() {
             let difference = (state.axis - alone.axis).norm() + (state.momentum - alone.momentum).norm();
             assert!(difference < 10.0 * tolerance.max(1e-13), "{k}: {difference:e}");
         }
-    }
-}
-
-/// The state itself.
-struct Whole;
-
-impl StateFunction for Whole {
-    fn len(&self) -> usize {
-        9
-    }
-
-    fn values<S: Real>(&self, _: &RigidSpheroid<S>, _: &Matrix3<S>, state: &BodyState<S>, values: &mut [S]) {
-        let BodyState { axis, momentum, equatorial_axis } = state;
-        values.iter_mut().zip(axis.iter().chain(momentum).chain(equatorial_axis)).for_each(|(value, x)| *value = *x);
     }
 }
 
@@ -232,7 +216,7 @@ fn gradients() {
                     let plan = Problem::new(start.spheroid, start.coefficients, start.state())
                         .and_then(|problem| problem.plan(&request));
                     let times = [2.0, 20.5];
-                    let found = plan.and_then(|plan| gradient(&plan, &start, &Whole, &times));
+                    let found = plan.and_then(|plan| gradient(&plan, &start, &times));
                     table.found(&name, found, |table, found| {
                         let sizes = found.jacobians[1].column_iter().map(|column| column.norm());
                         let by: Vec<_> = request.derivatives.iter().map(|by| by.symbol()).zip(sizes).collect();

@@ -7,7 +7,7 @@ use twofold::Scalar as _;
 use twofold::dynamics::{AxisState, Problem, RotationState};
 use twofold::observables::Observer;
 use twofold::observables::pulsar::Beam;
-use twofold::propagation::{ErrorEstimates, Motion, SampledProblem, Samples, TorusMotion, states_of_many};
+use twofold::propagation::{Motion, SampledProblem, Samples, TorusMotion, states_of_many};
 
 use super::runge_kutta;
 use super::scene::BenchScene;
@@ -124,13 +124,13 @@ fn torus_sampled(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<En
 
 fn taylor_sampled(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {
     let times = sample_times(duration);
-    let found = scene.problem.reduced().taylor_states(0.0, &times, tolerance, ErrorEstimates::NotWanted)?;
+    let found = scene.problem.reduced().taylor_states(0.0, &times, tolerance)?;
     Ok(End::new(&found.states[LONG_SAMPLES - 1], found.step_count, found.step_count * found.order))
 }
 
 fn taylor_of_32_digits_sampled(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {
     let (problem, times) = (scene.problem.reduced().map(DoubleDouble::from_f64), sample_times(duration));
-    let found = problem.taylor_states(0.0, &times, tolerance, ErrorEstimates::NotWanted)?;
+    let found = problem.taylor_states(0.0, &times, tolerance)?;
     let AxisState { axis, momentum } = found.states[LONG_SAMPLES - 1];
     let end = AxisState { axis: axis.map(DoubleDouble::high), momentum: momentum.map(DoubleDouble::high) };
     Ok(End::new(&end, found.step_count, found.step_count * found.order))
@@ -157,12 +157,12 @@ fn in_lanes<const COUNT: usize>(scene: &BenchScene, duration: f64, tolerance: f6
 }
 
 fn taylor_axis(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {
-    let found = scene.problem.reduced().taylor_states(0.0, &[duration], tolerance, ErrorEstimates::NotWanted);
+    let found = scene.problem.reduced().taylor_states(0.0, &[duration], tolerance);
     Ok(end_of(&found?))
 }
 
 fn taylor(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {
-    Ok(end_of(&scene.problem.taylor_states(0.0, &[duration], tolerance, ErrorEstimates::NotWanted)?))
+    Ok(end_of(&scene.problem.taylor_states(0.0, &[duration], tolerance)?))
 }
 
 fn splitting_axis(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {

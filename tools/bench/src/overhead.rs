@@ -2,15 +2,14 @@
 
 use std::hint::black_box;
 
-use nalgebra::{Matrix3, SVector};
+use nalgebra::SVector;
 use num_dual::{Derivative, Dual, Dual2_64, Dual64, DualSVec64, HyperDual64};
-use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::numerics::scalar::Real;
 use twofold::observables::Observer;
 use twofold::observables::pulsar::{Beam, pulse_train};
 use twofold::parameters::{Parameter, Parameters};
-use twofold::plan::{Output, Request, StateFunction, gradient};
-use twofold::propagation::{ErrorEstimates, Motion};
+use twofold::plan::{Output, Request, gradient};
+use twofold::propagation::Motion;
 
 use super::Effort;
 use super::method::Carries;
@@ -132,26 +131,11 @@ fn seeded() -> impl Fn(f64) -> DualSVec64<{ PARAMETERS.len() }> {
 
 /// The state after the motion, of which nothing else is kept.
 fn at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
-    let none = ErrorEstimates::NotWanted;
     match carries {
-        Carries::Axis => drop(black_box(scene.problem.reduced().taylor_states(0.0, &[DURATION], TOLERANCE, none)?)),
-        Carries::Orientation => drop(black_box(scene.problem.taylor_states(0.0, &[DURATION], TOLERANCE, none)?)),
+        Carries::Axis => drop(black_box(scene.problem.reduced().taylor_states(0.0, &[DURATION], TOLERANCE)?)),
+        Carries::Orientation => drop(black_box(scene.problem.taylor_states(0.0, &[DURATION], TOLERANCE)?)),
     }
     Ok(())
-}
-
-/// The components of a state.
-struct Components(Carries);
-
-impl StateFunction for Components {
-    fn len(&self) -> usize {
-        if self.0 == Carries::Axis { 6 } else { 9 }
-    }
-
-    fn values<S: Real>(&self, _: &RigidSpheroid<S>, _: &Matrix3<S>, state: &BodyState<S>, values: &mut [S]) {
-        let components = state.axis.iter().chain(&state.momentum).chain(&state.equatorial_axis);
-        values.iter_mut().zip(components).for_each(|(value, component)| *value = *component);
-    }
 }
 
 /// That state with its derivatives.
@@ -163,7 +147,7 @@ fn gradient_at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
     let plan = scene.problem.plan(&request)?;
     let (angles, rates) = (initial.angles()?, initial.rates(spheroid)?);
     let start = Parameters::new(*spheroid, *scene.problem.coefficients(), angles, rates);
-    Ok(gradient(&plan, &start, &Components(carries), &[DURATION]).map(|found| drop(black_box(found)))?)
+    Ok(gradient(&plan, &start, &[DURATION]).map(|found| drop(black_box(found)))?)
 }
 
 /// The motion of `n` and `L` over another scalar.

@@ -2,16 +2,13 @@
 
 use nalgebra::Vector3;
 use numeris::Vector;
-use numeris::ode::{AdaptiveSettings, RKAdaptive, RKV98NoInterp};
+use numeris::ode::{RKAdaptive, RKV98NoInterp};
 use twofold::dynamics::BodyState;
 use twofold::dynamics::equations_of_motion::{body_state_rates, reduced_rates};
+use twofold_verify::second_integrator::settings;
 
 use super::method::End;
 use super::scene::BenchScene;
-
-fn settings(tolerance: f64) -> AdaptiveSettings<f64> {
-    AdaptiveSettings { abs_tol: tolerance, rel_tol: tolerance, max_steps: 10_000_000, ..AdaptiveSettings::default() }
-}
 
 fn vector<const N: usize>(y: &Vector<f64, N>, k: usize) -> Vector3<f64> {
     Vector3::new(y[3 * k], y[3 * k + 1], y[3 * k + 2])

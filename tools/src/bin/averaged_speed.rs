@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 use twofold::Error;
 use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::plan::Method;
-use twofold::propagation::{AveragedMotion, ErrorEstimates, Motion};
+use twofold::propagation::{AveragedMotion, Motion};
 use twofold::solutions::averaged::AveragingOrder;
 use twofold_tools::least_time;
 use twofold_verify::check::largest_difference;
@@ -88,9 +88,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Err(why) => println!("  {name:9} at {tolerance:.0e}: {why}"),
     };
     for tolerance in [1e-8, 1e-12] {
-        report("taylor", tolerance, &|| {
-            Ok(problem.taylor_states(0.0, &times, tolerance, ErrorEstimates::NotWanted)?.states)
-        });
+        report("taylor", tolerance, &|| Ok(problem.taylor_states(0.0, &times, tolerance)?.states));
         report("splitting", tolerance, &|| {
             states(&problem.motion_by(Method::Splitting, (0.0, last), tolerance)?, &times)
         });

@@ -10,16 +10,16 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use nalgebra::{DMatrix, DVector, Matrix3};
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
+use nalgebra::{DMatrix, DVector};
+use twofold::Error;
+use twofold::dynamics::{BodyState, Problem, RotationState};
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::wave_of_state;
 use twofold::observables::pulsar::Beam;
 use twofold::observables::spectrum::QuasiPeriodicMotion;
 use twofold::parameters::{Parameter, Parameters};
-use twofold::plan::{Cost, Method, Output, PlannedMotion, Request, State, StateFunction, gradient};
+use twofold::plan::{Cost, Method, Output, PlannedMotion, Request, State, gradient};
 use twofold::propagation::Motion;
-use twofold::{Error, Real};
 use twofold_tools::least_time;
 use twofold_verify::reference::reference_motion;
 
@@ -161,19 +161,6 @@ fn lines(problem: &Problem<f64>) -> Result<(), Error> {
     Ok(())
 }
 
-/// Every component of the state.
-struct Components;
-
-impl StateFunction for Components {
-    fn len(&self) -> usize {
-        9
-    }
-
-    fn values<S: Real>(&self, _: &RigidSpheroid<S>, _: &Matrix3<S>, state: &BodyState<S>, values: &mut [S]) {
-        values.iter_mut().zip(state.vectors().iter().flatten()).for_each(|(value, component)| *value = *component);
-    }
-}
-
 /// Derivatives on the torus by ten parameters: set-up with one state after 1e6 t_c, and each state more.
 fn torus_gradient(problem: &Problem<f64>) -> Result<(), Error> {
     let (spheroid, initial) = (problem.spheroid(), problem.initial());
@@ -186,7 +173,7 @@ fn torus_gradient(problem: &Problem<f64>) -> Result<(), Error> {
     let plan = problem.plan(&request)?;
     let of = |count: u32| {
         let times: Vec<f64> = (1..=count).map(|k| 1e6 * f64::from(k) / f64::from(count)).collect();
-        time(|| gradient(&plan, &start, &Components, &times))
+        time(|| gradient(&plan, &start, &times))
     };
     let (one, many) = (of(1), of(101));
     println!("torus, gradient by 10 parameters at 1e6 t_c: {one:.0}, each state more {:.0}", (many - one) / 100.0);

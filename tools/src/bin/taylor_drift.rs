@@ -8,7 +8,6 @@ use twofold::Scalar as _;
 use twofold::dynamics::first_integrals::first_integrals;
 use twofold::dynamics::{AxisState, Problem};
 use twofold::numerics::straight_line::order;
-use twofold::propagation::ErrorEstimates;
 use twofold_bench::scene::BenchScene;
 use twofold_tools::argument;
 use twofold_verify::double_double::DoubleDouble;
@@ -32,7 +31,7 @@ fn errors(problem: &Problem<f64>, longest: f64) -> Result<Vec<(f64, f64)>, Failu
         first_integrals(lifted.spheroid(), lifted.coefficients(), &state).energy
     };
     let in_units: Vec<f64> = times.iter().map(|t| t * unit).collect();
-    let states = problem.taylor_states(0.0, &in_units, 1e-16, ErrorEstimates::NotWanted)?.states;
+    let states = problem.taylor_states(0.0, &in_units, 1e-16)?.states;
     let start = problem.initial();
     let scale = start.momentum.norm_squared() / 2.0 / body.inertia_xx
         + body.constant_c.abs() * start.axis.abs().dot(&(problem.coefficients().abs() * start.axis.abs()));

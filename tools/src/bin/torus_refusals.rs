@@ -87,7 +87,7 @@ fn told(name: &str, problems: impl Iterator<Item = Problem<f64>>) {
 
 fn what(error: &Error) -> &'static str {
     match error {
-        Error::NotConverged { what, .. } => what,
+        Error::NotConverged { what, .. } | Error::Unsupported { what, .. } => what,
         _ => "outside the domain",
     }
 }

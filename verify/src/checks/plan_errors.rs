@@ -2,7 +2,7 @@
 
 use twofold::plan::{Output, Plan, Promise, Request, gradient};
 
-use super::plans::Components;
+use super::plans::first_state;
 use crate::prelude::*;
 
 checks! {
@@ -68,7 +68,7 @@ fn foreseen_and_true(
         let (spheroid, initial) = (*scene.problem.spheroid(), scene.problem.initial());
         let (Ok(angles), Ok(rates)) = (initial.angles(), initial.rates(&spheroid)) else { return Ok(None) };
         let start = Parameters::new(spheroid, *scene.problem.coefficients(), angles, rates);
-        Components::state(&gradient(&plan, &start, &Components, &[scene.time])?.values)
+        first_state(&gradient(&plan, &start, &[scene.time])?.values)
     };
     let error = scene.true_error(&state);
     Ok(Some((prediction.truncation + prediction.rounding, error, prediction.promise)))

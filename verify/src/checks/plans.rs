@@ -1,7 +1,7 @@
 //! Plans: predicted compared with counted work, motions in closed form compared with numerical ones, gradients.
 
 use proptest::prelude::*;
-use twofold::plan::{Gradient, Output, Prediction, Request, StateFunction, gradient};
+use twofold::plan::{Gradient, Output, Prediction, Request, gradient};
 use twofold::propagation::{SymmetricMotion, UniformMotion};
 
 use crate::prelude::*;
@@ -190,27 +190,9 @@ fn steady_motion() -> Result<Measured, String> {
     Ok(measured)
 }
 
-/// Every component of the state.
-pub(super) struct Components;
-
-impl Components {
-    /// The state of a row of their values.
-    pub(super) fn state(values: &DMatrix<f64>) -> BodyState<f64> {
-        let vector = |first: usize| Vector3::from_fn(|i, _| values[(0, first + i)]);
-        BodyState { axis: vector(0), momentum: vector(3), equatorial_axis: vector(6) }
-    }
-}
-
-impl StateFunction for Components {
-    fn len(&self) -> usize {
-        9
-    }
-
-    fn values<S: Real>(&self, _: &RigidSpheroid<S>, _: &Matrix3<S>, state: &BodyState<S>, values: &mut [S]) {
-        for (value, component) in values.iter_mut().zip(state.vectors().iter().flatten()) {
-            *value = *component;
-        }
-    }
+/// The first of the states of a gradient.
+pub(super) fn first_state(values: &DMatrix<f64>) -> BodyState<f64> {
+    BodyState::from_vectors([0, 3, 6].map(|first| Vector3::from_fn(|i, _| values[(0, first + i)])))
 }
 
 /// The derivatives by every parameter at some times.
@@ -226,7 +208,7 @@ pub(super) fn derivatives(
         method,
         ..Request::new(&[Output::EquatorialAxis], (0.0, end), times.len(), tolerance)
     };
-    gradient(&start.problem()?.plan(&request)?, start, &Components, times)
+    gradient(&start.problem()?.plan(&request)?, start, times)
 }
 
 fn gradients() -> Result<Measured, String> {

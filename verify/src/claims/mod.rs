@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 
 use toml::de::{DeTable, DeValue};
 
-pub use page::{Evidence, evidence, markdown};
+pub use page::{Evidence, capital, evidence, markdown};
 
 /// What became of a statement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

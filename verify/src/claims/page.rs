@@ -115,7 +115,8 @@ fn entry(claim: &Claim, evidence: &[Evidence]) -> String {
     text
 }
 
-fn capital(text: &str) -> String {
+/// A text with its first letter in capitals.
+pub fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }

@@ -282,6 +282,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
+    use crate::inference::Unknown;
 
     /// A pulsar of one turn per second that loses a tenth of its rotation in 1e9 s, and wobbles.
     fn slowing_down(more: &[(TimingParameter, f64)]) -> TimingModel {

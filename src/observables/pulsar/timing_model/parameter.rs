@@ -79,17 +79,6 @@ impl TimingParameter {
     pub fn unit(self) -> &'static str {
         self.names()[1]
     }
-
-    /// Interval that a fit stays within, if there is one.
-    pub(crate) fn limits(self) -> (Option<f64>, Option<f64>) {
-        use core::f64::consts::PI;
-        match self {
-            Wobble => (Some(0.0), Some(PI / 2.0)),
-            Chi | Inclination | Rho => (Some(0.0), Some(PI)),
-            TorqueShare => (Some(0.0), Some(1.0)),
-            _ => (None, None),
-        }
-    }
 }
 
 #[cfg(test)]
