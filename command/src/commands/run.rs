@@ -54,7 +54,8 @@ impl WindowArgs {
         }
         let window = scene.window(from, to).map_err(|why| Failure::BadInput(format!("{name}: {why}")));
         let (scene, error) = window?;
-        note(&format!("estimated error of n, e_x and L / |L| at the start of the window: {error:.1e}"));
+        let of = components(&scene);
+        note(&format!("estimated error of {of} at the start of the window: {error:.1e}"));
         Ok(scene)
     }
 }
@@ -103,8 +104,20 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
         Some(ErrorAtEnd::Estimated(error)) => ("estimated error", error),
         Some(ErrorAtEnd::Foreseen(error)) => ("predicted error", error),
     };
-    note(&format!("{word} of n, e_x and L / |L| at the end of the span: {error:.1e}"));
+    note(&format!("{word} of {} at the end of the span: {error:.1e}", components(&scene)));
     Ok(())
+}
+
+/// What an estimated error is of: `L` over its size, or over the one that the torque can give it, if that is larger.
+fn components(scene: &Scene) -> &'static str {
+    let (body, s, l) = (scene.problem.spheroid(), scene.problem.coefficients(), scene.problem.initial().momentum);
+    let values = s.symmetric_eigenvalues();
+    let by_torque = 2.0 * body.inertia_xx * body.constant_c.abs() * (values.max() - values.min());
+    if l.norm_squared() < by_torque {
+        "n, e_x and L / (2 I^xx C (s_max - s_min))^(1/2)"
+    } else {
+        "n, e_x and L / |L|"
+    }
 }
 
 pub(super) fn force_method(scene: &mut Scene, args: &PlanArgs, name: &str) -> Result<(), Failure> {

@@ -16,6 +16,37 @@ const EXACT: f64 = 2e-15;
 /// A torus narrower than this is treated as a circle or a point.
 pub(super) const THINNEST: f64 = 1e-8;
 
+/// Distance of `n` and `L / unit` from a state of rest within which an unstable one is refused: `K` and `E` differ from those at rest by the square of
+/// the distance, which is then above 1e-12.
+const AT_REST: f64 = 1e-6;
+
+/// Whether `n` and `L` are nearly at rest, both along a principal axis `i` of `s`, in an unstable way. The torque is that of the energy
+/// `C n.s n`, `C (s_i + sum of (s_j - s_i) u_j^2)` for small components `u_j` of `n`, so that with `k_j = 2 C (s_j - s_i)` and the spin momentum `G`
+///
+/// ```text
+/// I^xx u_1'' + G u_2' + k_1 u_1 = 0,    I^xx u_2'' - G u_1' + k_2 u_2 = 0.
+/// ```
+///
+/// Their solutions `exp(lambda t)` have `I^2 lambda^4 + (I (k_1 + k_2) + G^2) lambda^2 + k_1 k_2 = 0`, which is stable if both roots `lambda^2` are
+/// real and below zero. At the axis of the middle eigenvalue it never is, `k_1 k_2 < 0`; at the axis of the highest energy only for large `G`.
+fn near_unstable_rest(
+    spheroid: &RigidSpheroid<f64>,
+    values: &Vector3<f64>,
+    axis: Vector3<f64>,
+    momentum: Vector3<f64>,
+    unit: f64,
+) -> bool {
+    let i = axis.iamax();
+    let beside = |v: Vector3<f64>| [(i + 1) % 3, (i + 2) % 3].map(|j| v[j]);
+    if beside(axis).into_iter().chain(beside(momentum / unit)).any(|part| part.abs() > AT_REST) {
+        return false;
+    }
+    let inertia = spheroid.inertia_xx;
+    let [first, second] = beside(*values).map(|value| 2.0 * spheroid.constant_c * (value - values[i]) * inertia);
+    let half = (first + second + momentum[i] * momentum[i]) / 2.0;
+    first * second < 0.0 || (first < 0.0 && half < (first * second).sqrt())
+}
+
 /// A torus with the data from which it was found, in a frame in which half a turn about Z maps it to itself.
 #[derive(Debug, Clone)]
 pub(super) struct Torus {
@@ -61,6 +92,13 @@ impl Torus {
             let start = [initial.axis, initial.momentum, initial.equatorial_axis];
             (turn, integrals, start)
         };
+        if near_unstable_rest(&spheroid, &principal.coefficients().diagonal(), initial.axis, initial.momentum, unit) {
+            let what = "a series on the torus";
+            return Err(Error::Unsupported {
+                what,
+                why: "n and L are nearly at rest along an axis of s, where this is unstable",
+            });
+        }
         let (turn, integrals, start) = in_frame(x);
         let found = lattice(&integrals, unit, &start)
             .ok_or(Error::not_found("symmetric states of the torus, as near the separatrix"))?;
