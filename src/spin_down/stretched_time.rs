@@ -472,7 +472,11 @@ mod tests {
     fn a_tenth_of_the_rotation_is_the_most_for_every_index() {
         for index in [1.5, 2.0, 2.1, 3.0] {
             let is_taken = |t: f64| wobbling(index, 1e-6, 0.0).stretched_at([t, 0.0]).is_ok();
-            assert_eq!([9.9e4, -9.9e4, 1.01e5, -1.01e5, 3e5].map(is_taken), [true, true, false, false, false], "{index}");
+            assert_eq!(
+                [9.9e4, -9.9e4, 1.01e5, -1.01e5, 3e5].map(is_taken),
+                [true, true, false, false, false],
+                "{index}"
+            );
         }
     }
 

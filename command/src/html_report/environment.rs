@@ -78,7 +78,10 @@ mod tests {
         });
         let facts = environment();
         let target = &facts.iter().find(|(name, _)| *name == "Target").expect("a target").1;
-        assert_eq!([target.ends_with("with debug assertions"), target.ends_with("release")], [are_checked, !are_checked]);
+        assert_eq!(
+            [target.ends_with("with debug assertions"), target.ends_with("release")],
+            [are_checked, !are_checked]
+        );
     }
 
     #[test]

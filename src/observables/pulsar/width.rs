@@ -73,7 +73,9 @@ mod tests {
     fn a_beam_that_only_touches_the_line_of_sight_has_no_pulse() {
         for (theta, theta_o) in [(1.0, 1.5), (1.5, 1.0)] {
             assert_eq!(pulse_width(0.5, theta, theta_o), PulseWidth::NeverOn);
-            let PulseWidth::Pulsed(width) = pulse_width(0.5 + 1e-10, theta, theta_o) else { panic!("the beam is seen") };
+            let PulseWidth::Pulsed(width) = pulse_width(0.5 + 1e-10, theta, theta_o) else {
+                panic!("the beam is seen")
+            };
             assert!((1e-6..1e-4).contains(&width), "{width:e}");
         }
     }

@@ -128,8 +128,8 @@ mod tests {
         assert_eq!(exponent(&rows, "other", |row| row.phase), None);
     }
 
-    /// Every change is over the sum of the magnitudes of its terms, which no turn of the axes can make zero or less. With s = diag(a, -a, 0),
-    /// where the terms of K cancel, the scales stay as large as with diag(a, a, 0).
+    /// Every change is over the sum of the magnitudes of its terms, so that it is at least each of them, though s has eigenvalues of
+    /// either sign.
     #[test]
     fn scales_do_not_cancel() {
         for scene in BenchScene::all() {
@@ -140,7 +140,8 @@ mod tests {
             let (least, one) = (momentum.norm_squared() / 2.0, axis.x * axis.x * problem.coefficients().m11.abs());
             assert!(of_energy >= (least + one) * (1.0 - 1e-15), "{}: {of_energy}", scene.name);
             let of_k = scales(&scene)[1];
-            let largest = (0..3).map(|i| momentum[i].powi(2) * problem.coefficients()[(i, i)].abs()).fold(0.0, f64::max);
+            let largest =
+                (0..3).map(|i| momentum[i].powi(2) * problem.coefficients()[(i, i)].abs()).fold(0.0, f64::max);
             assert!(of_k >= largest * (1.0 - 1e-15), "{}: {of_k}", scene.name);
         }
     }
