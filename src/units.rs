@@ -102,6 +102,15 @@ pub fn time_unit<S: Real>(inertia_over_c: S) -> Result<S, Error> {
 mod tests {
     use super::*;
 
+    /// `I^xx / C` = 9 s^2 makes 3 s; a sphere, whose C is zero, a prolate star and none at all have no unit.
+    #[test]
+    fn only_an_oblate_star_has_a_unit_of_time() {
+        assert_eq!(time_unit(9.0), Ok(3.0));
+        for without in [f64::INFINITY, 0.0, -1.0, f64::NAN] {
+            assert!(time_unit(without).is_err(), "{without}");
+        }
+    }
+
     /// SI 2019; IAU 2012 B2, 2015 B2 and B3; CODATA 2018 and 2022, which have the same value of G.
     #[test]
     fn constants_are_those_of_their_definitions() {

@@ -199,6 +199,18 @@ fn check<S: Real, X: RotationState<S>>(spheroid: &RigidSpheroid<S>, s: &Matrix3<
 mod tests {
     use super::*;
 
+    /// A body frame has right angles: 60 degrees between n and e_x are refused, and so are 120.
+    #[test]
+    fn an_equatorial_axis_at_any_other_angle_is_refused() {
+        let star = RigidSpheroid::in_units_of_tc(1.1);
+        let at = |degrees: f64| {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            let (equatorial_axis, momentum) = (Vector3::new(sin, 0.0, cos), Vector3::new(0.3, -0.7, 1.1));
+            Problem::new(star, Matrix3::zeros(), BodyState { axis: Vector3::z(), momentum, equatorial_axis }).is_ok()
+        };
+        assert_eq!([0.0, 60.0, 90.0, 120.0, 180.0].map(at), [false, false, true, false, false]);
+    }
+
     #[test]
     fn an_equatorial_axis_is_chosen_only_where_there_is_none() {
         let star = RigidSpheroid::in_units_of_tc(1.1);

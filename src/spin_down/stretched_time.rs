@@ -467,6 +467,49 @@ mod tests {
         assert!(StretchedTime::new(&braking, &precession(1e-13)).is_err());
     }
 
+    /// A star may lose a tenth of its rotation, with a braking index about 2 as with any other up to 3.
+    #[test]
+    fn a_tenth_of_the_rotation_is_the_most_for_every_index() {
+        for index in [1.5, 2.0, 2.1, 3.0] {
+            let is_taken = |t: f64| wobbling(index, 1e-6, 0.0).stretched_at([t, 0.0]).is_ok();
+            assert_eq!(
+                [9.9e4, -9.9e4, 1.01e5, -1.01e5, 3e5].map(is_taken),
+                [true, true, false, false, false],
+                "{index}"
+            );
+        }
+    }
+
+    /// A wobble of 75 degrees falls to 70 after ln(tan 75 / tan 70) = ln(3.7321 / 2.7475) = 0.3063 damping times, to 65 after 0.5540. A magnetic
+    /// axis at 110 degrees from n has its other end at 70, which comes along L as well.
+    #[test]
+    fn a_wobble_that_passes_the_magnetic_axis_at_either_end_is_refused() {
+        for (chi, limit) in [(70.0_f64, 0.306_3), (110.0, 0.306_3), (65.0, 0.554_0), (115.0, 0.554_0)] {
+            let precession = Precession::new([75f64.to_radians(), chi.to_radians(), 0.7], 0.013, 1e-5);
+            let braking = Braking { rate: 0.0, index: 3.0, torque_share: 0.0 };
+            let damped = StretchedTime::new(&braking, &precession).unwrap();
+            let is_taken = |part: f64| damped.stretched_at([part * limit * 1e5, 0.0]).is_ok();
+            assert_eq!([0.0, 0.99, 1.01].map(is_taken), [true, true, false], "{chi}");
+        }
+    }
+
+    /// The delay grows in proportion to a small share of the torque: its derivative at none is that proportion.
+    #[test]
+    fn the_delay_has_a_derivative_by_the_share_where_that_is_zero() {
+        use num_dual::Dual64;
+        for index in [3.0, 2.5] {
+            let constant = Dual64::from_re;
+            let precession = Precession::new([0.2, 1.3, 0.7].map(constant), constant(0.013), constant(0.0));
+            let share = Dual64::new(0.0, 1.0);
+            let braking = Braking { rate: constant(1e-6), index: constant(index), torque_share: share };
+            let slope = torque_delay(&braking, &precession, constant(100.0)).eps;
+            let precession = Precession::new([0.2, 1.3, 0.7], 0.013, 0.0);
+            let braking = Braking { rate: 1e-6, index, torque_share: 1e-6 };
+            let expected = torque_delay(&braking, &precession, 100.0) / 1e-6;
+            assert!(expected.abs() > 1e-6 && (slope / expected - 1.0).abs() < 1e-4, "{index}: {slope:e} {expected:e}");
+        }
+    }
+
     #[test]
     fn what_makes_no_sense_is_refused() {
         let precession = Precession::new([0.0; 3], 1.0, 0.0);

@@ -79,3 +79,26 @@ impl OutputFile {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is under the name at the end where a file has come there during the computation, and whether that is a failure.
+    fn meanwhile(replace: bool) -> (String, bool) {
+        let folder = tempfile::tempdir().expect("folder");
+        let path = folder.path().join("table.csv");
+        let Ok(output) = OutputFile::beside(&path, replace) else { panic!("the name is free") };
+        std::io::Write::write_all(&mut output.file(), b"ours").expect("written");
+        fs::write(&path, "theirs").expect("file");
+        let is_failure = output.complete().is_err();
+        assert_eq!(fs::read_dir(folder.path()).expect("folder").count(), 1, "nothing incomplete is left");
+        (fs::read_to_string(&path).expect("text"), is_failure)
+    }
+
+    #[test]
+    fn a_file_that_appears_meanwhile_is_replaced_only_with_leave() {
+        assert_eq!(meanwhile(false), ("theirs".to_owned(), true));
+        assert_eq!(meanwhile(true), ("ours".to_owned(), false));
+    }
+}

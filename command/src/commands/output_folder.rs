@@ -128,6 +128,21 @@ mod tests {
         (fs::read_to_string(parent.path().join("page")).expect("text"), failure)
     }
 
+    /// A command that fails takes away the folder that it made, and leaves an empty one that was there.
+    #[test]
+    fn a_folder_of_the_user_stays_where_nothing_is_written() {
+        let parent = tempfile::tempdir().expect("folder");
+        let (theirs, ours) = (parent.path().join("theirs"), parent.path().join("ours"));
+        fs::create_dir(&theirs).expect("folder");
+        for path in [&theirs, &ours] {
+            let Ok(folder) = OutputFolder::at(path, false, |_| false) else { panic!("a folder may be there") };
+            assert!(folder.write("page", b"half").is_ok());
+            drop(folder);
+        }
+        assert_eq!([theirs.exists(), ours.exists()], [true, false]);
+        assert_eq!(fs::read_dir(&theirs).expect("folder").count(), 0);
+    }
+
     #[test]
     fn a_file_that_appears_meanwhile_is_replaced_only_with_leave() {
         let (text, failure) = meanwhile(false);

@@ -68,6 +68,22 @@ mod tests {
         assert_eq!(in_words("61a92c83", " M src/lib.rs"), "commit 61a92c83, with changes not committed");
     }
 
+    /// An assertion for debugging is evaluated in a build that has them, and in no other.
+    #[test]
+    fn the_build_is_told_as_it_is() {
+        let mut are_checked = false;
+        debug_assert!({
+            are_checked = true;
+            are_checked
+        });
+        let facts = environment();
+        let target = &facts.iter().find(|(name, _)| *name == "Target").expect("a target").1;
+        assert_eq!(
+            [target.ends_with("with debug assertions"), target.ends_with("release")],
+            [are_checked, !are_checked]
+        );
+    }
+
     #[test]
     fn any_clock_is_told() {
         let at = |seconds| date_and_time(SystemTime::UNIX_EPOCH + Duration::from_secs(seconds));

@@ -84,12 +84,14 @@ fn sound_files_agree_and_the_rest_is_told() {
     let folder = with_change("", |_| Vec::new());
     folder.write("LICENSE", "MIT");
     folder.write("cross1.dat", "what it is nobody knows");
+    // There is no third scene: a name that is nearly a known one is not read either.
+    folder.write("tp3.dat", "1\t2");
     has_all(
         &stdout(&ends(compare(&folder, &[]), 0)),
         &[
             "16 columns agree, none differs, 4 not judged",
             "not in the folder: tp1.dat, tp2.dat, sp2.dat, mntp1.dat, mntp2.dat, mntp2_pset.dat, mntp2_widset.dat, gwtp2.dat",
-            "not read, since their names are not known: LICENSE, cross1.dat",
+            "not read, since their names are not known: LICENSE, cross1.dat, tp3.dat",
         ],
     );
     let json: serde_json::Value = serde_json::from_slice(&compare(&folder, &["--json"]).stdout).expect("JSON");

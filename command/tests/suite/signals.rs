@@ -84,6 +84,18 @@ fn each_signal_ends_a_command_that_leaves_nothing_incomplete() {
     }
 }
 
+/// Its page is `index.html`: other pages in the folder are none of its business. It is interrupted once it has begun.
+#[test]
+fn a_report_may_stand_beside_other_pages() {
+    let folder = Folder::with(&[("out/notes.html", "mine")]);
+    let mut child = folder.command(&["report", "--out", "out"]).spawn().expect("starts");
+    let names = || fs::read_dir(folder.at("out")).expect("folder").count();
+    assert!(comes_to(&mut child, || names() > 1), "it was refused");
+    send(&child, "TERM");
+    ends(child.wait_with_output().expect("its end"), 130);
+    assert_eq!((names(), folder.read("out/notes.html").as_str()), (1, "mine"));
+}
+
 #[test]
 fn a_signal_that_is_ignored_stays_so_and_leaves_the_others_alone() {
     for (args, message) in COMMANDS {

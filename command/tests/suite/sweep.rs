@@ -156,7 +156,11 @@ fn threads_and_shards_do_not_change_a_byte() {
     ends(merge(&names, "merged.csv"), 3);
     assert_eq!(read("one.csv"), read("merged.csv"));
     assert_eq!(read("one.csv.errors.csv"), read("merged.csv.errors.csv"));
+    // The table of a sweep of other outputs has as many scenes under another header.
+    let other = folder.read("one.csv").replacen("alpha", "other", 1);
+    folder.write("other.csv", other);
     for (parts, why) in [
+        (&["other.csv"][..], "other.csv does not begin with the header of this sweep's table"),
         (&names[1..], "part-1.csv") as (&[&str], &str),
         (&names[..6], "is the last and ends before scene 685: the sweep has 800"),
         (&[names[0], names[0]], "has scene 0 where scene 114 is expected"),

@@ -176,7 +176,10 @@ fn the_causes_of_residuals_add_up() {
     let amplitudes = |torque: &str| {
         let folder = Folder::with(&[("star.toml", &with_lines("b1828-11", &[("torque", torque)]))]);
         folder.succeeds(&["timing", "star.toml", "--causes", "--out", "."]);
-        let rows = numbers(&folder.read("star.csv"));
+        let table = folder.read("star.csv");
+        let named: Vec<_> = cells(&table)[0][16..].iter().map(|name| name.split(' ').next().expect("a name")).collect();
+        assert_eq!(named, ["geometry", "torque", "violation", "spin_down_rate"]);
+        let rows = numbers(&table);
         assert_eq!(rows.len(), 1000);
         let days = |row: &[f64]| row[1] - 49_621.0 + row[2];
         for row in &rows {

@@ -113,6 +113,8 @@ mod tests {
         // Inside a character of two bytes: the mark is at its beginning.
         assert_eq!(message("\u{e9}\u{e9}x", 3..4), "sheet.toml:1:2: why\n  |\n1 | \u{e9}\u{e9}x\n  |  ^");
         assert_eq!(message("\u{e9}\u{e9}x", 0..1), "sheet.toml:1:1: why\n  |\n1 | \u{e9}\u{e9}x\n  | ^");
+        // A tab is shown as one space, so that the marks stand below what they mean on any screen.
+        assert_eq!(message("a\t= 23", 4..6), "sheet.toml:1:5: why\n  |\n1 | a = 23\n  |     ^^");
         // The mark would cover two characters, of which the line has one.
         assert_eq!(message("a\r\nb", 0..2), "sheet.toml:1:1: why\n  |\n1 | a\n  | ^");
     }

@@ -71,6 +71,12 @@ mod tests {
         let begun = of("a = 1\nb = 2\n", Some("c = 3\nd = 4\n"), 0..10);
         let difference = |now: Identity| now.difference_from(begun.facts());
         assert_eq!(difference(begun.clone()), None);
+        // A table of another version of the program is not continued.
+        let mut earlier = begun.facts().clone();
+        let program = earlier["program"].as_str().expect("a text").replace(env!("CARGO_PKG_VERSION"), "0.0.1");
+        earlier["program"] = program.into();
+        let told = begun.difference_from(&earlier).expect("another program");
+        assert!(told.starts_with("it was begun by \"twofold 0.0.1 "), "{told}");
         for (now, told) in [
             (
                 of("a = 1\nb = 3\n", Some("c = 3\nd = 4\n"), 0..10),

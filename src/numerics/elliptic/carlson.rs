@@ -213,3 +213,22 @@ fn degree_seven<S: Real>(e2: S, e3: S, e4: S, e5: S) -> S {
         + e2 * e2 * e3 * (45.0 / 272.0)
         - (e3 * e4 + e2 * e5) * (9.0 / 68.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `R_J(1, 1, 1, 4)` is `(3/2) int_1^inf u^(-3/2) du / (u + 3)`, with u = v^2 an arc tangent: `1 - pi / (3 sqrt 3)`. With 1/4 for 4 it has
+    /// the inverse of the hyperbolic tangent instead.
+    #[test]
+    fn three_equal_arguments_of_the_third_kind_have_a_closed_form() {
+        let root_three = 3f64.sqrt();
+        let far = 1.0 - core::f64::consts::PI / (3.0 * root_three);
+        let near = 4.0 * (2.0 * (root_three / 2.0).atanh() / root_three - 1.0);
+        for (p, expected) in [(4.0, far), (0.25, near)] {
+            for z in [1.0, 1.0 + 1e-15] {
+                assert!((rj(1.0, 1.0, z, p) / expected - 1.0).abs() < 1e-14, "{p}: {} {expected}", rj(1.0, 1.0, z, p));
+            }
+        }
+    }
+}

@@ -63,3 +63,20 @@ pub fn cosine_of_half_width<S: Scalar>(half_opening: S, theta: S, theta_o: S) ->
 pub fn edge_azimuths<S: Scalar>(phi_o: S, width: S) -> (S, S) {
     (phi_o - width / 2.0, phi_o + width / 2.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// From 1 rad to 1.5 rad it is exactly 0.5 rad, the radius of the beam: touched, not seen. A little more radius is a narrow pulse.
+    #[test]
+    fn a_beam_that_only_touches_the_line_of_sight_has_no_pulse() {
+        for (theta, theta_o) in [(1.0, 1.5), (1.5, 1.0)] {
+            assert_eq!(pulse_width(0.5, theta, theta_o), PulseWidth::NeverOn);
+            let PulseWidth::Pulsed(width) = pulse_width(0.5 + 1e-10, theta, theta_o) else {
+                panic!("the beam is seen")
+            };
+            assert!((1e-6..1e-4).contains(&width), "{width:e}");
+        }
+    }
+}

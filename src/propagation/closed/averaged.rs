@@ -132,8 +132,29 @@ impl<S: Real> Motion<S> for AveragedMotion<S> {
 
 #[cfg(test)]
 mod tests {
+    use num_dual::Dual64;
+
     use super::*;
     use crate::dynamics::fixture::problem;
+
+    /// The derivative by the time is the slope between states a little before and after.
+    #[test]
+    fn a_state_has_a_derivative_by_the_time() {
+        let problem = problem([2e-6, 1e-6, -3e-6]);
+        let motion = AveragedMotion::new(&problem, (0.0, 100.0), AveragingOrder::Second).unwrap();
+        let lifted = AveragedMotion::new(&problem.map(Dual64::from_re), (0.0, 100.0), AveragingOrder::Second).unwrap();
+        let (t, h) = (40.0, 1e-4);
+        let found = lifted.state(Dual64::new(t, 1.0)).unwrap();
+        let [before, after] = [t - h, t + h].map(|t| motion.state(t).unwrap());
+        for (found, difference) in [
+            (found.axis, after.axis - before.axis),
+            (found.equatorial_axis, after.equatorial_axis - before.equatorial_axis),
+        ] {
+            let slope = difference / (2.0 * h);
+            // The third derivative times h^2, and the rounding of a state over h.
+            assert!(slope.norm() > 1e-2 && (found.map(|x| x.eps) - slope).norm() < 1e-7, "{found:?} {slope:?}");
+        }
+    }
 
     #[test]
     fn an_epoch_lies_in_the_span_with_both_its_parts() {

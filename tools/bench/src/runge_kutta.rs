@@ -48,3 +48,21 @@ pub(super) fn orientation(scene: &BenchScene, duration: f64, tolerance: f64) -> 
     let (steps, equatorial_axis) = (end.accepted + end.rejected, Some(equatorial_axis));
     Ok(End { axis, momentum, equatorial_axis, steps, evaluations: end.evals })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each step has sixteen stages, whether it is accepted or not; the choice of the first takes less than sixteen evaluations.
+    #[test]
+    fn steps_that_are_rejected_count() {
+        for scene in BenchScene::all() {
+            for tolerance in [1e-3, 1e-5, 1e-8, 1e-11] {
+                for run in [axis, orientation] {
+                    let end = run(&scene, 100.0, tolerance).expect("a motion");
+                    assert_eq!(end.steps, end.evaluations / 16, "{}, {tolerance:e}", scene.name);
+                }
+            }
+        }
+    }
+}

@@ -125,6 +125,10 @@ mod tests {
         assert!(scene.error(t, &exact) < 2.3e-16);
         let wrong = End { equatorial_axis: Some(e_x + Vector3::new(0.0, 1e-9, 0.0)), ..exact };
         assert!((scene.error(t, &wrong) - 1e-9).abs() < 1e-15);
+        // L counts as a direction: off by 1e-9 of its length, across and along.
+        let off = momentum.x.abs().max(momentum.y.abs()).max(momentum.z.abs()) / momentum.norm();
+        let longer = End { momentum: momentum * (1.0 + 1e-9), ..exact };
+        assert!((scene.error(t, &longer) / (1e-9 * off) - 1.0).abs() < 1e-5 && (momentum.norm() - 1.0).abs() > 0.01);
         assert!(scene.error(t, &End { momentum: momentum * f64::NAN, ..exact }).is_nan());
     }
 }
