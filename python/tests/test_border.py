@@ -170,3 +170,9 @@ def test_nothing_leaks():
     before = kilobytes()
     calls(100_000)
     assert kilobytes() - before < 4_000
+
+
+@pytest.mark.parametrize("flag", [True, False, np.True_, np.array([True])])
+def test_a_boolean_is_no_number(flag):
+    with pytest.raises((TypeError, twofold.Error)):
+        MOTION.axis(flag)

@@ -221,7 +221,7 @@ fn what_is_wrong_is_named() {
     assert!(stderr(&other).contains("No limit is printed") && !stdout(&other).contains("limit of the wobble"));
     assert!(
         stderr(&other).contains("--periods: no limits")
-            && stdout(&other).contains("F0")
+            && stdout(&other).contains("f0")
             && !folder.at("limits.csv").exists()
     );
 }

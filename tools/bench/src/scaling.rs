@@ -132,20 +132,6 @@ mod tests {
         assert!((one - two).abs() < 1e-9 && one.abs() > 1e-3, "{one} {two}");
     }
 
-    /// A motion of 1,000 t_c has hundreds of steps: what comes before the first is a small part of it.
-    #[test]
-    fn the_set_up_is_a_small_part_of_a_motion() {
-        let problem = BenchScene::named("tp-II").problem.reduced();
-        let whole = (0..3).map(|_| {
-            let clock = Instant::now();
-            std::hint::black_box(problem.taylor((0.0, DURATION), TOLERANCE).expect("a motion"));
-            clock.elapsed().as_secs_f64()
-        });
-        let whole = whole.fold(f64::INFINITY, f64::min);
-        let found = set_up(&Effort { rounds: 1, longest: 1e3 }).expect("motions");
-        assert!(found < 0.2 * whole, "{found:e} s of {whole:e} s");
-    }
-
     /// 1,600 scenes in 0.8 s are one in 0.5 ms, on however many cores.
     #[test]
     fn the_time_of_a_scene_is_that_on_the_wall() {
