@@ -113,11 +113,7 @@ fn components(scene: &Scene) -> &'static str {
     let (body, s, l) = (scene.problem.spheroid(), scene.problem.coefficients(), scene.problem.initial().momentum);
     let values = s.symmetric_eigenvalues();
     let by_torque = 2.0 * body.inertia_xx * body.constant_c.abs() * (values.max() - values.min());
-    if l.norm_squared() < by_torque {
-        "n, e_x and L / (2 I^xx C (s_max - s_min))^(1/2)"
-    } else {
-        "n, e_x and L / |L|"
-    }
+    if l.norm_squared() < by_torque { "n, e_x and L / (2 I^xx C (s_max - s_min))^(1/2)" } else { "n, e_x and L / |L|" }
 }
 
 pub(super) fn force_method(scene: &mut Scene, args: &PlanArgs, name: &str) -> Result<(), Failure> {

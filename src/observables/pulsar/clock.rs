@@ -206,10 +206,8 @@ impl PulsarClock {
     /// # Errors
     /// As for [`TimingModel::new`] and [`precession_rates`](Self::precession_rates).
     pub fn timing_model(&self) -> Result<TimingModel, Error> {
-        let Precession { wobble, chi, phase, rate, damping, .. } = self.precession(self.time.precession().damping)?;
-        // The same star with its axis the other way round, about which angles change their sign.
-        let [wobble, chi, phase, precession_rate] =
-            if wobble > FRAC_PI_2 { [PI - wobble, PI - chi, -phase, -rate] } else { [wobble, chi, phase, rate] };
+        let Precession { wobble, chi, phase, rate: precession_rate, damping, .. } =
+            about_nearer_end(&self.precession(self.time.precession().damping)?);
         let Braking { rate, index, torque_share } = *self.time.braking();
         let frequency = self.turns.per_time(&self.motion);
         let f1 = -rate * frequency.high;
@@ -341,6 +339,7 @@ impl PulsarClock {
         let sight = &self.observer.direction;
         let damped = phase(&self.beam, sight, &self.state(tau))?;
         // The difference of the phases in free precession determines the whole turns.
+        let precession = &about_nearer_end(precession);
         let ahead = precession.ahead(tau[0]);
         let psi = precession.phase_at(tau[0]);
         let azimuth = |wobble: f64, psi: f64| azimuth_ahead(wobble, precession.chi, psi);
@@ -450,6 +449,12 @@ fn around<P: Margin>(search: &EdgeSearch<P>, time: f64, period: f64) -> Result<O
 fn nearest(train: &PulseTrain, time: f64) -> Option<Pulse> {
     let distance = |pulse: &Pulse| (pulse.start - time).max(time - pulse.end).max(0.0);
     train.pulses.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).copied()
+}
+
+/// A precession with the end of the symmetry axis that is nearer to `L` for `n`: the same star, with angles about `n` of the other sign.
+fn about_nearer_end(precession: &Precession) -> Precession {
+    let Precession { wobble, chi, phase, rate, damping, .. } = *precession;
+    if wobble > FRAC_PI_2 { Precession::new([PI - wobble, PI - chi, -phase], -rate, damping) } else { *precession }
 }
 
 #[cfg(test)]

@@ -101,8 +101,7 @@ impl<S: Real> AveragedSolution<S> {
 /// Rates at which two neighbours on the sphere separate: along their curves, and in the angle about `l`.
 fn neighbouring_rates(k: &Vector3<f64>, l: &Vector3<f64>, distance: f64) -> [f64; 2] {
     // Normalised as its neighbours are, so that no distance has no difference of rates.
-    let l = &l.normalize();
-    let here = Top::new((*k).into(), l);
+    let here = Top::new((*k).into(), &l.normalize());
     let speed = k.component_mul(l).cross(l).norm().max(here.largest_speed());
     let mut most = [0.0_f64; 2];
     for axis in [k.imin(), k.imax()] {
