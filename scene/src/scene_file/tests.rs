@@ -116,6 +116,7 @@ fn pulses_come_as_the_magnetic_axis_goes_round() {
             ];
             let scene = assert_taken(PHYSICAL, &given);
             let (state, body) = (scene.problem.initial(), scene.problem.spheroid());
+            assert_relative_eq!(body.oblateness(), oblateness, max_relative = 1e-15);
             let spin = state.axis.dot(&state.momentum) / body.inertia_zz;
             let per_second = (state.momentum.norm() / body.inertia_xx).copysign(spin) - turns_back * oblateness * spin;
             assert_relative_eq!(per_second / scene.units.time / TAU, frequency, max_relative = 1e-13);

@@ -77,8 +77,7 @@ impl SpinFit {
         // Times in units of the length of the chord.
         let unit = span.high;
         let times: Vec<_> = points.iter().map(|&(_, time)| since(time).high / unit).collect();
-        let middle = times.iter().sum::<f64>() / times.len() as f64;
-        let (fitted, rest) = without_polynomial(&times, left, 1 + derivatives);
+        let (middle, fitted, rest) = without_polynomial(&times, left, 1 + derivatives);
 
         // At the caller's time zero.
         let zero = DoubleDouble::default() - start;
@@ -97,7 +96,7 @@ impl SpinFit {
     pub fn residuals_of_delays(times: &[f64], delays: Vec<f64>, derivatives: usize) -> Vec<f64> {
         let unit = times.iter().fold(0.0_f64, |largest, time| largest.max(time.abs()));
         let times: Vec<_> = times.iter().map(|time| time / unit).collect();
-        without_polynomial(&times, delays, 1 + derivatives).1
+        without_polynomial(&times, delays, 1 + derivatives).2
     }
 
     /// The time at which the fit has the phase `number`, as the unevaluated sum of two doubles, by Newton's method from the root
@@ -124,8 +123,9 @@ impl SpinFit {
 /// Number of Newton steps, each of which squares the error: from a thousandth to 32 digits in four.
 const NEWTON_STEPS: usize = 5;
 
-/// The cubic polynomial of a degree of at most 3 fitted to values at times, by powers of the time since the mean one, and what it leaves of the values.
-fn without_polynomial(times: &[f64], values: Vec<f64>, degree: usize) -> ([f64; 4], Vec<f64>) {
+/// The mean of the times, the polynomial of a degree of at most 3 fitted to values at them, by powers of the time since the mean, and what it leaves of
+/// the values.
+fn without_polynomial(times: &[f64], values: Vec<f64>, degree: usize) -> (f64, [f64; 4], Vec<f64>) {
     let middle = times.iter().sum::<f64>() / times.len() as f64;
     let u: Vec<_> = times.iter().map(|time| time - middle).collect();
     let basis = orthogonal(&u, degree);
@@ -147,7 +147,7 @@ fn without_polynomial(times: &[f64], values: Vec<f64>, degree: usize) -> ([f64; 
             *z -= basis.iter().zip(&change).map(|(p, change)| change * horner(p, u)[0]).sum::<f64>();
         }
     }
-    (fitted, rest)
+    (middle, fitted, rest)
 }
 
 /// Coefficients, by powers of `u`, of the polynomials up to a degree of at most 3 that are orthogonal over points whose mean is
