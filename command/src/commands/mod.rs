@@ -203,7 +203,8 @@ fn out_that_is_read(arguments: impl Iterator<Item = OsString>) -> Option<PathBuf
     }
     let file = |path: &PathBuf| std::fs::canonicalize(path).ok().filter(|path| path.is_file());
     let same = out.as_ref().and_then(file)?;
-    others.iter().any(|other| file(other).as_ref() == Some(&same)).then_some(out)?
+    let is_read = others.iter().any(|other| file(other).as_ref() == Some(&same));
+    out.filter(|_| is_read)
 }
 
 /// Carries out a command; its exit status.
