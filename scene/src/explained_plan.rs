@@ -129,12 +129,17 @@ fn why(plan: &Plan) -> Option<String> {
         plan.admits(other).then_some((candidate.method, other.cost))
     });
     let next = usable.min_by(|a, b| a.1.total_cmp(&b.1));
-    let found = format!("the cheapest of those whose predicted error is at most {:.0e}", plan.tolerance);
+    let asked = format!("whose predicted error is at most {:.0e}", plan.tolerance);
+    let found = if prediction.truncation <= plan.tolerance {
+        format!("the cheapest of those {asked}")
+    } else {
+        format!("those {asked} lose more than its error to rounding")
+    };
     Some(match next {
         Some((other, cost)) => {
             format!("{found}; next is {}, {:.1} times the cost", other.name(), cost / prediction.cost)
         }
-        None => format!("{found}, and the only one"),
+        None => format!("{found}; there is no other"),
     })
 }
 

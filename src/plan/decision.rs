@@ -93,13 +93,20 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Whether the method is predicted to meet the tolerance. Its truncation error must be below the tolerance. Its rounding, if above the tolerance,
-    /// must be at most a hundred times that of another method: after 1e12 turns phases in doubles no longer have the required accuracy.
+    /// Whether the method may be chosen. Its truncation error must be below the tolerance, or below the error of every method that is: where these lose
+    /// more to rounding, a method that just misses the tolerance is no worse. Its rounding, if above the tolerance, must be at most a hundred times
+    /// the error of another method: after 1e12 turns phases in doubles no longer have the required accuracy.
     pub fn admits(&self, prediction: &Prediction) -> bool {
-        let meets = |prediction: &Prediction| prediction.truncation <= self.tolerance;
-        let predictions = self.considered.iter().filter_map(|candidate| candidate.prediction.as_ref().ok());
-        let least = predictions.filter(|other| meets(other)).map(|other| other.rounding).fold(f64::INFINITY, f64::min);
-        meets(prediction) && prediction.rounding <= (FAR_BELOW * least).max(self.tolerance)
+        let least_error = |allowed: f64| {
+            let predictions = self.considered.iter().filter_map(|candidate| candidate.prediction.as_ref().ok());
+            // The rounding of an elliptic solution that misses the tolerance is not known.
+            let accurate = predictions.filter(|other| other.truncation <= allowed && !other.rounding.is_nan());
+            accurate.map(|other| other.truncation.max(other.rounding)).reduce(f64::min)
+        };
+        let Some(reached) = least_error(self.tolerance) else { return false };
+        let allowed = reached.max(self.tolerance);
+        let least = least_error(allowed).unwrap_or(reached);
+        prediction.truncation <= allowed && prediction.rounding <= (FAR_BELOW * least).max(self.tolerance)
     }
 
     /// The cheapest admissible method; if one was requested, this one.
@@ -223,6 +230,28 @@ mod tests {
         assert!(plan.admits(&best) && plan.admits(&admitted) && !plan.admits(&refused));
         plan.tolerance = 100.4;
         assert!(plan.admits(&refused));
+    }
+
+    /// Where all that meet the tolerance lose `lost` to rounding, a truncation up to this is no worse; one that no other is compared with must meet it.
+    #[test]
+    fn a_truncation_above_the_tolerance_is_admitted_below_the_rounding_of_the_others() {
+        let mut plan = plan(Output::SymmetryAxis, Some(Method::Taylor));
+        let lost = 3e-6;
+        let with = |truncation, rounding| Prediction { truncation, rounding, ..plan.prediction.unwrap() };
+        let (meets, misses) = (with(1e-9, lost), with(0.9 * lost, 1e-9));
+        let [unknown, too_far] = [with(0.1 * lost, f64::NAN), with(1.1 * lost, 1e-9)];
+        let considered = |all: &[Prediction]| {
+            all.iter().map(|one| Candidate { method: Method::Averaged, prediction: Ok(*one) }).collect::<Vec<_>>()
+        };
+        plan.considered = considered(&[misses, too_far]);
+        assert!(!plan.admits(&misses));
+        plan.considered = considered(&[meets, misses, unknown, too_far]);
+        assert!(plan.admits(&meets) && plan.admits(&misses) && !plan.admits(&unknown) && !plan.admits(&too_far));
+        // One that misses the tolerance can be far more accurate than all that meet it.
+        plan.considered = considered(&[meets, with(lost / 101.0, 1e-9)]);
+        assert!(!plan.admits(&meets));
+        plan.tolerance = 4e-6;
+        assert!(plan.admits(&meets) && plan.admits(&misses) && plan.admits(&too_far));
     }
 
     #[test]

@@ -23,6 +23,7 @@ proptest! {
             tolerance: 10f64.powf(log_tolerance),
             strength: problem.coefficients().amax(),
             near_middle_axis: false,
+            near_rest: false,
         };
         let (estimate, error) = scene.estimated_and_true(Method::Taylor).map_err(TestCaseError::fail)?;
         prop_assert!(estimate >= error, "estimated {estimate:e}, true {error:e}");

@@ -82,12 +82,22 @@ pub(crate) struct OutputArgs {
 
 pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     let names: Option<Vec<_>> = args.columns.as_ref().map(|names| names.iter().map(|name| name.trim()).collect());
-    let mut scene = read_scene(&args.scene, names.as_deref().map_or(Columns::OfTheFile, Columns::Named))?;
-    force_method(&mut scene, &args.plan, &args.scene)?;
+    let refused = |why: String| Failure::BadInput(format!("{}: {why}", args.scene));
+    let scene = if args.plan.method.is_none() {
+        read_scene(&args.scene, names.as_deref().map_or(Columns::OfTheFile, Columns::Named))?
+    } else {
+        // Whether columns can be computed over the span depends on the method, here another than that of the file.
+        let mut scene = read_scene(&args.scene, names.as_ref().map_or(Columns::OfTheFileLater, |_| Columns::Unused))?;
+        force_method(&mut scene, &args.plan, &args.scene)?;
+        if let Some(names) = names {
+            scene.choose_columns(&names).map_err(|why| refused(format!("--columns: {why}")))?;
+        }
+        scene.check_rotation(&scene.columns).map_err(refused)?;
+        scene
+    };
     let scene = args.window.of(scene, &args.scene)?;
     for output in &scene.columns {
-        let lacks = |lacks: String| Failure::BadInput(format!("{}: {lacks}", args.scene));
-        scene.has_what_is_needed_for(*output).map_err(lacks)?;
+        scene.has_what_is_needed_for(*output).map_err(refused)?;
     }
     if args.plan.explain {
         return print(&explained(&scene, &scene.plan(&scene.columns)?));

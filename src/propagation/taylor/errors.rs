@@ -131,8 +131,11 @@ impl<const V: usize> TaylorErrors<V> {
         let kicked = (self.flow.strength() * h.abs()).max(changes.column(MOMENTUM).norm() * rate);
         // Within a step the momentum also depends on the torque from the defect of the axis.
         let uncertain = UNCERTAIN * (known.momentum.norm() + size * kicked.min(self.momentum_unit));
+        // The linearised flow neglects the square of the error carried, which matters where the error shrinks again afterwards.
+        let second_order = carried * carried * turned;
         let [turned, kicked] = [turned, kicked].map(|change| ROUNDING * f64::EPSILON * change);
-        let deviations = [turned + UNCERTAIN * size, kicked + uncertain];
+        let deviations =
+            [turned + UNCERTAIN * size + second_order, kicked + uncertain + second_order * self.momentum_unit];
         let mut added = known;
         added.rotation += axis * (self.shared.rate_about_axis * h);
         self.growth.add(&added, deviations);
@@ -265,6 +268,20 @@ mod tests {
         let ([once, twice], [with_once, with_twice]) = (of(0.0), of(-1e6));
         assert_relative_eq!(with_once - once, ANGLE_ROUNDING * 1e5, max_relative = 1e-9);
         assert_relative_eq!(with_twice - twice, ANGLE_ROUNDING * 2e5, max_relative = 1e-9);
+    }
+
+    /// A step of a free star makes no truncation; an error of `e` carried adds deviations of `e^2` times the angle turned.
+    #[test]
+    fn the_square_of_the_error_carried_is_added() {
+        let momentum = Vector3::new(0.0, 0.0, 1.3);
+        let (mut errors, series) = rotating::<2>(momentum);
+        let (h, carried) = (0.5 / series[1].column(AXIS).norm(), 1e-3);
+        errors.before = carried;
+        let before = errors.growth.clone().estimate(None);
+        errors.step_of_columns(&series, h, &end(&series, h));
+        // Of the rotation but for that about n, of the length and of the momentum: six components.
+        let expected = ErrorGrowth::counted_deviation(carried * carried * 0.5_f64.hypot(0.125)) * 6.0_f64.sqrt();
+        assert_relative_eq!(errors.before - before, expected, max_relative = 0.05);
     }
 
     /// Rounding applies to the change of `n`, with both of its first terms taken without their signs: at a right angle to `L` and by half a radian

@@ -101,7 +101,7 @@ fn propagate_alike<R: Register>(a: Componentwise<Lanes<R>>, motions: &[Ready<'_>
             let Some(Lane { ready, clock }) = lane else { continue };
             let (setup, drive) = (&ready.setup, ready.setup.drive());
             let sizes = sizes.map(|[axis, momentum]| setup.scale.size_of_both(axis.get(place), momentum.get(place)));
-            let wanted = step_size(sizes, order, &setup.scale, drive.budget);
+            let wanted = step_size(sizes, order, &setup.scale, drive.budget).min(drive.longest_step);
             let step = match clock.advance(wanted, drive.duration, LIMIT) {
                 Ok(step) => step,
                 Err(error) => {

@@ -12,7 +12,7 @@ use crate::numerics::scalar::Real;
 use crate::propagation::input::{check_request, check_time};
 use crate::propagation::taylor::frame::SeriesFrame;
 use crate::propagation::taylor::series::{AXIS, MOMENTUM, Vectors, change};
-use crate::propagation::taylor::step_size::{Scale, Work, order_for};
+use crate::propagation::taylor::step_size::{Scale, Work, longest_step, order_for};
 use crate::propagation::taylor::stepper::Stepper;
 use crate::propagation::third_angle::{body_state, rate_about_axis};
 
@@ -25,6 +25,7 @@ pub(super) struct ScaledProblem<S, const V: usize> {
     pub(super) scale: Scale,
     pub(super) order: usize,
     budget: f64,
+    longest_step: f64,
     pub(super) frame: SeriesFrame<S>,
     pub(super) given_start: [Vector3<S>; V],
     /// The initial vectors in the frame of the series.
@@ -59,12 +60,27 @@ impl<S: Real, const V: usize> ScaledProblem<S, V> {
         let growth = 1.0 + scale.turning_rate * duration / 2.0;
         let budget = if duration > 0.0 { (tolerance / (duration * growth)).min(f64::MAX) } else { tolerance };
         let order = order_for(budget / scale.turning_rate.max(f64::MIN_POSITIVE), work);
+        // If real parts alone choose the steps, derivatives have more and faster terms than the real parts show: near free
+        // rotation the derivative with respect to `s` has terms of twice the frequency.
+        let longest_step = if principal_frame { longest_step(order, &scale, budget) } else { 1.0 / scale.turning_rate };
         let frame = SeriesFrame::of(&anisotropic, principal_frame)?;
         let rate_about_axis = rate_about_axis(spheroid, &start[AXIS], &start[MOMENTUM]);
         let given_start = start;
         let start = start.map(|v| Padded::from(frame.series_from_given(&v)));
         let (spheroid, tensor) = (*spheroid, *s);
-        Ok(Self { spheroid, tensor, span, scale, order, budget, frame, given_start, start, rate_about_axis })
+        Ok(Self {
+            spheroid,
+            tensor,
+            span,
+            scale,
+            order,
+            budget,
+            longest_step,
+            frame,
+            given_start,
+            start,
+            rate_about_axis,
+        })
     }
 
     /// `1` forwards in time, `-1` backwards.
@@ -100,6 +116,7 @@ impl<S: Real, const V: usize> ScaledProblem<S, V> {
             duration: self.duration(),
             direction: self.direction(),
             budget: self.budget,
+            longest_step: self.longest_step,
         }
     }
 

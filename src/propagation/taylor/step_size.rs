@@ -1,5 +1,7 @@
 //! Sizes relative to which a series is measured, its order and its step.
 
+use core::f64::consts::SQRT_2;
+
 use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::RigidSpheroid;
@@ -16,7 +18,13 @@ pub(super) struct Scale {
     pub(super) turning_rate: f64,
     /// A power of two near the inverse of that rate.
     pub(super) time: f64,
+    /// Upper bound of the rate at which the torque makes a deviation from a state of rest grow.
+    pub(super) growth_rate: f64,
 }
+
+/// Longest step, in steps that a growing exponential of size one would need. Steps for the absolute size of a deviation follow it up to `2^-order`
+/// with a relative truncation of some `2^order` times that of a motion of size one.
+const LONGEST: f64 = 2.0;
 
 impl Scale {
     pub(super) fn of<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, momentum: &Vector3<S>) -> Self {
@@ -28,7 +36,9 @@ impl Scale {
         let turning_rate = momentum / inertia * (1.0 + body_turn);
         let time = if turning_rate > 0.0 { 2f64.powi(-turning_rate.log2().clamp(-1000.0, 1000.0) as i32) } else { 1.0 };
         // A body at rest without torque remains at rest: any unit of momentum is suitable.
-        Self { momentum: if momentum > 0.0 { momentum } else { inertia }, turning_rate, time }
+        // `rate^2 <= 2 C (largest - smallest eigenvalue) / I^xx`, and a difference of eigenvalues is at most `2^(1/2)` times the norm.
+        let growth_rate = (2.0 * SQRT_2 / inertia).sqrt() * pull.sqrt();
+        Self { momentum: if momentum > 0.0 { momentum } else { inertia }, turning_rate, time, growth_rate }
     }
 
     /// Largest component of a coefficient, `L` in units of the momentum; NaN if one is NaN.
@@ -91,6 +101,13 @@ pub(super) fn step_size(sizes: [f64; 2], order: usize, scale: &Scale, budget: f6
     if exponent == f64::NEG_INFINITY { 0.0 } else { coarse_exp2(exponent) * scale.time }
 }
 
+/// Longest step of any motion. Near a state of rest the coefficients are as small as the deviation from it, and steps by their size would not resolve
+/// its growth `exp(rate t)`, with which it may leave an unstable rest.
+pub(super) fn longest_step(order: usize, scale: &Scale, budget: f64) -> f64 {
+    let size = |k: usize| (1..=k).fold(1.0, |size, j| size * scale.growth_rate * scale.time / j as f64);
+    LONGEST * step_size([size(order), size(order - 1)], order, scale, budget)
+}
+
 /// Binary logarithm of a positive number, too small by at most 0.09: from its exponent and its mantissa, which is taken to
 /// be linear. A step needs no more precision, and the library's logarithm takes as long as a tenth of a step.
 #[inline(always)]
@@ -127,16 +144,42 @@ mod tests {
         assert_eq!(coarse_exp2(0.0), 1.0);
     }
 
+    /// `(2 rate h)^k / k!` of the last term kept is `budget h` for a step of `2 h`, but for powers and logarithms without all digits.
+    #[test]
+    fn the_longest_step_is_two_steps_of_an_exponential() {
+        for (order, budget) in [(10, 1e-6_f64), (22, 1e-13)] {
+            let scale = Scale { momentum: 2.5, turning_rate: 1.7, time: 0.5, growth_rate: 0.4 };
+            let h = longest_step(order, &scale, budget) / 2.0;
+            let term = |k: usize| (1..=k).fold(1.0, |term, j| term * scale.growth_rate * h / j as f64);
+            let largest = f64::max(term(order), term(order - 1)) / (budget * h);
+            assert!((0.8..1.05).contains(&largest), "{order}: {largest}");
+            let free = Scale { growth_rate: 0.0, ..scale };
+            assert!(longest_step(order, &free, budget) > 1e100);
+        }
+    }
+
+    /// The bound is met by `n` and `L` of a star at rest that turns in the plane of the largest and the smallest of two eigenvalues of opposite signs.
+    #[test]
+    fn a_deviation_grows_at_most_at_the_growth_rate() {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
+        let s = Matrix3::from_diagonal(&Vector3::new(0.3, 0.0, -0.3));
+        // For n along the unstable axis and L = 0: theta'' = 2 C (0.3 + 0.3) theta / I^xx.
+        let fastest = (2.0 * 0.7 * 0.6 / 1.3_f64).sqrt();
+        let scale = Scale::of(&spheroid, &s, &Vector3::zeros());
+        assert!((scale.growth_rate / fastest - 1.0).abs() < 1e-15, "{}", scale.growth_rate / fastest);
+        assert_eq!(Scale::of(&spheroid, &Matrix3::zeros(), &Vector3::z()).growth_rate, 0.0);
+    }
+
     #[test]
     fn the_momentum_counts_in_its_unit() {
-        let scale = Scale { momentum: 2.5, turning_rate: 1.7, time: 0.5 };
+        let scale = Scale { momentum: 2.5, turning_rate: 1.7, time: 0.5, growth_rate: 0.4 };
         assert_eq!(scale.size_of_both(0.3, 1.0), 0.4);
         assert_eq!(scale.size_of_both(0.5, 1.0), 0.5);
     }
 
     #[test]
     fn coefficients_out_of_range_allow_no_step() {
-        let scale = Scale { momentum: 2.5, turning_rate: 1.7, time: 0.5 };
+        let scale = Scale { momentum: 2.5, turning_rate: 1.7, time: 0.5, growth_rate: 0.4 };
         for sizes in [[f64::INFINITY, 1.0], [1.0, f64::NAN]] {
             assert_eq!(step_size(sizes, 10, &scale, 1e-9), 0.0);
         }

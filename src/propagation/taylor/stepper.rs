@@ -25,6 +25,7 @@ pub(super) struct Stepper<'a, S, const V: usize> {
     pub(super) direction: f64,
     /// Truncation error per unit of time.
     pub(super) budget: f64,
+    pub(super) longest_step: f64,
 }
 
 /// Rates of the recurrences in units of the series.
@@ -64,7 +65,7 @@ impl<S: Real, const V: usize> Stepper<'_, S, V> {
         let mut series = vec![[a.zero(); V]; self.order + 1];
         self.recurrence(a).expand(&self.start.map(|v| a.load(&v)), &mut series);
         let sizes = [self.order, self.order - 1].map(|k| self.scale.size(a, &series[k]));
-        step_size(sizes, self.order, self.scale, self.budget)
+        step_size(sizes, self.order, self.scale, self.budget).min(self.longest_step)
     }
 
     /// Takes steps from the start to the end of the span, at most `limit`; `visit` receives each with its series.
@@ -75,19 +76,16 @@ impl<S: Real, const V: usize> Stepper<'_, S, V> {
         limit: StepLimit,
         mut visit: impl FnMut(&Interval, &[Vectors<A::Vector, V>]) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let Stepper { scale, order, duration, direction, budget, .. } = *self;
+        let Stepper { scale, order, duration, direction, budget, longest_step, .. } = *self;
         let mut recurrence = self.recurrence(a);
         let mut series = vec![[a.zero(); V]; order + 1];
         let mut state = CompensatedVectors::new(a, self.start.map(|v| a.load(&v)));
         let mut clock = Clock::new();
-        // If real parts alone choose the steps, derivatives have more and faster terms than the real parts show: near free
-        // rotation the derivative with respect to `s` has terms of twice the frequency.
-        let longest = if A::PRINCIPAL_FRAME { f64::INFINITY } else { 1.0 / scale.turning_rate };
         loop {
             recurrence.expand(&state.high, &mut series);
             // Not by `map`, which is not always inlined and then loses the instructions of `a`.
             let sizes = [scale.size(a, &series[order]), scale.size(a, &series[order - 1])];
-            let step = clock.advance(step_size(sizes, order, scale, budget).min(longest), duration, limit)?;
+            let step = clock.advance(step_size(sizes, order, scale, budget).min(longest_step), duration, limit)?;
             visit(&step, &series)?;
             if step.is_last() {
                 return Ok(());

@@ -8,6 +8,10 @@ checks! {
     Oracle "error-estimate-not-below" [25]: || worst_of(scenes().chain(HARD), ratio);
     AtMost(1.0) "largest true / estimated error, 200 random scenes up to 60 rad, tolerances 1e-3 to 1e-16, and 6 hard ones";
     because "an estimate below the true error is wrong";
+    /// the estimated error of a motion is not below its true error where it starts near a state of rest, stable or not
+    Oracle "error-estimate-near-rest" [25]: || worst_of((0..).filter(|&number| near_rest(number).turned() < 60.0).take(2000), |&number| estimate_ratio(&near_rest(number)));
+    AtMost(1.0) "largest true / estimated error, 2,000 random scenes that start 1e-12 to 1e-1 off a state of rest or of spin about an axis of s, tolerances 1e-6 to 1e-2, up to 60 rad";
+    because "an estimate below the true error is wrong";
     /// the estimated error of a motion is rarely more than a hundred times its true error
     Oracle "error-estimate-not-far-above" [25]: far_above;
     AtMost(0.03) "share of estimates above 100 times the true error, the same scenes";
@@ -23,8 +27,16 @@ const HARD: [(u64, u64); 6] = [(22, 3645), (22, 9181), (22, 5925), (22, 1197), (
 
 /// True over estimated error of a scene.
 fn ratio(&(seed, number): &(u64, u64)) -> Result<f64, String> {
-    let (estimate, error) = ErrorScene::draw(seed, number).estimated_and_true(Method::Taylor)?;
+    estimate_ratio(&ErrorScene::draw(seed, number))
+}
+
+fn estimate_ratio(scene: &ErrorScene) -> Result<f64, String> {
+    let (estimate, error) = scene.estimated_and_true(Method::Taylor)?;
     Ok(error / estimate)
+}
+
+fn near_rest(number: u64) -> ErrorScene {
+    ErrorScene::draw(SEED, number).started_near_rest(number)
 }
 
 /// The first 200 scenes of the seed that are short enough for a suite.
