@@ -97,7 +97,9 @@ impl DataFile {
         let whole = text.parse().ok().filter(|whole| (-LARGEST_TURN..=LARGEST_TURN).contains(whole));
         whole.ok_or_else(|| {
             let (name, text) = (&self.name, shortened(text));
-            format!("{name}:{line}: `{column}` is `{text}`: allowed is a whole number from -1e15 to 1e15")
+            format!(
+                "{name}:{line}: `{column}` is `{text}`: allowed is a whole number in digits alone, from -1e15 to 1e15"
+            )
         })
     }
 

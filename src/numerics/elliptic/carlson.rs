@@ -231,4 +231,14 @@ mod tests {
             }
         }
     }
+
+    /// Of 1, 2, 1 and p = 1/2 the mean (x + y + z + 2 p) / 5 is 1: only y and p are far from it.
+    #[test]
+    fn an_integral_of_the_third_kind_is_symmetric() {
+        let of = |[x, y, z]: [f64; 3]| rj(x, y, z, 0.5);
+        let expected = of([2.0, 1.0, 1.0]);
+        for arguments in [[1.0, 2.0, 1.0], [1.0, 1.0, 2.0]] {
+            assert!((of(arguments) / expected - 1.0).abs() < 1e-15, "{} {expected}", of(arguments));
+        }
+    }
 }
