@@ -31,13 +31,14 @@ impl Scale {
         let inertia = spheroid.inertia_xx.re();
         let pull = spheroid.constant_c.re().abs() * s.map(S::re).norm();
         // Two roots, since the product may be out of range even if they are not.
-        let momentum = real_part(momentum).norm() + (2.0 * inertia).sqrt() * pull.sqrt();
+        let of_torque = (2.0 * inertia).sqrt() * pull.sqrt();
+        let momentum = real_part(momentum).norm() + of_torque;
         let body_turn = (1.0 - spheroid.inertia_xx.re() / spheroid.inertia_zz.re()).abs();
         let turning_rate = momentum / inertia * (1.0 + body_turn);
         let time = if turning_rate > 0.0 { 2f64.powi(-turning_rate.log2().clamp(-1000.0, 1000.0) as i32) } else { 1.0 };
-        // A body at rest without torque remains at rest: any unit of momentum is suitable.
         // `rate^2 <= 2 C (largest - smallest eigenvalue) / I^xx`, and a difference of eigenvalues is at most `2^(1/2)` times the norm.
-        let growth_rate = (2.0 * SQRT_2 / inertia).sqrt() * pull.sqrt();
+        let growth_rate = SQRT_2.sqrt() * of_torque / inertia;
+        // A body at rest without torque remains at rest: any unit of momentum is suitable.
         Self { momentum: if momentum > 0.0 { momentum } else { inertia }, turning_rate, time, growth_rate }
     }
 
