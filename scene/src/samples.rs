@@ -8,8 +8,9 @@ use twofold::propagation::{ContinuousAngles, Motion, TOLERANCE_RANGE};
 
 use crate::scene_file::Scene;
 
-/// Rotation per segment of motion that is stored in memory at a time, in rad.
-pub(crate) const ROTATION_PER_SEGMENT: f64 = 5e4;
+/// Rotation per segment of motion that is stored in memory at a time, in rad. Its series take some 7 MB; ten times as many were written five times as
+/// slowly, because each segment had to get its memory from the system anew.
+pub(crate) const ROTATION_PER_SEGMENT: f64 = 5e3;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
@@ -226,6 +227,14 @@ pub(crate) struct Segment<X> {
     pub is_last: bool,
 }
 
+/// Number of segments with a rotation of at most `most` rad in which a plan for `scene` is computed.
+pub(crate) fn segment_count(scene: &Scene, plan: &Plan, most: f64) -> usize {
+    if plan.costs_the_same_at_any_time() {
+        return 1;
+    }
+    (plan.span.1.abs() * scene.turning_rate() / most).ceil().max(1.0) as usize
+}
+
 impl<'s, X: SegmentState> Segments<'s, X> {
     /// The segments of a plan for `scene`, at least one.
     pub fn new(scene: &'s Scene, plan: &Plan) -> Result<Self, Error> {
@@ -236,9 +245,7 @@ impl<'s, X: SegmentState> Segments<'s, X> {
     pub(crate) fn with_rotation(scene: &'s Scene, plan: &Plan, most: f64) -> Result<Self, Error> {
         let (what, why) = ("motion of the plan", "none of its outputs needs one");
         let method = plan.method.ok_or(Error::Unsupported { what, why })?;
-        let total = plan.span.1;
-        let whole = plan.costs_the_same_at_any_time();
-        let count = if whole { 1 } else { (total.abs() * scene.turning_rate() / most).ceil().max(1.0) as usize };
+        let (total, count) = (plan.span.1, segment_count(scene, plan, most));
         let initial = X::from_vectors(scene.problem.initial().vectors());
         let problem = Problem::new(*scene.problem.spheroid(), *scene.problem.coefficients(), initial)?;
         let problem = problem.with_bulge(scene.problem.bulge())?;
@@ -365,12 +372,12 @@ mod tests {
         }
     }
 
-    /// So that memory does not grow with the span, a segment rotates by at most 5e4 rad: 5.2e4 rad are two of 2.6e4. An error does not decrease with
+    /// So that memory does not grow with the span, a segment rotates by at most 5e3 rad: 5.2e3 rad are two of 2.6e3. An error does not decrease with
     /// time at the end of a segment. The error of a closed form, which begins with the scene, does not grow with the number of earlier segments. The
     /// error is requested only at the end, or at the samples.
     #[test]
     fn errors_go_on_over_the_ends_of_segments() {
-        let rotations = [2.5e4, 2.7e4, 5.2e4];
+        let rotations = [2.5e3, 2.7e3, 5.2e3];
         let errors = |scene: &Scene, plan: &Plan, estimates| {
             let (mut errors, mut ends) = (Vec::new(), vec![0.0]);
             let take = |_, sample: &Sample| {

@@ -69,15 +69,18 @@ pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, 
             return fault(line, 1, format!("one row too many: the published file has {rows_wanted}"));
         }
         let mut row = Vec::with_capacity(width);
-        for (column, word) in words(content) {
+        for word in content.split_ascii_whitespace() {
             if row.len() == width {
                 let names = std::iter::once("t").chain(columns.iter().map(|column| column.name));
                 let names = names.collect::<Vec<_>>().join(", ");
-                return fault(line, column, format!("a column too many: the file has {width} ({names})"));
+                return fault(line, column_of(word, content), format!("a column too many: the file has {width} ({names})"));
             }
             match word.parse::<f64>() {
                 Ok(value) if value.is_finite() => row.push(value),
-                _ => return fault(line, column, format!("`{}` is not a finite decimal number", shortened(word))),
+                _ => {
+                    let message = format!("`{}` is not a finite decimal number", shortened(word));
+                    return fault(line, column_of(word, content), message);
+                }
             }
         }
         let end = content.chars().count() + 1;
@@ -86,7 +89,7 @@ pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, 
             return fault(line, end, format!("{why}: {} of {width} numbers", row.len()));
         }
         let time = row[0];
-        let (start, _) = words(content).next().unwrap_or((1, ""));
+        let start = content.split_ascii_whitespace().next().map_or(1, |word| column_of(word, content));
         if !(0.0..=LATEST_TIME).contains(&time) {
             return fault(line, start, format!("time {time:?}: allowed is from 0 to {LATEST_TIME} t_c"));
         }
@@ -106,15 +109,10 @@ pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, 
     Ok(Table { rows })
 }
 
-/// The words of a line with the columns, from one, at which they begin.
-fn words(line: &str) -> impl Iterator<Item = (usize, &str)> {
-    line.split([' ', '\t', '\r'])
-        .scan(1, |next, word| {
-            let column = *next;
-            *next += word.chars().count() + 1;
-            Some((column, word))
-        })
-        .filter(|(_, word)| !word.is_empty())
+/// The column, from one, at which a word of a line begins.
+fn column_of(word: &str, line: &str) -> usize {
+    let before = word.as_ptr().addr() - line.as_ptr().addr();
+    line[..before].chars().count() + 1
 }
 
 #[cfg(test)]

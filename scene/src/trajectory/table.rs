@@ -136,7 +136,7 @@ mod tests {
         scene.tolerance = 1e-2;
         scene.choose_method("taylor").unwrap();
         scene.choose_columns(&["e_z"]).unwrap();
-        scene.times = crate::scene_file::Times::Listed { start: 0.0, times: vec![1.2e5 / scene.turning_rate()] };
+        scene.times = crate::scene_file::Times::Listed { start: 0.0, times: vec![1.2e4 / scene.turning_rate()] };
         let mut shown = Vec::new();
         write_csv(&scene, Vec::new(), |part| shown.push(part)).unwrap();
         assert_eq!(shown, [1.0 / 3.0, 2.0 / 3.0, 1.0, 1.0]);
