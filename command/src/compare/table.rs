@@ -73,7 +73,11 @@ pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, 
             if row.len() == width {
                 let names = std::iter::once("t").chain(columns.iter().map(|column| column.name));
                 let names = names.collect::<Vec<_>>().join(", ");
-                return fault(line, column_of(word, content), format!("a column too many: the file has {width} ({names})"));
+                return fault(
+                    line,
+                    column_of(word, content),
+                    format!("a column too many: the file has {width} ({names})"),
+                );
             }
             match word.parse::<f64>() {
                 Ok(value) if value.is_finite() => row.push(value),
