@@ -5,7 +5,7 @@ use std::fmt::Write;
 use twofold::plan::{Candidate, MACHINE, Plan, Prediction, Promise, State};
 
 use crate::estimated_error::{ROUNDING_OF_COMPONENT, as_printed};
-use crate::samples::{ROTATION_PER_SEGMENT, segment_count};
+use crate::samples::segment_count;
 use crate::scene_file::Scene;
 
 /// A plan for outputs of `scene`, as `--explain` prints it.
@@ -59,7 +59,7 @@ pub fn explained(scene: &Scene, plan: &Plan) -> String {
             row("steps", format!("about {steps:.0} of order {order}: {:.0} right-hand sides", work.right_hand_sides));
         }
         row("evaluations", format!("about {:.0} of {}", work.evaluations(), plan.state.name()));
-        let segments = segment_count(scene, plan, ROTATION_PER_SEGMENT);
+        let segments = segment_count(scene, plan);
         let at_a_time = match segments {
             1 => String::new(),
             count => format!(" at a time, in {count} segments of the span"),

@@ -8,9 +8,12 @@ use twofold::propagation::{ContinuousAngles, Motion, TOLERANCE_RANGE};
 
 use crate::scene_file::Scene;
 
-/// Rotation per segment of motion that is stored in memory at a time, in rad. Its series take some 7 MB; ten times as many were written five times as
-/// slowly, because each segment had to get its memory from the system anew.
-pub(crate) const ROTATION_PER_SEGMENT: f64 = 5e3;
+/// Rotation, in rad, up to which a motion is computed as a whole, with an error estimate of its own.
+const ROTATION_AS_A_WHOLE: f64 = 5e4;
+
+/// Rotation per segment of a longer motion, in rad. Its series take some 14 MB; segments of ten times as much were computed at a fifth of the speed,
+/// because each had to get its memory from the system anew.
+const ROTATION_PER_SEGMENT: f64 = 5e3;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
@@ -227,25 +230,32 @@ pub(crate) struct Segment<X> {
     pub is_last: bool,
 }
 
-/// Number of segments with a rotation of at most `most` rad in which a plan for `scene` is computed.
-pub(crate) fn segment_count(scene: &Scene, plan: &Plan, most: f64) -> usize {
-    if plan.costs_the_same_at_any_time() {
+/// Number of segments in which a plan for `scene` is computed.
+pub(crate) fn segment_count(scene: &Scene, plan: &Plan) -> usize {
+    let rotation = plan.span.1.abs() * scene.turning_rate();
+    if plan.costs_the_same_at_any_time() || rotation <= ROTATION_AS_A_WHOLE {
         return 1;
     }
-    (plan.span.1.abs() * scene.turning_rate() / most).ceil().max(1.0) as usize
+    (rotation / ROTATION_PER_SEGMENT).ceil() as usize
 }
 
 impl<'s, X: SegmentState> Segments<'s, X> {
     /// The segments of a plan for `scene`, at least one.
     pub fn new(scene: &'s Scene, plan: &Plan) -> Result<Self, Error> {
-        Self::with_rotation(scene, plan, ROTATION_PER_SEGMENT)
+        Self::of_number(scene, plan, segment_count(scene, plan))
     }
 
     /// The segments of a plan for `scene` with a rotation of at most `most` rad each.
+    #[cfg(test)]
     pub(crate) fn with_rotation(scene: &'s Scene, plan: &Plan, most: f64) -> Result<Self, Error> {
+        let rotation = if plan.costs_the_same_at_any_time() { 0.0 } else { plan.span.1.abs() * scene.turning_rate() };
+        Self::of_number(scene, plan, (rotation / most).ceil().max(1.0) as usize)
+    }
+
+    fn of_number(scene: &'s Scene, plan: &Plan, count: usize) -> Result<Self, Error> {
         let (what, why) = ("motion of the plan", "none of its outputs needs one");
         let method = plan.method.ok_or(Error::Unsupported { what, why })?;
-        let (total, count) = (plan.span.1, segment_count(scene, plan, most));
+        let total = plan.span.1;
         let initial = X::from_vectors(scene.problem.initial().vectors());
         let problem = Problem::new(*scene.problem.spheroid(), *scene.problem.coefficients(), initial)?;
         let problem = problem.with_bulge(scene.problem.bulge())?;
@@ -372,12 +382,12 @@ mod tests {
         }
     }
 
-    /// So that memory does not grow with the span, a segment rotates by at most 5e3 rad: 5.2e3 rad are two of 2.6e3. An error does not decrease with
+    /// So that memory does not grow with the span, a segment of more than 5e4 rad rotates by at most 5e3 rad: 5.2e4 rad are eleven segments. An error does not decrease with
     /// time at the end of a segment. The error of a closed form, which begins with the scene, does not grow with the number of earlier segments. The
     /// error is requested only at the end, or at the samples.
     #[test]
     fn errors_go_on_over_the_ends_of_segments() {
-        let rotations = [2.5e3, 2.7e3, 5.2e3];
+        let rotations = [2.5e4, 2.7e4, 5.2e4];
         let errors = |scene: &Scene, plan: &Plan, estimates| {
             let (mut errors, mut ends) = (Vec::new(), vec![0.0]);
             let take = |_, sample: &Sample| {
@@ -397,12 +407,12 @@ mod tests {
         numeric.tolerance = 1e-4;
         let (found, segments) = errors(&numeric, &plan, ErrorEstimates::OfEachSample);
         assert!(found.len() == 3 && found.is_sorted(), "{found:?}");
-        assert_eq!(segments, 2);
+        assert_eq!(segments, 11);
         let (closed, in_segments) = scene("free", "free", &["angles"], &rotations);
         let (of_segments, segments) = errors(&closed, &in_segments, ErrorEstimates::OfEachSample);
         let (of_one, one) =
             errors(&closed, &closed.plan(&[Output::SymmetryAxis]).unwrap(), ErrorEstimates::OfEachSample);
-        assert_eq!((segments, one), (2, 1));
+        assert_eq!((segments, one), (11, 1));
         assert_eq!(of_segments, of_one);
         let (short, plan) = scene("tp-2", "taylor", &["e_z"], &[1.0]);
         for estimates in [ErrorEstimates::None, ErrorEstimates::AtEnd] {

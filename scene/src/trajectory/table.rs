@@ -129,16 +129,17 @@ mod tests {
         assert_eq!(azimuths.len(), 40);
     }
 
-    /// A motion in three segments without a row before its end: it reports where each ends.
+    /// A motion in 24 segments without a row before its end: it reports where each ends.
     #[test]
     fn progress_is_shown_without_rows() {
         let mut scene = Scene::named("tp-2").unwrap();
         scene.tolerance = 1e-2;
         scene.choose_method("taylor").unwrap();
         scene.choose_columns(&["e_z"]).unwrap();
-        scene.times = crate::scene_file::Times::Listed { start: 0.0, times: vec![1.2e4 / scene.turning_rate()] };
+        scene.times = crate::scene_file::Times::Listed { start: 0.0, times: vec![1.2e5 / scene.turning_rate()] };
         let mut shown = Vec::new();
         write_csv(&scene, Vec::new(), |part| shown.push(part)).unwrap();
-        assert_eq!(shown, [1.0 / 3.0, 2.0 / 3.0, 1.0, 1.0]);
+        let ends = (1..=24).map(|k| f64::from(k) / 24.0);
+        assert_eq!(shown, ends.chain([1.0]).collect::<Vec<_>>());
     }
 }
