@@ -238,6 +238,11 @@ mod tests {
         assert!(text.contains("rounding     about 1.1e-16") && text.contains("of order 1:"), "{text}");
         plan.prediction = Some(Prediction { order: 0, ..bound });
         assert!(!explained(&scene, &plan).contains("\nsteps"));
+        // 5.6e4 rad in segments of at most 5e3 rad.
+        plan.span.1 = -5.6e4 / scene.turning_rate();
+        plan.prediction = Some(Prediction { bytes: 12e6, ..bound });
+        let text = explained(&scene, &plan);
+        assert!(text.contains("memory       about 1.0 MB at a time, in 12 segments of the span\n"), "{text}");
         plan = Plan { samples: 0, derivatives: Vec::new(), prediction: None, considered: Vec::new(), ..plan };
         let text = explained(&scene, &plan);
         assert!(text.contains("samples      none\nderivatives  none\n\nskipped\n"), "{text}");
