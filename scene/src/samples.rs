@@ -232,11 +232,19 @@ pub(crate) struct Segment<X> {
 
 /// Number of segments in which a plan for `scene` is computed.
 pub(crate) fn segment_count(scene: &Scene, plan: &Plan) -> usize {
-    let rotation = plan.span.1.abs() * scene.turning_rate();
-    if plan.costs_the_same_at_any_time() || rotation <= ROTATION_AS_A_WHOLE {
-        return 1;
-    }
-    (rotation / ROTATION_PER_SEGMENT).ceil() as usize
+    let most =
+        if integrated_rotation(scene, plan) > ROTATION_AS_A_WHOLE { ROTATION_PER_SEGMENT } else { f64::INFINITY };
+    segments_of(scene, plan, most)
+}
+
+/// Number of segments with a rotation of at most `most` rad each.
+fn segments_of(scene: &Scene, plan: &Plan, most: f64) -> usize {
+    (integrated_rotation(scene, plan) / most).ceil().max(1.0) as usize
+}
+
+/// Rotation over the span of a plan, in rad; none for a method that goes to any time at once.
+fn integrated_rotation(scene: &Scene, plan: &Plan) -> f64 {
+    if plan.costs_the_same_at_any_time() { 0.0 } else { plan.span.1.abs() * scene.turning_rate() }
 }
 
 impl<'s, X: SegmentState> Segments<'s, X> {
@@ -248,8 +256,7 @@ impl<'s, X: SegmentState> Segments<'s, X> {
     /// The segments of a plan for `scene` with a rotation of at most `most` rad each.
     #[cfg(test)]
     pub(crate) fn with_rotation(scene: &'s Scene, plan: &Plan, most: f64) -> Result<Self, Error> {
-        let rotation = if plan.costs_the_same_at_any_time() { 0.0 } else { plan.span.1.abs() * scene.turning_rate() };
-        Self::of_number(scene, plan, (rotation / most).ceil().max(1.0) as usize)
+        Self::of_number(scene, plan, segments_of(scene, plan, most))
     }
 
     fn of_number(scene: &'s Scene, plan: &Plan, count: usize) -> Result<Self, Error> {
@@ -382,8 +389,8 @@ mod tests {
         }
     }
 
-    /// So that memory does not grow with the span, a segment of more than 5e4 rad rotates by at most 5e3 rad: 5.2e4 rad are eleven segments. An error does not decrease with
-    /// time at the end of a segment. The error of a closed form, which begins with the scene, does not grow with the number of earlier segments. The
+    /// So that memory does not grow with the span, a motion of more than 5e4 rad is in segments of at most 5e3 rad: 5.2e4 rad are eleven. An error does
+    /// not decrease with time at the end of a segment. The error of a closed form, which begins with the scene, does not grow with the number of earlier segments. The
     /// error is requested only at the end, or at the samples.
     #[test]
     fn errors_go_on_over_the_ends_of_segments() {

@@ -204,25 +204,16 @@ impl Default for Worst {
 impl Worst {
     /// Takes one figure; `place` is asked only where it is the largest so far.
     pub fn see(&mut self, figure: f64, place: impl FnOnce() -> String) {
-        if self.is_largest(figure) {
-            self.measured.detail = place();
+        let figure = if figure.is_nan() { f64::INFINITY } else { figure };
+        self.cases += 1;
+        if figure > self.measured.figure {
+            self.measured = Measured::new(figure, place());
         }
     }
 
     /// Takes the figure of one case. Not generic, as it would be compiled once for each check.
     fn see_case(&mut self, found: &Measured, case: &dyn std::fmt::Debug) {
         self.see(found.figure, || format!("{case:?} {}", found.detail));
-    }
-
-    /// Takes one figure; whether it is the largest so far.
-    fn is_largest(&mut self, figure: f64) -> bool {
-        let figure = if figure.is_nan() { f64::INFINITY } else { figure };
-        self.cases += 1;
-        let is_largest = figure > self.measured.figure;
-        if is_largest {
-            self.measured.figure = figure;
-        }
-        is_largest
     }
 
     /// The largest figure, or an error if none was seen: a check without a case has shown nothing.

@@ -69,7 +69,7 @@ pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, 
             return fault(line, 1, format!("one row too many: the published file has {rows_wanted}"));
         }
         let mut row = Vec::with_capacity(width);
-        for word in content.split_ascii_whitespace() {
+        for word in words(content) {
             if row.len() == width {
                 let names = std::iter::once("t").chain(columns.iter().map(|column| column.name));
                 let names = names.collect::<Vec<_>>().join(", ");
@@ -93,7 +93,7 @@ pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, 
             return fault(line, end, format!("{why}: {} of {width} numbers", row.len()));
         }
         let time = row[0];
-        let start = content.split_ascii_whitespace().next().map_or(1, |word| column_of(word, content));
+        let start = words(content).next().map_or(1, |word| column_of(word, content));
         if !(0.0..=LATEST_TIME).contains(&time) {
             return fault(line, start, format!("time {time:?}: allowed is from 0 to {LATEST_TIME} t_c"));
         }
@@ -111,6 +111,10 @@ pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, 
         return fault(last_line, end, message);
     }
     Ok(Table { rows })
+}
+
+fn words(line: &str) -> impl Iterator<Item = &str> {
+    line.split(|c| matches!(c, ' ' | '\t' | '\r')).filter(|word| !word.is_empty())
 }
 
 /// The column, from one, at which a word of a line begins.
@@ -141,6 +145,7 @@ mod tests {
             ("1 2\n1100.5 4\n", "x.dat:2:1: time 1100.5: allowed is from 0 to 1100 t_c"),
             ("1 2\n1 4\n", "x.dat:2:1: time 1.0 after 1.0: times must increase"),
             ("1 two\n", "x.dat:1:3: `two` is not a finite decimal number"),
+            ("1 2\u{c}\n", "x.dat:1:3: `2` is not a finite decimal number"),
             ("1 inf\n", "x.dat:1:3: `inf` is not a finite decimal number"),
         ] {
             assert_eq!(parse("x.dat", text, &known).expect_err(text), fault);
