@@ -114,7 +114,7 @@ pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, 
 }
 
 fn words(line: &str) -> impl Iterator<Item = &str> {
-    line.split(|c| matches!(c, ' ' | '\t' | '\r')).filter(|word| !word.is_empty())
+    line.split([' ', '\t', '\r']).filter(|word| !word.is_empty())
 }
 
 /// The column, from one, at which a word of a line begins.

@@ -1,7 +1,6 @@
 //! Sweeps that go on from files that were torn, changed or made by somebody else.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::sync::atomic::AtomicBool;
 
@@ -77,12 +76,11 @@ pub fn resume(bytes: &[u8]) {
         }
         is_forged |= change(&mut contents, &mut bytes);
     }
-    let folder = folder();
-    let files = SpoolFiles::of(&folder.join("table.csv"));
+    let folder = tempdir().expect("a folder");
+    let files = SpoolFiles::of(&folder.path().join("table.csv"));
     for (path, content) in [&files.rows, &files.errors, &files.journal].into_iter().zip(&contents) {
-        match content.is_empty() {
-            true => drop(fs::remove_file(path)),
-            false => fs::write(path, content).expect("a file"),
+        if !content.is_empty() {
+            fs::write(path, content).expect("a file");
         }
     }
     match whole.continued(&files, 18) {
@@ -97,16 +95,6 @@ pub fn resume(bytes: &[u8]) {
             assert!(is_forged || done == Done::All && tables == whole.tables, "another table");
         }
     }
-}
-
-/// One folder for all runs of this process: the files in it are written anew each time.
-fn folder() -> &'static Path {
-    static FOLDER: OnceLock<PathBuf> = OnceLock::new();
-    FOLDER.get_or_init(|| {
-        let path = std::env::temp_dir().join(format!("twofold-fuzzing-{}", std::process::id()));
-        fs::create_dir_all(&path).expect("a folder");
-        path
-    })
 }
 
 /// One change to one of the files; says whether it made a line of the journal that only the program could have written.
