@@ -63,10 +63,10 @@ pub(crate) enum ErrorEstimates {
     OfEachSample,
 }
 
-/// The error of a motion at the end of its span, and the work for the motion.
+/// The estimated error of a motion at the end of its span, if requested, and the work for the motion.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Sampled {
-    pub(crate) error: Option<ErrorAtEnd>,
+    pub(crate) error: Option<f64>,
     pub(crate) work: Work,
 }
 
@@ -107,16 +107,18 @@ fn sample_segments<X: SegmentState, E: From<Error>>(
     let mut times = scene.times.iter().peekable();
     let mut segments = Segments::<X>::new(scene, plan)?;
     let mut start_angles = scene.initial_angles;
-    let mut earlier = EarlierErrors::default();
+    let mut earlier: Option<PlannedMotion<X>> = None;
     let mut sampled = Sampled::default();
-    while let Some(Segment { motion, from, to, is_last }) = segments.next()? {
+    while let Some(Segment { mut motion, from, to, is_last }) = segments.next()? {
+        if let Some(earlier) = earlier.take() {
+            motion.motion = motion.motion.going_on_from(&earlier)?;
+        }
         let mut angles: Angles<'_> =
             if counts_turns { X::angles(&motion, from, &start_angles)? } else { Box::new(|_| None) };
         while let Some(time) = times.next_if(|time| is_last || scene.since_start(*time).abs() <= to.abs()) {
             let parts = since_start_within(scene, time, from, to);
             let t = parts[0];
-            let error = || earlier.at(t, scene.turning_rate()) + motion.error_estimate(t);
-            let error_estimate = (estimates == ErrorEstimates::OfEachSample).then(error);
+            let error_estimate = (estimates == ErrorEstimates::OfEachSample).then(|| motion.error_estimate(t));
             let (state, angles) = (X::sampled(&motion, parts)?, angles(t));
             take(time, &Sample { since_start: t, state, angles, error_estimate })?;
         }
@@ -125,34 +127,15 @@ fn sample_segments<X: SegmentState, E: From<Error>>(
         }
         drop(angles);
         after_segment(&|t| motion.axis_state(t), from, to)?;
-        if estimates == ErrorEstimates::OfEachSample && !is_last && !segments.method.is_closed_form() {
-            earlier.add(to, motion.error_estimate(to));
-        }
         if estimates == ErrorEstimates::AtEnd && is_last {
-            sampled.error = Some(segments.error_at_end(&motion, to, plan));
+            sampled.error = Some(motion.error_estimate(to));
         }
         sampled.work += motion.evaluations();
+        // A closed form has the error since the start of the scene anyway.
+        earlier = (estimates != ErrorEstimates::None && !segments.method.is_closed_form()).then_some(motion.motion);
     }
     sampled.work += segments.work;
     Ok(sampled)
-}
-
-/// Errors at the ends of the previous segments: each grows linearly with the phase that it shifts.
-#[derive(Default)]
-struct EarlierErrors {
-    sum: f64,
-    times: f64,
-}
-
-impl EarlierErrors {
-    fn add(&mut self, time: f64, error: f64) {
-        self.sum += error;
-        self.times += error * time.abs();
-    }
-
-    fn at(&self, time: f64, rate: f64) -> f64 {
-        self.sum + rate * (self.sum * time.abs() - self.times)
-    }
 }
 
 /// The Euler angles at a time, if they exist.
@@ -211,15 +194,6 @@ pub(crate) struct Segments<'s, X> {
     state: X,
     /// Steps and right-hand sides so far.
     pub(crate) work: Work,
-}
-
-/// Error at the end of a span, in the components of `n`, `e_x` and of `L` in units of its size.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ErrorAtEnd {
-    /// Estimated from the motion, if it is one motion from the start.
-    Estimated(f64),
-    /// Predicted by the plan, if the motion is in segments that are not stored.
-    Foreseen(f64),
 }
 
 /// One segment; times since the start, in t_c.
@@ -282,7 +256,7 @@ impl<'s, X: SegmentState> Segments<'s, X> {
         } else {
             let problem = self.problem.starting_from(self.state)?;
             let motion = problem.motion_by(self.method, (from, to), self.share_of_tolerance(to - from))?;
-            self.state = motion.state(to)?;
+            self.state = motion.state(to)?.orthonormal();
             motion
         };
         self.work += motion.work();
@@ -292,16 +266,9 @@ impl<'s, X: SegmentState> Segments<'s, X> {
 
     /// Makes the next segment begin earlier, at a time of this one.
     pub fn resume_at(&mut self, segment: &Segment<X>, time: f64) -> Result<(), Error> {
-        self.state = segment.motion.motion.state(time)?;
+        self.state = segment.motion.motion.state(time)?.orthonormal();
         self.from = time;
         Ok(())
-    }
-
-    fn error_at_end(&self, last: &Counted<PlannedMotion<X>>, to: f64, plan: &Plan) -> ErrorAtEnd {
-        if self.count == 1 || self.method.is_closed_form() {
-            return ErrorAtEnd::Estimated(last.error_estimate(to));
-        }
-        ErrorAtEnd::Foreseen(plan.prediction.map_or(f64::NAN, |prediction| prediction.truncation + prediction.rounding))
     }
 
     /// The fraction of the scene's tolerance that a segment may use, such that the truncation per unit of time is that of
@@ -376,11 +343,6 @@ mod tests {
                 if count == 0 {
                     segments.resume_at(&segment, from).unwrap();
                 }
-                if segment.is_last {
-                    let prediction = plan.prediction.unwrap();
-                    let foreseen = ErrorAtEnd::Foreseen(prediction.truncation + prediction.rounding);
-                    assert_eq!(segments.error_at_end(&segment.motion, from, &plan), foreseen);
-                }
                 count += 1;
             }
             let whole = scene.problem.taylor((0.0, scene.duration()), 1e-13).unwrap().state(scene.duration()).unwrap();
@@ -440,17 +402,6 @@ mod tests {
             let segments = Segments::<BodyState<f64>>::new(&scene, &plan).unwrap();
             let share = segments.share_of_tolerance(last / 2.0);
             assert!((share / 0.375e-6 - 1.0).abs() < 8.0 * f64::EPSILON, "{share:e}");
-        }
-    }
-
-    #[test]
-    fn each_earlier_error_grows_with_the_rotation_since() {
-        for sense in [1.0, -1.0] {
-            let mut earlier = EarlierErrors::default();
-            let errors = [(2.0, 1e-9), (5.0, 3e-9)];
-            errors.iter().for_each(|(time, error)| earlier.add(sense * time, *error));
-            let expected: f64 = errors.map(|(time, error)| error * (1.0 + 1.5 * (8.0 - time))).iter().sum();
-            assert!((earlier.at(sense * 8.0, 1.5) / expected - 1.0).abs() < 1e-14);
         }
     }
 

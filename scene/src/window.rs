@@ -3,7 +3,7 @@
 use twofold::Error;
 use twofold::plan::Output;
 
-use crate::samples::{ErrorAtEnd, ErrorEstimates, Sample, for_each_sample};
+use crate::samples::{ErrorEstimates, Sample, for_each_sample};
 use crate::scene_file::{Scene, Times};
 
 impl Scene {
@@ -31,9 +31,7 @@ impl Scene {
             };
             let sampled = for_each_sample(&until, &plan, ErrorEstimates::AtEnd, take, |_, _, _| Ok(()))?;
             angles = state.angles().unwrap_or(angles);
-            if let Some(ErrorAtEnd::Estimated(estimate) | ErrorAtEnd::Foreseen(estimate)) = sampled.error {
-                error = estimate;
-            }
+            error = sampled.error.unwrap_or(0.0);
         }
         let scene = Self {
             problem: self.problem.starting_from(state)?,

@@ -5,7 +5,7 @@ use core::fmt::Debug;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::BodyState;
-use crate::numerics::scalar::Scalar;
+use crate::numerics::scalar::{Real, Scalar, length};
 
 /// State of the reduced motion of a spheroid in inertial components. Its potential energy, spin axis and gravitational wave
 /// depend only on this; the rotation about the symmetry axis is left out.
@@ -42,6 +42,18 @@ pub trait RotationState<S: Scalar>: Copy + Debug + PartialEq + 'static {
     #[inline]
     fn rotated(&self, other_from_this: &Matrix3<S>) -> Self {
         Self::from_vectors(self.vectors().map(|vector| other_from_this * vector))
+    }
+
+    /// The state with `n` and `e_x` of length one and at right angles, of which the errors of a numerical motion may have taken something.
+    fn orthonormal(&self) -> Self
+    where
+        S: Real,
+    {
+        let [axis, momentum, equatorial_axis] = self.vectors();
+        let axis = axis / length(&axis);
+        let across = equatorial_axis - axis * axis.dot(&equatorial_axis);
+        let equatorial_axis = if Self::VECTORS == 3 { across / length(&across) } else { across };
+        Self::from_vectors([axis, momentum, equatorial_axis])
     }
 
     /// `n` and `L`.

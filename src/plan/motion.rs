@@ -76,6 +76,22 @@ impl<X: RotationState<f64>> Problem<f64, X> {
 }
 
 impl<X: RotationState<f64>> PlannedMotion<X> {
+    /// This motion, which starts with the state at the end of `earlier`, with the error that it has there as the error of the start: a long
+    /// numerical motion can be computed in parts, of which each gives the [error](Motion::error_estimate) of all so far.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] unless both are by the same numerical method.
+    pub fn going_on_from(self, earlier: &Self) -> Result<Self, Error> {
+        match (self, earlier) {
+            (Self::Taylor(motion), Self::Taylor(earlier)) => Ok(Self::Taylor(motion.going_on_from(earlier))),
+            (Self::Splitting(motion), Self::Splitting(earlier)) => Ok(Self::Splitting(motion.going_on_from(earlier))),
+            _ => {
+                let (what, why) = ("motion that goes on from another", "both must be by the same numerical method");
+                Err(Error::Unsupported { what, why })
+            }
+        }
+    }
+
     /// Steps and right-hand sides used so far.
     pub fn work(&self) -> Work {
         match self {
@@ -157,6 +173,7 @@ impl<X: RotationState<f64>> Motion<f64> for PlannedMotion<X> {
 mod tests {
     use super::*;
     use crate::dynamics::fixture::problem;
+    use crate::propagation::splitting::GRADIENT_8_8_6;
 
     #[test]
     fn a_time_in_two_parts_is_their_sum() {
@@ -165,6 +182,63 @@ mod tests {
             let motion = problem.motion_by(method, (0.0, 10.0), 1e-9).unwrap();
             let (parts, sum) = (motion.state_in_parts([5.0, 0.375]).unwrap(), motion.state(5.375).unwrap());
             assert!((parts.axis - sum.axis).amax() < 1e-14, "{method:?}");
+        }
+    }
+
+    /// The motion in three parts, at the middle of the second and at the end of the third, and the motion as a whole at the same times.
+    fn in_parts_and_whole<X: RotationState<f64>>(
+        problem: &Problem<f64, X>,
+        motion: impl Fn(&Problem<f64, X>, (f64, f64)) -> PlannedMotion<X>,
+    ) -> [[f64; 2]; 2] {
+        let whole = motion(problem, (-5.0, 55.0));
+        let first = motion(problem, (-5.0, 15.0));
+        let second = motion(&problem.starting_from(first.state(15.0).unwrap()).unwrap(), (15.0, 35.0));
+        let second = second.going_on_from(&first).unwrap();
+        let third = motion(&problem.starting_from(second.state(35.0).unwrap()).unwrap(), (35.0, 55.0));
+        let third = third.going_on_from(&second).unwrap();
+        [[second.error_estimate(25.0), third.error_estimate(55.0)], [25.0, 55.0].map(|t| whole.error_estimate(t))]
+    }
+
+    /// Near the unstable middle axis an error grows by e^4 from one part to the next; it is that of the motion as a whole. The parts' steps
+    /// and the rounding between them differ.
+    #[test]
+    fn the_error_of_a_motion_goes_on_from_part_to_part() {
+        let s = [0.2, 0.05, -0.15];
+        let axis = Vector3::new(1e-12, 1.0, 2e-12).normalize();
+        let (momentum, equatorial_axis) = (Vector3::new(1e-12, 0.0, 0.0), axis.cross(&Vector3::x()).normalize());
+        let start = BodyState { axis, momentum, equatorial_axis };
+        let problem = problem(s).starting_from(start).unwrap();
+        fn compared([parts, whole]: [[f64; 2]; 2]) {
+            for (part, whole) in parts.into_iter().zip(whole) {
+                assert!((0.4..2.5).contains(&(part / whole)), "{part:e} {whole:e}");
+            }
+            assert!(whole[1] > 20.0 * whole[0] && whole[1] < 0.1, "{whole:?}");
+        }
+        // The same error per unit of time: a share of the tolerance that grows with the rotation until the end.
+        let tolerance = |(from, to): (f64, f64)| 1e-13 * (to - from) / 60.0;
+        compared(in_parts_and_whole(&problem, |problem, span| {
+            PlannedMotion::Taylor(problem.taylor(span, tolerance(span)).unwrap())
+        }));
+        compared(in_parts_and_whole(&problem.reduced(), |problem, span| {
+            PlannedMotion::Taylor(problem.taylor(span, tolerance(span)).unwrap())
+        }));
+        compared(in_parts_and_whole(&problem, |problem, span| {
+            PlannedMotion::Splitting(problem.splitting_by(&GRADIENT_8_8_6, span, 0.03125).unwrap())
+        }));
+        compared(in_parts_and_whole(&problem.reduced(), |problem, span| {
+            PlannedMotion::Splitting(problem.splitting_by(&GRADIENT_8_8_6, span, 0.03125).unwrap())
+        }));
+    }
+
+    #[test]
+    fn a_motion_goes_on_only_from_one_by_the_same_numerical_method() {
+        let problem = problem([2e-6, 1e-6, -3e-6]);
+        let motion = |method| problem.motion_by(method, (0.0, 10.0), 1e-9).unwrap();
+        for (method, earlier) in
+            [(Method::Taylor, Method::Splitting), (Method::Averaged, Method::Averaged), (Method::Taylor, Method::Free)]
+        {
+            let error = motion(method).going_on_from(&motion(earlier)).unwrap_err();
+            assert!(matches!(error, Error::Unsupported { .. }), "{error}");
         }
     }
 

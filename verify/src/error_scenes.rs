@@ -171,6 +171,28 @@ impl ErrorScene {
         Ok((motion.error_estimate(self.time), self.true_error(&motion.state(self.time)?)))
     }
 
+    /// The same of a motion in equal parts, each of which goes on from the one before.
+    ///
+    /// # Errors
+    /// What the motion refuses.
+    pub fn estimated_and_true_in_parts(&self, method: Method, parts: u32) -> Result<(f64, f64), String> {
+        let (start, end) = self.span;
+        let (mut problem, mut from, mut earlier) = (self.problem, start, None);
+        for part in 1..=parts {
+            let to = if part == parts { end } else { start + (end - start) * f64::from(part) / f64::from(parts) };
+            let mut motion = problem.motion_by(method, (from, to), self.tolerance)?;
+            if let Some(earlier) = earlier {
+                motion = motion.going_on_from(&earlier)?;
+            }
+            if part == parts || (self.time - start).abs() <= (to - start).abs() {
+                return Ok((motion.error_estimate(self.time), self.true_error(&motion.state(self.time)?)));
+            }
+            problem = problem.starting_from(motion.state(to)?.orthonormal())?;
+            (from, earlier) = (to, Some(motion));
+        }
+        Err("a motion of no parts".to_owned())
+    }
+
     /// The largest true error of a component of `n`, `e_x` or `L` (in units of its size) of `state` at the time asked for. By
     /// another integrator that is much more accurate, with 32 digits where rounding may matter.
     pub fn true_error(&self, state: &BodyState<f64>) -> f64 {

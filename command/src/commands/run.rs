@@ -10,7 +10,7 @@ use super::standard_output::standard_output;
 use super::{Failure, note, print};
 use twofold_scene::explained_plan::{bytes, explained};
 use twofold_scene::scene_file::{Columns, Scene};
-use twofold_scene::trajectory::{self, ErrorAtEnd, Summary, TrajectoryError};
+use twofold_scene::trajectory::{self, Summary, TrajectoryError};
 
 #[derive(Args)]
 pub(crate) struct RunArgs {
@@ -109,12 +109,9 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
         return Ok(());
     };
     note_poles(&scene, &summary);
-    let (word, error) = match summary.error {
-        None => return Ok(()),
-        Some(ErrorAtEnd::Estimated(error)) => ("estimated error", error),
-        Some(ErrorAtEnd::Foreseen(error)) => ("predicted error", error),
-    };
-    note(&format!("{word} of {} at the end of the span: {error:.1e}", components(&scene)));
+    if let Some(error) = summary.error {
+        note(&format!("estimated error of {} at the end of the span: {error:.1e}", components(&scene)));
+    }
     Ok(())
 }
 

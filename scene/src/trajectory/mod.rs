@@ -8,7 +8,6 @@ mod pulses_across_segments;
 mod spectrum;
 mod table;
 
-pub use crate::samples::ErrorAtEnd;
 pub use error::TrajectoryError;
 pub use pulses::{PulseSummary, write_pulses};
 pub use spectrum::{LinesSummary, LinesWanted, write_lines};

@@ -7,7 +7,7 @@ use twofold::plan::Work;
 
 use super::TrajectoryError;
 use crate::columns;
-use crate::samples::{AxisStateAt, ErrorAtEnd, ErrorEstimates, Sample, for_each_sample};
+use crate::samples::{AxisStateAt, ErrorEstimates, Sample, for_each_sample};
 use crate::scene_file::Scene;
 
 /// Counts of a written table.
@@ -19,8 +19,8 @@ pub struct Summary {
     pub rows_on_pole: usize,
     /// Time of the first of those rows.
     pub first_on_pole: Option<f64>,
-    /// Error at the end of the span; `None` without a motion.
-    pub error: Option<ErrorAtEnd>,
+    /// Estimated error at the end of the span, in the components of `n`, `e_x` and of `L` in units of its size; `None` without a motion.
+    pub error: Option<f64>,
     /// The work done.
     pub work: Work,
 }

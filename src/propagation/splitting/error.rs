@@ -1,8 +1,10 @@
 //! The error of a motion by splitting, from the same motion by a more accurate scheme.
 
+use nalgebra::{Matrix3, Rotation3, Vector3};
+
 use crate::propagation::splitting::GRADIENT_8_8_6;
 use crate::propagation::splitting::double_steps::DoubleSteps;
-use crate::propagation::splitting::flows::{Field, Moving, RATE};
+use crate::propagation::splitting::flows::{AXIS, Field, Moving, RATE, dot};
 use crate::propagation::splitting::motion::KeptStates;
 
 /// Largest number of times at which the two motions are compared.
@@ -20,6 +22,9 @@ const OFF: [f64; 3] = [8.3, -6.1, 7.7];
 const OFF_ACROSS: [f64; 3] = [9.4, 8.9, -3.1];
 const EIGENVALUES_OFF: [f64; 3] = [3.7, -5.3, 4.1];
 
+/// Its components of `s` off the diagonal, in roundings: they turn the principal axes, by much for nearly equal eigenvalues.
+const OFF_DIAGONAL: [f64; 3] = [4.3, -3.9, 5.1];
+
 /// Rounding of `s`, of the initial state and of the step, which both motions share, in units in the last place for each radian of
 /// rotation.
 const SHARED: f64 = 8.0;
@@ -35,6 +40,17 @@ const LONGEST_STEP: f64 = 1.0;
 /// estimate is infinite.
 const MOST_FINER: f64 = 1e4;
 
+/// The error at the end of a motion, with what continues it in a motion that starts there.
+#[derive(Debug, Clone)]
+pub(super) struct ErrorAtEnd<const V: usize> {
+    /// The largest difference so far, times [`SAFETY`].
+    largest: f64,
+    /// The rounding that all motions share.
+    shared_rounding: f64,
+    /// `n`, `L` and `e_x` of the more accurate motion, and of the one beside this.
+    others: [[Vector3<f64>; V]; 2],
+}
+
 /// Six times the difference from the motion by [`GRADIENT_8_8_6`] with stages half as long or shorter: the largest difference
 /// so far, at equally spaced times.
 ///
@@ -43,24 +59,41 @@ const MOST_FINER: f64 = 1e4;
 /// others: if two terms of an error cancel, two steps can have the same error.) Both motions have the same instability near
 /// the middle axis, so that no model of its growth is needed.
 #[derive(Debug, Clone)]
-pub(super) struct ErrorEstimate {
+pub(super) struct ErrorEstimate<const V: usize> {
     interval: f64,
     largest: Vec<f64>,
     /// [`SHARED`], per unit of time.
     shared_rounding: f64,
+    /// At the start: the largest difference, and the rounding shared.
+    at_start: [f64; 2],
+    pub(super) at_end: ErrorAtEnd<V>,
 }
 
-impl ErrorEstimate {
-    pub(super) fn new<const V: usize>(motion: &KeptStates<V>) -> Self {
+impl<const V: usize> ErrorEstimate<V> {
+    pub(super) fn new(motion: &KeptStates<V>) -> Self {
         let scene = &motion.scene;
         let twos = motion.step_count / 2;
         let stride = twos.div_ceil(COMPARISONS);
         let by_stages = (4 * motion.scheme.stages()).div_ceil(GRADIENT_8_8_6.stages()) as u64;
         let interval = 2.0 * stride as f64 * motion.step.abs();
         let shared_rounding = SHARED * f64::EPSILON * scene.largest_rate;
+        let duration = motion.step * motion.step_count as f64;
+        let (mut most, earlier_rounding, starts) = match &motion.earlier {
+            None => (0.0, 0.0, [scene.start; 2]),
+            Some(ErrorAtEnd { largest, shared_rounding, others }) => {
+                (*largest, *shared_rounding, others.each_ref().map(|vectors| scene.moving(vectors)))
+            }
+        };
+        let at_start = [most, earlier_rounding];
+        let at_end = |largest: f64, others: [Moving<f64, V>; 2]| ErrorAtEnd {
+            largest,
+            shared_rounding: earlier_rounding + shared_rounding * duration.abs(),
+            others: others.map(|moving| scene.vectors(&moving, duration)),
+        };
         let by_angle = (2.0 * motion.step.abs() * scene.largest_rate / LONGEST_STEP).ceil();
         if by_angle > MOST_FINER {
-            return Self { interval, largest: vec![f64::INFINITY], shared_rounding };
+            let (largest, at_end) = (vec![f64::INFINITY], at_end(f64::INFINITY, starts));
+            return Self { interval, largest, shared_rounding, at_start, at_end };
         }
         let per_two = by_stages.max(by_angle as u64);
         let other = |step| DoubleSteps::new(&GRADIENT_8_8_6, &scene.field, step, scene.largest_rate);
@@ -69,17 +102,21 @@ impl ErrorEstimate {
         let half_forth = DoubleSteps::new(motion.scheme, &scene.field, 0.5 * motion.step, scene.largest_rate);
         // The start is displaced by a rounding, so that the difference includes the growth by an instability of the rounding that
         // both motions share.
-        let mut state = off(&scene.start, OFF, scene.largest_rate);
-        let mut beside = off(&scene.start, OFF_ACROSS, scene.largest_rate);
+        let mut state = off(&starts[0], OFF, scene.largest_rate);
+        let mut beside = off(&starts[1], OFF_ACROSS, scene.largest_rate);
+        // Each has its own w.n: near rest, where `w` is small, that of the motion would turn `n` by much more than the displacement.
+        let [casimir, beside_casimir] = [&state, &beside].map(|of| dot(&of.vectors[RATE], &of.vectors[AXIS]));
         finer.open(&mut state);
         let field = Field::new(scene.field.strength, rounded(scene.eigenvalues));
+        let axes_off = turn_of_axes(scene.eigenvalues);
+        beside = turned(&beside, &axes_off);
         let along = DoubleSteps::new(motion.scheme, &field, motion.step, scene.largest_rate);
         along.open(&mut beside);
-        let (mut largest, mut most, mut done) = (Vec::new(), 0.0_f64, 0);
+        let (mut largest, mut ends, mut done) = (Vec::new(), starts, 0);
         while done < twos {
             let now = stride.min(twos - done);
-            finer.advance(&mut state, scene.casimir, per_two * now);
-            along.advance(&mut beside, scene.casimir, 2 * now);
+            finer.advance(&mut state, casimir, per_two * now);
+            along.advance(&mut beside, beside_casimir, 2 * now);
             done += now;
             let mut closed = state;
             finer.close(&mut closed);
@@ -87,9 +124,11 @@ impl ErrorEstimate {
             let at_step = largest_difference(&closed, &there, scene.largest_rate);
             let mut grown = beside;
             along.close(&mut grown);
+            let grown = turned(&grown, &axes_off.transpose());
+            ends = [closed, grown];
             let grown = largest_difference(&grown, &there, scene.largest_rate);
             // Also in the middle of a step, where the error differs.
-            half_back.single(&mut closed, scene.casimir);
+            half_back.single(&mut closed, casimir);
             let mut between = motion.after(2 * done - 1);
             half_forth.single(&mut between, scene.casimir);
             let in_step = largest_difference(&closed, &between, scene.largest_rate);
@@ -98,14 +137,15 @@ impl ErrorEstimate {
             }
             largest.push(most);
         }
-        Self { interval, largest, shared_rounding }
+        Self { interval, largest, shared_rounding, at_start, at_end: at_end(most, ends) }
     }
 
     /// The estimate after the time `elapsed`.
     pub(super) fn at(&self, elapsed: f64) -> f64 {
-        let rounding = READING + self.shared_rounding * elapsed;
+        let [at_start, earlier_rounding] = self.at_start;
+        let rounding = READING + earlier_rounding + self.shared_rounding * elapsed;
         if elapsed == 0.0 || self.interval == 0.0 {
-            return rounding;
+            return at_start + rounding;
         }
         let index = (elapsed / self.interval) as usize;
         self.largest[index.min(self.largest.len() - 1)] + rounding
@@ -124,6 +164,21 @@ pub(super) fn expected_rounding(turn: f64) -> f64 {
 fn rounded(eigenvalues: [f64; 3]) -> [f64; 3] {
     let largest = eigenvalues.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
     core::array::from_fn(|k| eigenvalues[k] + EIGENVALUES_OFF[k] * f64::EPSILON * largest)
+}
+
+/// The turn of the principal axes by [`OFF_DIAGONAL`] roundings of the largest eigenvalue.
+fn turn_of_axes(eigenvalues: [f64; 3]) -> Matrix3<f64> {
+    let largest = eigenvalues.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let turns = (0..3).map(|k| {
+        let difference = eigenvalues[(k + 1) % 3] - eigenvalues[(k + 2) % 3];
+        let component = OFF_DIAGONAL[k] * f64::EPSILON * largest;
+        Rotation3::new(Vector3::ith(k, 0.5 * (2.0 * component).atan2(difference.abs())))
+    });
+    turns.fold(Matrix3::identity(), |all, turn| all * turn.into_inner())
+}
+
+fn turned<const V: usize>(state: &Moving<f64, V>, by: &Matrix3<f64>) -> Moving<f64, V> {
+    Moving::new(state.vectors.map(|v| (by * Vector3::from(v)).into()))
 }
 
 /// A start displaced by a number of roundings.
@@ -154,8 +209,6 @@ fn largest_difference<const V: usize>(a: &Moving<f64, V>, b: &Moving<f64, V>, ra
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::Vector3;
-
     use super::*;
     use crate::dynamics::AxisState;
     use crate::dynamics::fixture::{AXIS_STATE, axis_problem};

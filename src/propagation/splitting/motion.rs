@@ -12,7 +12,7 @@ use crate::numerics::rounding::two_product;
 use crate::propagation::input::{check_request, check_time};
 use crate::propagation::splitting::choice::{Goal, SplittingForecast, cheapest};
 use crate::propagation::splitting::double_steps::DoubleSteps;
-use crate::propagation::splitting::error::ErrorEstimate;
+use crate::propagation::splitting::error::{ErrorAtEnd, ErrorEstimate};
 use crate::propagation::splitting::flows::{AXIS, Field, Moving, RATE, dot};
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::third_angle::{body_state, rate_about_axis};
@@ -53,9 +53,7 @@ impl<const V: usize> PrincipalProblem<V> {
         let inertia = spheroid.inertia_xx;
         let strength = 2.0 * spheroid.constant_c / inertia;
         let field = Field::new(strength, eigenvalues);
-        let mut start = initial.map(|v| (turn * v).into());
-        start[RATE] = (turn * initial[RATE] / inertia).into();
-        let start = Moving::new(start);
+        let start = moving(&turn, inertia, &initial);
         let [axis, rate] = [start.vectors[AXIS], start.vectors[RATE]];
         let spread = strength.abs() * (eigenvalues[0] - eigenvalues[2]);
         let largest_rate = (dot(&rate, &rate) + spread).sqrt();
@@ -86,6 +84,20 @@ impl<const V: usize> PrincipalProblem<V> {
         vectors
     }
 
+    /// Like [`given`](Self::given), with `e_x` at a time since the start for the vector carried along.
+    pub(super) fn vectors(&self, moving: &Moving<f64, V>, elapsed: f64) -> [Vector3<f64>; V] {
+        let mut vectors = self.given(moving);
+        if let [axis, momentum, companion] = vectors[..] {
+            vectors[2] = body_state([axis, momentum, companion], self.rate_about_axis * elapsed).equatorial_axis;
+        }
+        vectors
+    }
+
+    /// The start of a motion with the given `n`, `L` and `e_x`.
+    pub(super) fn moving(&self, vectors: &[Vector3<f64>; V]) -> Moving<f64, V> {
+        moving(&self.principal_from_given, self.inertia, vectors)
+    }
+
     pub(super) fn state(&self, moving: &Moving<f64, V>) -> AxisState<f64> {
         let vectors = self.given(moving);
         AxisState { axis: vectors[AXIS], momentum: vectors[RATE] }
@@ -97,6 +109,12 @@ impl PrincipalProblem<3> {
     pub(super) fn body_state(&self, moving: &Moving<f64, 3>, elapsed: f64) -> BodyState<f64> {
         body_state(self.given(moving), self.rate_about_axis * elapsed)
     }
+}
+
+fn moving<const V: usize>(turn: &Matrix3<f64>, inertia: f64, vectors: &[Vector3<f64>; V]) -> Moving<f64, V> {
+    let mut turned = vectors.map(|v| (turn * v).into());
+    turned[RATE] = (turn * vectors[RATE] / inertia).into();
+    Moving::new(turned)
 }
 
 /// A motion by a splitting scheme, stored as states at its steps: [`Problem::splitting`].
@@ -144,8 +162,10 @@ pub(super) struct KeptStates<const V: usize> {
     steps: DoubleSteps,
     /// Open states, every `stride` steps from the start.
     states: Vec<Moving<f64, V>>,
+    /// The error of the start, if another motion led to it.
+    pub(super) earlier: Option<ErrorAtEnd<V>>,
     /// Computed at the first request.
-    estimate: OnceLock<ErrorEstimate>,
+    estimate: OnceLock<ErrorEstimate<V>>,
 }
 
 /// The steps of a motion.
@@ -240,6 +260,7 @@ impl<const V: usize> KeptStates<V> {
             stride,
             steps,
             states,
+            earlier: None,
             estimate,
         })
     }
@@ -273,12 +294,30 @@ impl<const V: usize> KeptStates<V> {
         if check_time(self.span, t).is_err() {
             return f64::NAN;
         }
-        let estimate = self.estimate.get_or_init(|| ErrorEstimate::new(self));
-        estimate.at((t - self.span.0).abs())
+        self.estimate().at((t - self.span.0).abs())
+    }
+
+    fn estimate(&self) -> &ErrorEstimate<V> {
+        self.estimate.get_or_init(|| ErrorEstimate::new(self))
+    }
+
+    /// This motion with the error that `earlier` has at its end as that of the start.
+    fn going_on_from(self, earlier: &Self) -> Self {
+        Self { earlier: Some(earlier.estimate().at_end.clone()), estimate: OnceLock::new(), ..self }
     }
 }
 
 impl<X> SplittingMotion<X> {
+    /// See [`PlannedMotion::going_on_from`](crate::plan::PlannedMotion::going_on_from).
+    pub(crate) fn going_on_from(self, earlier: &Self) -> Self {
+        let kept = match (self.kept, &earlier.kept) {
+            (Kept::Axis(states), Kept::Axis(earlier)) => Kept::Axis(states.going_on_from(earlier)),
+            (Kept::Body(states), Kept::Body(earlier)) => Kept::Body(states.going_on_from(earlier)),
+            _ => unreachable!("both are motions of the same type of state"),
+        };
+        Self { kept, ..self }
+    }
+
     /// The scheme.
     pub fn scheme(&self) -> &'static Scheme {
         self.scheme

@@ -93,6 +93,19 @@ impl ErrorGrowth {
         Self { momentum_unit, known, covariance, lost: false }
     }
 
+    /// The errors accumulated so far of a state that has been made orthonormal, in a unit of time `longer` times as long and with `momentum_unit`
+    /// for `L / I^xx` in it.
+    pub(super) fn of_orthonormal_state(mut self, longer: f64, momentum_unit: f64) -> Self {
+        self.momentum_unit = momentum_unit;
+        (self.known.length, self.known.off_frame) = (0.0, [0.0; 2]);
+        (self.covariance.length, self.covariance.off_frame) = (0.0, 0.0);
+        self.covariance.with_length = [Vector3::zeros(); 2];
+        self.known.momentum *= longer;
+        self.covariance.mixed *= longer;
+        self.covariance.momentum *= longer * longer;
+        self
+    }
+
     /// Carries the errors accumulated so far along the motion.
     pub(super) fn carry(&mut self, map: &LinearMap) {
         self.known.carry(map);
@@ -142,6 +155,15 @@ impl ErrorGrowth {
         let error = KNOWN_SAFETY * known + UNKNOWN_SAFETY * variance.max(0.0).sqrt() + READING;
         self.lost |= error >= 1.0 || error.is_nan();
         if self.lost { LARGEST } else { error }
+    }
+
+    /// The error of `w.n` at the state `n`, `w = L / I^xx`.
+    pub(super) fn of_spin(&self, n: &Vector3<f64>, w: &Vector3<f64>) -> f64 {
+        let Covariance { rotation, mixed, momentum, .. } = &self.covariance;
+        let across = n.cross(w);
+        let known = self.known.momentum.dot(n) + self.known.rotation.dot(&across);
+        let variance = n.dot(&(momentum * n)) + across.dot(&(rotation * across + mixed * n * 2.0));
+        KNOWN_SAFETY * known.abs() + UNKNOWN_SAFETY * variance.max(0.0).sqrt()
     }
 
     /// An error of this size, added now, in the way [`estimate`](Self::estimate) would count it.
@@ -213,6 +235,53 @@ mod tests {
             96.0 * f64::EPSILON * unit * unit,
             max_relative = 1e-13
         );
+    }
+
+    /// In a unit of time twice as long a rate is twice the number. What orthonormal vectors cannot have is gone.
+    #[test]
+    fn the_error_of_an_orthonormal_state_has_no_lengths() {
+        let mut growth = ErrorGrowth::none(1.5);
+        let vector = Vector3::new(1e-3, -2e-3, 3e-3);
+        let known = Difference { rotation: vector, momentum: vector, length: 0.1, off_frame: [0.1, 0.2] };
+        growth.add(&known, [1e-4, 2e-4]);
+        growth.covariance.mixed = matrix(0.3) * 1e-8;
+        let taken = growth.clone().of_orthonormal_state(2.0, 3.0);
+        assert_eq!((taken.known.rotation, taken.known.momentum), (vector, vector * 2.0));
+        assert_eq!((taken.known.length, taken.known.off_frame), (0.0, [0.0; 2]));
+        let Covariance { rotation, mixed, momentum, with_length, length, off_frame } = &taken.covariance;
+        assert_eq!((rotation, *mixed), (&growth.covariance.rotation, growth.covariance.mixed * 2.0));
+        assert_eq!(*momentum, growth.covariance.momentum * 4.0);
+        assert_eq!((*with_length, *length, *off_frame), ([Vector3::zeros(); 2], 0.0, 0.0));
+        // Rotation and momentum count as before, in the momentum's new unit.
+        growth.known.length = 0.0;
+        growth.known.off_frame = [0.0; 2];
+        (growth.covariance.length, growth.covariance.off_frame) = (0.0, 0.0);
+        assert_relative_eq!(growth.estimate(None), taken.clone().estimate(None), max_relative = 1e-14);
+    }
+
+    /// `w.n` changes by the component of `w`'s error along `n`, and by the rotation of `n` towards `w`.
+    #[test]
+    fn the_error_of_the_spin_is_that_of_both_vectors() {
+        let (n, w) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.3, -0.7, 1.1));
+        let of = |rotation: Vector3<f64>, momentum: Vector3<f64>| {
+            let mut growth = ErrorGrowth::none(1.0);
+            growth.add(&Difference { rotation, momentum, ..Difference::default() }, [0.0; 2]);
+            growth.of_spin(&n, &w)
+        };
+        let (rotation, momentum) = (Vector3::new(2e-4, 1e-4, -3e-4), Vector3::new(-1e-4, 5e-4, 2e-4));
+        let change = (w + momentum).dot(&(n + rotation.cross(&n))) - w.dot(&n);
+        assert_relative_eq!(of(rotation, momentum), 3.0 * change.abs(), max_relative = 2e-3);
+        assert_relative_eq!(of(-rotation, -momentum), of(rotation, momentum), max_relative = 1e-12);
+        // Independent deviations of each component add up in squares; correlated ones have the mixed terms.
+        let mut growth = ErrorGrowth::none(1.0);
+        growth.add(&Difference::default(), [3e-4, 2e-4]);
+        let deviation = (3e-4 * n.cross(&w).norm()).hypot(2e-4);
+        assert_relative_eq!(growth.of_spin(&n, &w), 6.0 * deviation, max_relative = 1e-9);
+        growth.covariance.mixed = Matrix3::identity() * 4e-8;
+        assert_relative_eq!(growth.of_spin(&n, &w), 6.0 * deviation, max_relative = 1e-9);
+        growth.covariance.mixed = n.cross(&w) * n.transpose() * 1e-7;
+        let squared = deviation * deviation + 2e-7 * n.cross(&w).norm_squared();
+        assert_relative_eq!(growth.of_spin(&n, &w), 6.0 * squared.sqrt(), max_relative = 1e-9);
     }
 
     #[test]

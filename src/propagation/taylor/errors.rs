@@ -20,6 +20,10 @@ pub(super) const ROUNDING: f64 = 0.5;
 /// Fraction of the truncation of a step that its leading term misses.
 const UNCERTAIN: f64 = 0.04;
 
+/// Factor by which an error carried has shrunk when its square, which does not shrink with it, is added. In a motion that is not near an unstable
+/// one, the error of a phase varies by less over a period.
+const SHRUNK: f64 = 8.0;
+
 /// Relative rounding, at evaluation, of the angle by which `e_x` has turned about `n`: half a unit in the last place.
 const ANGLE_ROUNDING: f64 = 0.5 * f64::EPSILON;
 
@@ -41,6 +45,16 @@ impl StepError {
     }
 }
 
+/// The estimated error of a motion at its end, as it goes on growing in a motion that starts there.
+#[derive(Debug, Clone)]
+pub(super) struct ErrorAtEnd {
+    growth: ErrorGrowth,
+    /// Unit of time of the growth.
+    unit: f64,
+    of_angle: f64,
+    largest: f64,
+}
+
 /// Processes the steps of a motion in order.
 pub(super) struct TaylorErrors<const V: usize> {
     spheroid: RigidSpheroid<f64>,
@@ -55,8 +69,12 @@ pub(super) struct TaylorErrors<const V: usize> {
     /// `L / I^xx` of the momentum's unit, in the unit of time.
     momentum_unit: f64,
     before: f64,
-    /// Bound of the rounding of the angle of `e_x` about `n`.
+    /// The largest error carried since it last shrank by [`SHRUNK`].
+    largest: f64,
+    /// Bound of the error of the angle of `e_x` about `n`, which is computed apart from the series: of its rounding, and of its rate since the start of
+    /// the motion.
     of_angle: f64,
+    rate_of_angle: f64,
     /// Rate of `e_x` about `n`, in the unit of time of the series; zero if only the axis is followed.
     rate_about_axis: f64,
     /// The current step.
@@ -64,8 +82,8 @@ pub(super) struct TaylorErrors<const V: usize> {
 }
 
 impl<const V: usize> TaylorErrors<V> {
-    /// The state at the start of a motion.
-    pub(super) fn of<S: Real>(setup: &ScaledProblem<S, V>) -> Self {
+    /// The state at the start of a motion, where a motion before it ends with the error `earlier`.
+    pub(super) fn of<S: Real>(setup: &ScaledProblem<S, V>, earlier: Option<&ErrorAtEnd>) -> Self {
         let (scale, spheroid) = (&setup.scale, setup.spheroid.map(S::re));
         let tensor = setup.frame.tensor.map(S::re);
         let unit = scale.time;
@@ -75,15 +93,27 @@ impl<const V: usize> TaylorErrors<V> {
         let excess = excess_of_shares(setup).map(|[axis, momentum]| {
             Columns::from_columns(&core::array::from_fn::<_, V, _>(|i| if i == MOMENTUM { momentum } else { axis }))
         });
-        let mut growth = ErrorGrowth::none(scale.momentum * rate);
+        let momentum_unit = scale.momentum * rate;
+        let (mut growth, of_angle, largest) = match earlier {
+            None => (ErrorGrowth::none(momentum_unit), 0.0, 0.0),
+            Some(ErrorAtEnd { growth, unit: of_earlier, of_angle, largest }) => {
+                let mut growth = growth.clone().of_orthonormal_state(unit / of_earlier, momentum_unit);
+                // The state at the end was rounded.
+                growth.add(&Difference::default(), [f64::EPSILON, f64::EPSILON * momentum_unit]);
+                (growth, *of_angle, *largest)
+            }
+        };
         let start = setup.start.map(|v| v.vector().map(S::re));
+        // The rate of e_x about n is that of the start, of which `w.n` may have an error.
+        let of_spin = growth.of_spin(&start[AXIS], &(start[MOMENTUM] * rate));
+        let rate_of_angle = spheroid.oblateness().abs() * spheroid.inertia_xx / spheroid.inertia_zz * of_spin;
+        let rate_of_angle = if V > COMPANION { rate_of_angle } else { 0.0 };
         let mut known = difference::<V>(&Columns::from_columns(&start), &Columns::from_columns(&at_start), rate);
         known.off_frame[0] += shared.off_frame;
         growth.add(&known, [0.0; 2]);
-        let before = growth.estimate(None);
+        let before = growth.estimate(None) + of_angle;
         let series = Vec::with_capacity(setup.order + 1);
         let rate_about_axis = if V > COMPANION { setup.rate_about_axis.re() * unit } else { 0.0 };
-        let momentum_unit = scale.momentum * rate;
         Self {
             spheroid,
             tensor,
@@ -94,10 +124,17 @@ impl<const V: usize> TaylorErrors<V> {
             unit,
             momentum_unit,
             before,
-            of_angle: 0.0,
+            largest: before.max(largest),
+            of_angle,
+            rate_of_angle,
             rate_about_axis,
             series,
         }
+    }
+
+    /// The error after the steps so far.
+    pub(super) fn at_end(self) -> ErrorAtEnd {
+        ErrorAtEnd { growth: self.growth, unit: self.unit, of_angle: self.of_angle, largest: self.largest }
     }
 
     /// Processes the next step, of signed length `h` in units of its series. `vector` makes the vectors of the coefficients
@@ -119,7 +156,7 @@ impl<const V: usize> TaylorErrors<V> {
         let start = (series[0].column(AXIS).into(), series[0].column(MOMENTUM) * rate);
         let growth = &mut self.growth;
         self.flow.over(start, &axis, h, |map| growth.carry(map));
-        self.of_angle += ANGLE_ROUNDING * (self.rate_about_axis * h).abs();
+        self.of_angle += (ANGLE_ROUNDING * self.rate_about_axis.abs() + self.rate_of_angle) * h.abs();
         let carried = (self.growth.estimate(only_axis) + self.of_angle).max(self.before);
 
         let known = self.truncation(series, h, end);
@@ -131,8 +168,8 @@ impl<const V: usize> TaylorErrors<V> {
         let kicked = (self.flow.strength() * h.abs()).max(changes.column(MOMENTUM).norm() * rate);
         // Within a step the momentum also depends on the torque from the defect of the axis.
         let uncertain = UNCERTAIN * (known.momentum.norm() + size * kicked.min(self.momentum_unit));
-        // The linearised flow neglects the square of the error carried, which matters where the error shrinks again afterwards.
-        let second_order = carried * carried * turned;
+        self.largest = self.largest.max(carried);
+        let second_order = self.left_by_an_error_that_shrank(carried);
         let [turned, kicked] = [turned, kicked].map(|change| ROUNDING * f64::EPSILON * change);
         let deviations =
             [turned + UNCERTAIN * size + second_order, kicked + uncertain + second_order * self.momentum_unit];
@@ -142,6 +179,15 @@ impl<const V: usize> TaylorErrors<V> {
         self.before = self.growth.estimate(only_axis) + self.of_angle;
         let rounded = ErrorGrowth::counted_deviation(turned.hypot(kicked / self.momentum_unit));
         StepError { carried, local: ErrorGrowth::counted(size), rounded }
+    }
+
+    /// What the linearised flow neglects: the square of an error, which remains where the error itself shrinks, as on the way back to an unstable
+    /// state of rest. Otherwise it is small relative to the error.
+    fn left_by_an_error_that_shrank(&mut self, carried: f64) -> f64 {
+        if carried * SHRUNK > self.largest {
+            return 0.0;
+        }
+        core::mem::replace(&mut self.largest, carried).powi(2)
     }
 
     /// The truncation error of the step, and the effect of rounded factors in its recurrences.
@@ -226,7 +272,7 @@ mod tests {
             }
             series.push(coefficient);
         }
-        (TaylorErrors::of(&setup), series)
+        (TaylorErrors::of(&setup, None), series)
     }
 
     fn end<const V: usize>(series: &[Columns<V>], h: f64) -> Columns<V> {
@@ -270,17 +316,48 @@ mod tests {
         assert_relative_eq!(with_twice - twice, ANGLE_ROUNDING * 2e5, max_relative = 1e-9);
     }
 
-    /// A step of a free star makes no truncation; an error of `e` carried adds deviations of `e^2` times the angle turned.
+    /// An error of `L.n` at the start, where `e_x` has its rate of rotation about `n` from, turns `e_x` by more with every step.
     #[test]
-    fn the_square_of_the_error_carried_is_added() {
+    fn the_rate_about_the_axis_has_the_error_of_the_start() {
+        fn with_error<const V: usize>(momentum: Vector3<f64>) -> [f64; 2] {
+            let (errors, series) = rotating::<V>(momentum);
+            let mut growth = ErrorGrowth::none(errors.momentum_unit);
+            // The axis is X; per unit of time `unit`.
+            growth.add(&Difference { momentum: Vector3::new(1e-6, 0.0, 0.0), ..Difference::default() }, [0.0; 2]);
+            let earlier = ErrorAtEnd { growth, unit: errors.unit, of_angle: 1e-8, largest: 0.0 };
+            let vectors = [Vector3::x(), momentum, Vector3::y()];
+            let problem = Problem::unchecked(SPHEROID, Matrix3::zeros(), BodyState::from_vectors(vectors));
+            let setup = ScaledProblem::<f64, V>::new((true, Work::Waiting), &problem, (0.0, 1.0), 1e-10).unwrap();
+            let mut errors = TaylorErrors::<V>::of(&setup, Some(&earlier));
+            let start = errors.of_angle;
+            errors.step_of_columns(&series, 0.1, &end(&series, 0.1));
+            [start, errors.of_angle - start]
+        }
+        let momentum = Vector3::new(0.0, 0.0, 1.3);
+        let [start, grown] = with_error::<3>(momentum);
+        // |1.1 / 1.3 - 1| * 1.3 / 1.1 of three times the error, over 0.1 units of time.
+        let expected = 3e-6 * (0.2 / 1.1) * 0.1;
+        assert_relative_eq!(start, 1e-8, max_relative = 1e-14);
+        assert_relative_eq!(grown, expected, max_relative = 1e-6);
+        assert_eq!(with_error::<2>(momentum)[1], 0.0);
+    }
+
+    /// A step of a free star makes no truncation; an error of `e` that has shrunk to less than an eighth leaves deviations of `e^2`, once.
+    #[test]
+    fn the_square_of_an_error_that_shrank_is_added() {
         let momentum = Vector3::new(0.0, 0.0, 1.3);
         let (mut errors, series) = rotating::<2>(momentum);
-        let (h, carried) = (0.5 / series[1].column(AXIS).norm(), 1e-3);
-        errors.before = carried;
+        let (h, largest) = (0.5 / series[1].column(AXIS).norm(), 1e-3);
+        errors.before = 1.01 * largest / SHRUNK;
+        errors.largest = largest;
         let before = errors.growth.clone().estimate(None);
         errors.step_of_columns(&series, h, &end(&series, h));
+        assert!(errors.before < before + 1e-13 && errors.largest == largest, "{:e}", errors.before);
+        errors.before = 0.99 * largest / SHRUNK;
+        errors.step_of_columns(&series, h, &end(&series, h));
+        assert_eq!(errors.largest, 0.99 * largest / SHRUNK);
         // Of the rotation but for that about n, of the length and of the momentum: six components.
-        let expected = ErrorGrowth::counted_deviation(carried * carried * 0.5_f64.hypot(0.125)) * 6.0_f64.sqrt();
+        let expected = ErrorGrowth::counted_deviation(largest * largest) * 6.0_f64.sqrt();
         assert_relative_eq!(errors.before - before, expected, max_relative = 0.05);
     }
 

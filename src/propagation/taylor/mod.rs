@@ -31,7 +31,7 @@ use crate::numerics::fused::{Fused, detect_fused, run_fused};
 use crate::numerics::scalar::{Real, cast, cast_ref};
 use crate::propagation::Motion;
 use clock::StepLimit;
-use errors::{StepError, TaylorErrors};
+use errors::{ErrorAtEnd, StepError, TaylorErrors};
 pub use forecast::TaylorForecast;
 #[cfg(target_arch = "x86_64")]
 pub(super) use lanes::axis_states_in_lanes;
@@ -92,8 +92,17 @@ struct KeptSeries<S, const V: usize> {
     /// The instructions for summing the series, for doubles.
     fused: Option<Fused>,
     steps: Steps<S, V>,
-    /// Estimated error of each step, computed at the first request, because most motions never need it.
-    errors: OnceLock<Vec<StepError>>,
+    /// The estimated error of the start, if another motion led to it.
+    earlier: Option<ErrorAtEnd>,
+    /// Computed at the first request, because most motions never need it.
+    errors: OnceLock<Errors>,
+}
+
+/// The estimated error of each step, and of the motion at its end.
+#[derive(Debug, Clone)]
+struct Errors {
+    of_steps: Vec<StepError>,
+    at_end: ErrorAtEnd,
 }
 
 /// Adjoining steps with their series.
@@ -250,12 +259,12 @@ impl<S: Real, const V: usize> KeptSeries<S, V> {
                 #[inline(always)]
                 || Steps::kept(&setup, fused),
             )?;
-            let motion = KeptSeries { setup, fused: Some(fused), steps, errors: OnceLock::new() };
+            let motion = KeptSeries { setup, fused: Some(fused), steps, earlier: None, errors: OnceLock::new() };
             return Ok(cast(motion).expect("the scalar is f64"));
         }
         let setup = ScaledProblem::new(work_of(None), problem, span, tolerance)?;
         let steps = Steps::kept(&setup, plain())?;
-        Ok(Self { setup, fused: None, steps, errors: OnceLock::new() })
+        Ok(Self { setup, fused: None, steps, earlier: None, errors: OnceLock::new() })
     }
 
     /// Index of the step that contains the time `t`, and the time since the start.
@@ -286,19 +295,25 @@ impl<S: Real, const V: usize> KeptSeries<S, V> {
         (end.high - starts[step].high) + (end.low - starts[step].low)
     }
 
-    /// The estimated errors of all steps.
-    fn step_errors(&self) -> Vec<StepError> {
-        let mut errors = TaylorErrors::of(&self.setup);
-        let steps = (0..self.steps.count()).map(|step| {
-            let h = self.length(step) * self.setup.direction() / self.setup.scale.time;
-            errors.step(self.steps.series(step), |v| v.vector().map(S::re), h)
-        });
-        steps.collect()
+    fn errors(&self) -> &Errors {
+        self.errors.get_or_init(|| {
+            let mut errors = TaylorErrors::of(&self.setup, self.earlier.as_ref());
+            let of_steps = (0..self.steps.count()).map(|step| {
+                let h = self.length(step) * self.setup.direction() / self.setup.scale.time;
+                errors.step(self.steps.series(step), |v| v.vector().map(S::re), h)
+            });
+            Errors { of_steps: of_steps.collect(), at_end: errors.at_end() }
+        })
+    }
+
+    /// This motion with the error that `earlier` has at its end as that of the start.
+    fn going_on_from(self, earlier: &Self) -> Self {
+        Self { earlier: Some(earlier.errors().at_end.clone()), errors: OnceLock::new(), ..self }
     }
 
     fn error_estimate(&self, t: f64) -> f64 {
         let Ok((index, elapsed)) = self.step_at(t) else { return f64::NAN };
-        let error = self.errors.get_or_init(|| self.step_errors())[index];
+        let error = self.errors().of_steps[index];
         let (into, length) = (elapsed - self.steps.starts[index].high, self.length(index));
         let into = if into > 0.0 { into / length } else { 0.0 };
         error.at(into, self.setup.order) + self.setup.error_of_time(t)
@@ -331,6 +346,18 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
             Kept::Body(series) => (series.steps.count(), series.setup.order),
         };
         Ok(TaylorMotion { step_count, order, kept, state: PhantomData })
+    }
+}
+
+impl<S: Real, X> TaylorMotion<S, X> {
+    /// See [`PlannedMotion::going_on_from`](crate::plan::PlannedMotion::going_on_from).
+    pub(crate) fn going_on_from(self, earlier: &Self) -> Self {
+        let kept = match (self.kept, &earlier.kept) {
+            (Kept::Axis(series), Kept::Axis(earlier)) => Kept::Axis(series.going_on_from(earlier)),
+            (Kept::Body(series), Kept::Body(earlier)) => Kept::Body(series.going_on_from(earlier)),
+            _ => unreachable!("both are motions of the same type of state"),
+        };
+        Self { kept, ..self }
     }
 }
 
