@@ -60,15 +60,11 @@ pub fn explained(scene: &Scene, plan: &Plan) -> String {
         }
         row("evaluations", format!("about {:.0} of {}", work.evaluations(), plan.state.name()));
         let segments = segment_count(scene, plan);
-        let memory = match segments {
-            1 => bytes(prediction.bytes),
-            // The error of one goes on into the next.
-            count => {
-                let two = bytes(prediction.bytes * 2.0 / count as f64);
-                format!("{two} at a time, for two of {count} segments of the span")
-            }
+        let at_a_time = match segments {
+            1 => String::new(),
+            count => format!(" at a time, in {count} segments of the span"),
         };
-        row("memory", format!("about {memory}"));
+        row("memory", format!("about {}{at_a_time}", bytes(prediction.bytes / segments as f64)));
         row("cost", format!("about {} on {MACHINE}", duration(prediction.cost)));
         row(
             "error",
@@ -246,7 +242,7 @@ mod tests {
         plan.span.1 = -5.6e4 / scene.turning_rate();
         plan.prediction = Some(Prediction { bytes: 12e6, ..bound });
         let text = explained(&scene, &plan);
-        assert!(text.contains("memory       about 2.0 MB at a time, for two of 12 segments of the span\n"), "{text}");
+        assert!(text.contains("memory       about 1.0 MB at a time, in 12 segments of the span\n"), "{text}");
         plan = Plan { samples: 0, derivatives: Vec::new(), prediction: None, considered: Vec::new(), ..plan };
         let text = explained(&scene, &plan);
         assert!(text.contains("samples      none\nderivatives  none\n\nskipped\n"), "{text}");

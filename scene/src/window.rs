@@ -1,6 +1,7 @@
 //! A part of a motion, at any late time.
 
 use twofold::Error;
+use twofold::dynamics::RotationState;
 use twofold::plan::Output;
 
 use crate::samples::{ErrorEstimates, Sample, for_each_sample};
@@ -34,7 +35,7 @@ impl Scene {
             error = sampled.error.unwrap_or(0.0);
         }
         let scene = Self {
-            problem: self.problem.starting_from(state)?,
+            problem: self.problem.starting_from(state.orthonormal())?,
             initial_angles: angles,
             times: Times::Even { start: from, end: to, samples: self.times.count().max(2) },
             epoch: self.epoch.map(|epoch| epoch.after([from - start, 0.0])).transpose()?,

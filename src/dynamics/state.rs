@@ -44,7 +44,7 @@ pub trait RotationState<S: Scalar>: Copy + Debug + PartialEq + 'static {
         Self::from_vectors(self.vectors().map(|vector| other_from_this * vector))
     }
 
-    /// The state with `n` and `e_x` of length one and at right angles, of which the errors of a numerical motion may have taken something.
+    /// The state with `n` and `e_x` made of length one and normal to each other again: errors of a numerical motion change both a little.
     fn orthonormal(&self) -> Self
     where
         S: Real,
@@ -90,5 +90,26 @@ impl<S: Scalar> RotationState<S> for BodyState<S> {
     #[inline]
     fn from_vectors([axis, momentum, equatorial_axis]: [Vector3<S>; 3]) -> Self {
         Self { axis, momentum, equatorial_axis }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    /// `n` keeps its direction, and `e_x` its plane with `n`; a state without `e_x` has none afterwards either.
+    #[test]
+    fn a_state_is_made_orthonormal() {
+        let (n, across) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.0, 1.0, 0.0));
+        let momentum = Vector3::new(0.3, -0.7, 1.1);
+        let off = BodyState { axis: n * 1.01, momentum, equatorial_axis: across * 0.98 + n * 0.03 };
+        let BodyState { axis, momentum: kept, equatorial_axis } = off.orthonormal();
+        assert_relative_eq!(axis, n, max_relative = 1e-15);
+        assert_relative_eq!(equatorial_axis, across, epsilon = 1e-15);
+        assert_eq!(kept, momentum);
+        let reduced = off.axis_state().orthonormal();
+        assert_eq!((reduced.axis, reduced.momentum), (axis, momentum));
     }
 }

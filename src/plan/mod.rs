@@ -47,7 +47,7 @@ pub use decision::{Plan, Skipped};
 pub(crate) use gradient::gradient_in_parts;
 pub use gradient::{Gradient, gradient};
 pub use method::Method;
-pub use motion::PlannedMotion;
+pub use motion::{ErrorAtEnd, PlannedMotion};
 pub use output::{Evaluations, Need, Output, State};
 pub use request::Request;
 pub use work::{Counted, Work};

@@ -5,7 +5,8 @@ use nalgebra::{Matrix3, Vector3};
 use super::{Method, Output, Plan, Request, Work};
 use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
-use crate::propagation::splitting::SplittingMotion;
+use crate::propagation::splitting::{SplittingErrorAtEnd, SplittingMotion};
+use crate::propagation::taylor::TaylorErrorAtEnd;
 use crate::propagation::{
     AveragedMotion, Motion, SeriesProjection, SymmetricMotion, TaylorMotion, TorusMotion, Turning, UniformMotion,
 };
@@ -27,6 +28,22 @@ pub enum PlannedMotion<X = BodyState<f64>> {
     Splitting(SplittingMotion<X>),
     /// [`Method::Taylor`].
     Taylor(TaylorMotion<f64, X>),
+}
+
+/// The error at the end of a numerical motion, as it goes on growing in one that starts there: [`PlannedMotion::error_at_end`].
+#[derive(Debug, Clone)]
+pub struct ErrorAtEnd {
+    time: f64,
+    spheroid: RigidSpheroid<f64>,
+    coefficients: Matrix3<f64>,
+    error: Growing,
+}
+
+#[derive(Debug, Clone)]
+#[allow(clippy::large_enum_variant, reason = "one at a time, and nothing on the heap")]
+enum Growing {
+    Taylor(TaylorErrorAtEnd),
+    Splitting(SplittingErrorAtEnd),
 }
 
 /// Number of samples for which [`Problem::motion`] chooses the cheapest method.
@@ -76,19 +93,35 @@ impl<X: RotationState<f64>> Problem<f64, X> {
 }
 
 impl<X: RotationState<f64>> PlannedMotion<X> {
-    /// This motion, which starts with the state at the end of `earlier`, with the error that it has there as the error of the start: a long
-    /// numerical motion can be computed in parts, of which each gives the [error](Motion::error_estimate) of all so far.
+    /// The error at the end of a numerical motion, for one that goes on from there; `None` for a closed form, which is exact from its own start.
+    pub fn error_at_end(&self) -> Option<ErrorAtEnd> {
+        let error = match self {
+            Self::Taylor(motion) => Growing::Taylor(motion.error_at_end()),
+            Self::Splitting(motion) => Growing::Splitting(motion.error_at_end()),
+            Self::Uniform(_) | Self::Symmetric(_) | Self::Averaged(_) | Self::Torus(_) => return None,
+        };
+        let (time, spheroid, coefficients) = (self.span().1, *self.spheroid(), *self.coefficients());
+        Some(ErrorAtEnd { time, spheroid, coefficients, error })
+    }
+
+    /// This motion with the error of another one that led to its start: a long numerical motion can be computed in parts, of which each states the
+    /// [error](Motion::error_estimate) of all so far. The start must be the state at the end of the other,
+    /// [made orthonormal](RotationState::orthonormal).
     ///
     /// # Errors
-    /// [`Error::Unsupported`] unless both are by the same numerical method.
-    pub fn going_on_from(self, earlier: &Self) -> Result<Self, Error> {
-        match (self, earlier) {
-            (Self::Taylor(motion), Self::Taylor(earlier)) => Ok(Self::Taylor(motion.going_on_from(earlier))),
-            (Self::Splitting(motion), Self::Splitting(earlier)) => Ok(Self::Splitting(motion.going_on_from(earlier))),
-            _ => {
-                let (what, why) = ("motion that goes on from another", "both must be by the same numerical method");
-                Err(Error::Unsupported { what, why })
+    /// [`Error::Unsupported`] for another method, another body or another time than those at the end of the other motion.
+    pub fn going_on_with(self, earlier: ErrorAtEnd) -> Result<Self, Error> {
+        let ErrorAtEnd { time, spheroid, coefficients, error } = earlier;
+        let refused = |why| Err(Error::Unsupported { what: "motion that goes on from another", why });
+        if time != self.span().0 || spheroid != *self.spheroid() || coefficients != *self.coefficients() {
+            return refused("it must be of the same body and start at the time at which the other ends");
+        }
+        match (self, error) {
+            (Self::Taylor(motion), Growing::Taylor(error)) => Ok(Self::Taylor(motion.with_error_at_start(error))),
+            (Self::Splitting(motion), Growing::Splitting(error)) => {
+                Ok(Self::Splitting(motion.with_error_at_start(error)))
             }
+            _ => refused("both must be by the same numerical method"),
         }
     }
 
@@ -185,18 +218,31 @@ mod tests {
         }
     }
 
-    /// The motion in three parts, at the middle of the second and at the end of the third, and the motion as a whole at the same times.
+    /// The estimated errors of a motion in equal parts at the middle of the one before the last and at its end, and of the motion as a whole.
     fn in_parts_and_whole<X: RotationState<f64>>(
         problem: &Problem<f64, X>,
+        (start, end): (f64, f64),
+        parts: u32,
         motion: impl Fn(&Problem<f64, X>, (f64, f64)) -> PlannedMotion<X>,
     ) -> [[f64; 2]; 2] {
-        let whole = motion(problem, (-5.0, 55.0));
-        let first = motion(problem, (-5.0, 15.0));
-        let second = motion(&problem.starting_from(first.state(15.0).unwrap()).unwrap(), (15.0, 35.0));
-        let second = second.going_on_from(&first).unwrap();
-        let third = motion(&problem.starting_from(second.state(35.0).unwrap()).unwrap(), (35.0, 55.0));
-        let third = third.going_on_from(&second).unwrap();
-        [[second.error_estimate(25.0), third.error_estimate(55.0)], [25.0, 55.0].map(|t| whole.error_estimate(t))]
+        let whole = motion(problem, (start, end));
+        let length = (end - start) / f64::from(parts);
+        let (mut problem, mut from, mut earlier) = (*problem, start, None);
+        let (mut late, mut last) = ([0.0; 2], 0.0);
+        for part in 1..=parts {
+            let to = start + length * f64::from(part);
+            let mut motion = motion(&problem, (from, to));
+            if let Some(earlier) = earlier {
+                motion = motion.going_on_with(earlier).unwrap();
+            }
+            if part + 1 == parts {
+                late = [from + 0.5 * length, motion.error_estimate(from + 0.5 * length)];
+            }
+            last = motion.error_estimate(to);
+            problem = problem.starting_from(motion.state(to).unwrap().orthonormal()).unwrap();
+            (from, earlier) = (to, motion.error_at_end());
+        }
+        [[late[1], last], [late[0], end].map(|t| whole.error_estimate(t))]
     }
 
     /// Near the unstable middle axis an error grows by e^4 from one part to the next; it is that of the motion as a whole. The parts' steps
@@ -216,30 +262,57 @@ mod tests {
         }
         // The same error per unit of time: a share of the tolerance that grows with the rotation until the end.
         let tolerance = |(from, to): (f64, f64)| 1e-13 * (to - from) / 60.0;
-        compared(in_parts_and_whole(&problem, |problem, span| {
+        compared(in_parts_and_whole(&problem, (-5.0, 55.0), 3, |problem, span| {
             PlannedMotion::Taylor(problem.taylor(span, tolerance(span)).unwrap())
         }));
-        compared(in_parts_and_whole(&problem.reduced(), |problem, span| {
+        compared(in_parts_and_whole(&problem.reduced(), (-5.0, 55.0), 3, |problem, span| {
             PlannedMotion::Taylor(problem.taylor(span, tolerance(span)).unwrap())
         }));
-        compared(in_parts_and_whole(&problem, |problem, span| {
+        compared(in_parts_and_whole(&problem, (-5.0, 55.0), 3, |problem, span| {
             PlannedMotion::Splitting(problem.splitting_by(&GRADIENT_8_8_6, span, 0.03125).unwrap())
         }));
-        compared(in_parts_and_whole(&problem.reduced(), |problem, span| {
+        compared(in_parts_and_whole(&problem.reduced(), (-5.0, 55.0), 3, |problem, span| {
             PlannedMotion::Splitting(problem.splitting_by(&GRADIENT_8_8_6, span, 0.03125).unwrap())
         }));
+    }
+
+    /// Of a regular motion too, in many parts: each takes over the error, and adds its own once. That of `e_x` is not compared for the Taylor series, as
+    /// its rate about `n` is rounded in each part.
+    #[test]
+    fn the_error_of_many_parts_is_that_of_the_motion() {
+        let problem = problem([2e-2, 1e-2, -3e-2]);
+        let by_splitting = |problem: &Problem<f64>, span| {
+            PlannedMotion::Splitting(problem.splitting_by(&GRADIENT_8_8_6, span, 0.125).unwrap())
+        };
+        let by_taylor = |problem: &Problem<f64, AxisState<f64>>, span: (f64, f64)| {
+            PlannedMotion::Taylor(problem.taylor(span, 1e-10 * ((span.1 - span.0) / 1000.0).powi(2)).unwrap())
+        };
+        let splitting = in_parts_and_whole(&problem, (0.0, 1000.0), 100, by_splitting);
+        let taylor = in_parts_and_whole(&problem.reduced(), (0.0, 1000.0), 100, by_taylor);
+        // At each end `L` is rounded to half a unit, which after many turns is more than all that the steps of a Taylor series round.
+        for ([parts, whole], most) in [(splitting, 2.0), (taylor, 8.0)] {
+            for (part, whole) in parts.into_iter().zip(whole) {
+                assert!((0.5..most).contains(&(part / whole)), "{splitting:?} {taylor:?}");
+            }
+        }
     }
 
     #[test]
     fn a_motion_goes_on_only_from_one_by_the_same_numerical_method() {
         let problem = problem([2e-6, 1e-6, -3e-6]);
-        let motion = |method| problem.motion_by(method, (0.0, 10.0), 1e-9).unwrap();
-        for (method, earlier) in
-            [(Method::Taylor, Method::Splitting), (Method::Averaged, Method::Averaged), (Method::Taylor, Method::Free)]
-        {
-            let error = motion(method).going_on_from(&motion(earlier)).unwrap_err();
-            assert!(matches!(error, Error::Unsupported { .. }), "{error}");
+        let motion = |method, span| problem.motion_by(method, span, 1e-9).unwrap();
+        let earlier = motion(Method::Taylor, (0.0, 10.0)).error_at_end().unwrap();
+        for (method, span, why) in [
+            (Method::Splitting, (10.0, 20.0), "same numerical method"),
+            (Method::Free, (10.0, 20.0), "same numerical method"),
+            (Method::Taylor, (10.5, 20.0), "start at the time"),
+        ] {
+            let error = motion(method, span).going_on_with(earlier.clone()).unwrap_err().to_string();
+            assert!(error.contains(why), "{error}");
         }
+        let other = super::tests::problem([2e-6, 1e-6, -4e-6]).motion_by(Method::Taylor, (10.0, 20.0), 1e-9).unwrap();
+        assert!(other.going_on_with(earlier).unwrap_err().to_string().contains("same body"));
+        assert!(motion(Method::Averaged, (0.0, 10.0)).error_at_end().is_none());
     }
 
     /// `n` and `L` do not depend on the arbitrary equatorial axis that a closed form of a reduced problem is given.

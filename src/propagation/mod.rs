@@ -27,7 +27,7 @@ mod many;
 mod motion;
 mod phased;
 pub mod splitting;
-mod taylor;
+pub(crate) mod taylor;
 mod third_angle;
 mod turning;
 

@@ -90,7 +90,7 @@ mod tests {
         text.lines().skip(1).map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect()
     }
 
-    /// In free precession about Z the rate of `alpha` is `(1 + eps) Omega^z / cos beta`. 1.3e5 rad are three segments.
+    /// In free precession about Z the rate of `alpha` is `(1 + eps) Omega^z / cos beta`. 1.3e5 rad are 26 segments.
     #[test]
     fn angles_keep_their_turns_over_several_segments() {
         let (beta, spin) = (0.7_f64, 1.0);

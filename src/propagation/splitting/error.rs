@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use crate::propagation::splitting::GRADIENT_8_8_6;
 use crate::propagation::splitting::double_steps::DoubleSteps;
-use crate::propagation::splitting::flows::{AXIS, Field, Moving, RATE, dot};
+use crate::propagation::splitting::flows::{AXIS, Field, Moving, RATE};
 use crate::propagation::splitting::motion::KeptStates;
 
 /// Largest number of times at which the two motions are compared.
@@ -22,7 +22,7 @@ const OFF: [f64; 3] = [8.3, -6.1, 7.7];
 const OFF_ACROSS: [f64; 3] = [9.4, 8.9, -3.1];
 const EIGENVALUES_OFF: [f64; 3] = [3.7, -5.3, 4.1];
 
-/// Its components of `s` off the diagonal, in roundings: they turn the principal axes, by much for nearly equal eigenvalues.
+/// Components of `s` off the diagonal of that field, in roundings: they turn the principal axes, by much for nearly equal eigenvalues.
 const OFF_DIAGONAL: [f64; 3] = [4.3, -3.9, 5.1];
 
 /// Rounding of `s`, of the initial state and of the step, which both motions share, in units in the last place for each radian of
@@ -42,13 +42,13 @@ const MOST_FINER: f64 = 1e4;
 
 /// The error at the end of a motion, with what continues it in a motion that starts there.
 #[derive(Debug, Clone)]
-pub(super) struct ErrorAtEnd<const V: usize> {
+pub(crate) struct ErrorAtEnd {
     /// The largest difference so far, times [`SAFETY`].
     largest: f64,
     /// The rounding that all motions share.
     shared_rounding: f64,
-    /// `n`, `L` and `e_x` of the more accurate motion, and of the one beside this.
-    others: [[Vector3<f64>; V]; 2],
+    /// `n`, `L` and, if it is followed, `e_x` of the more accurate motion, and of the one beside this.
+    others: [[Vector3<f64>; 3]; 2],
 }
 
 /// Six times the difference from the motion by [`GRADIENT_8_8_6`] with stages half as long or shorter: the largest difference
@@ -59,18 +59,18 @@ pub(super) struct ErrorAtEnd<const V: usize> {
 /// others: if two terms of an error cancel, two steps can have the same error.) Both motions have the same instability near
 /// the middle axis, so that no model of its growth is needed.
 #[derive(Debug, Clone)]
-pub(super) struct ErrorEstimate<const V: usize> {
+pub(super) struct ErrorEstimate {
     interval: f64,
     largest: Vec<f64>,
     /// [`SHARED`], per unit of time.
     shared_rounding: f64,
-    /// At the start: the largest difference, and the rounding shared.
+    /// At the start: the largest difference, times [`SAFETY`], and the rounding shared.
     at_start: [f64; 2],
-    pub(super) at_end: ErrorAtEnd<V>,
+    pub(super) at_end: ErrorAtEnd,
 }
 
-impl<const V: usize> ErrorEstimate<V> {
-    pub(super) fn new(motion: &KeptStates<V>) -> Self {
+impl ErrorEstimate {
+    pub(super) fn new<const V: usize>(motion: &KeptStates<V>) -> Self {
         let scene = &motion.scene;
         let twos = motion.step_count / 2;
         let stride = twos.div_ceil(COMPARISONS);
@@ -78,17 +78,27 @@ impl<const V: usize> ErrorEstimate<V> {
         let interval = 2.0 * stride as f64 * motion.step.abs();
         let shared_rounding = SHARED * f64::EPSILON * scene.largest_rate;
         let duration = motion.step * motion.step_count as f64;
+        // The start of the others is displaced by a rounding, so that the difference includes the growth by an instability of the rounding that
+        // all motions share.
         let (mut most, earlier_rounding, starts) = match &motion.earlier {
-            None => (0.0, 0.0, [scene.start; 2]),
+            None => (0.0, 0.0, [OFF, OFF_ACROSS].map(|by| off(&scene.start, by, scene.largest_rate))),
             Some(ErrorAtEnd { largest, shared_rounding, others }) => {
                 (*largest, *shared_rounding, others.each_ref().map(|vectors| scene.moving(vectors)))
             }
         };
+        // Each has its own w.n: near rest, where `w` is small, that of the motion would turn `n` by much more than the displacement.
+        let casimirs = starts.each_ref().map(|of| {
+            let n = Vector3::from(of.vectors[AXIS]);
+            n.dot(&Vector3::from(of.vectors[RATE])) / n.norm()
+        });
         let at_start = [most, earlier_rounding];
         let at_end = |largest: f64, others: [Moving<f64, V>; 2]| ErrorAtEnd {
             largest,
             shared_rounding: earlier_rounding + shared_rounding * duration.abs(),
-            others: others.map(|moving| scene.vectors(&moving, duration)),
+            others: core::array::from_fn(|k| {
+                let rate = scene.rate_about_axis - motion.rate_about_axis_for(casimirs[k] - scene.casimir);
+                scene.vectors(&others[k], rate * duration)
+            }),
         };
         let by_angle = (2.0 * motion.step.abs() * scene.largest_rate / LONGEST_STEP).ceil();
         if by_angle > MOST_FINER {
@@ -100,12 +110,7 @@ impl<const V: usize> ErrorEstimate<V> {
         let finer = other(2.0 * motion.step / per_two as f64);
         let half_back = other(-0.5 * motion.step);
         let half_forth = DoubleSteps::new(motion.scheme, &scene.field, 0.5 * motion.step, scene.largest_rate);
-        // The start is displaced by a rounding, so that the difference includes the growth by an instability of the rounding that
-        // both motions share.
-        let mut state = off(&starts[0], OFF, scene.largest_rate);
-        let mut beside = off(&starts[1], OFF_ACROSS, scene.largest_rate);
-        // Each has its own w.n: near rest, where `w` is small, that of the motion would turn `n` by much more than the displacement.
-        let [casimir, beside_casimir] = [&state, &beside].map(|of| dot(&of.vectors[RATE], &of.vectors[AXIS]));
+        let ([mut state, mut beside], [casimir, beside_casimir]) = (starts, casimirs);
         finer.open(&mut state);
         let field = Field::new(scene.field.strength, rounded(scene.eigenvalues));
         let axes_off = turn_of_axes(scene.eigenvalues);
@@ -219,6 +224,21 @@ mod tests {
 
     fn motion(s: [f64; 3], scheme: &'static Scheme, step: f64, count: f64) -> Reduced {
         axis_problem(s).splitting_by(scheme, (3.0, 3.0 + step * count), step).unwrap()
+    }
+
+    /// The tensor with these eigenvalues along the turned axes has the components off the diagonal; for equal eigenvalues the axes are at 45 degrees.
+    #[test]
+    fn axes_are_turned_by_the_rounding_of_the_tensor() {
+        let eigenvalues = [0.3, 0.3 - 1e-7, -0.4];
+        let turn = turn_of_axes(eigenvalues);
+        let tensor = turn * Matrix3::from_diagonal(&eigenvalues.into()) * turn.transpose();
+        let rounding = f64::EPSILON * 0.4;
+        for (k, (i, j)) in [(1, 2), (2, 0), (0, 1)].into_iter().enumerate() {
+            assert!((tensor[(i, j)].abs() / (OFF_DIAGONAL[k].abs() * rounding) - 1.0).abs() < 0.3, "{tensor}");
+        }
+        let turn = turn_of_axes([0.3, 0.3, 0.3]);
+        assert!((turn.transpose() * turn - Matrix3::identity()).norm() < 1e-15 && (turn[(0, 0)] - 0.5).abs() < 0.3);
+        assert_eq!(turn_of_axes([0.0; 3]), Matrix3::identity());
     }
 
     #[test]

@@ -12,7 +12,8 @@ use crate::numerics::rounding::two_product;
 use crate::propagation::input::{check_request, check_time};
 use crate::propagation::splitting::choice::{Goal, SplittingForecast, cheapest};
 use crate::propagation::splitting::double_steps::DoubleSteps;
-use crate::propagation::splitting::error::{ErrorAtEnd, ErrorEstimate};
+pub(crate) use crate::propagation::splitting::error::ErrorAtEnd as SplittingErrorAtEnd;
+use crate::propagation::splitting::error::ErrorEstimate;
 use crate::propagation::splitting::flows::{AXIS, Field, Moving, RATE, dot};
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::third_angle::{body_state, rate_about_axis};
@@ -84,18 +85,17 @@ impl<const V: usize> PrincipalProblem<V> {
         vectors
     }
 
-    /// Like [`given`](Self::given), with `e_x` at a time since the start for the vector carried along.
-    pub(super) fn vectors(&self, moving: &Moving<f64, V>, elapsed: f64) -> [Vector3<f64>; V] {
-        let mut vectors = self.given(moving);
-        if let [axis, momentum, companion] = vectors[..] {
-            vectors[2] = body_state([axis, momentum, companion], self.rate_about_axis * elapsed).equatorial_axis;
+    /// `n`, `L` and, if it is followed, `e_x`, which has turned about `n` by an angle.
+    pub(super) fn vectors(&self, moving: &Moving<f64, V>, turned: f64) -> [Vector3<f64>; 3] {
+        match self.given(moving)[..] {
+            [axis, momentum, companion] => body_state([axis, momentum, companion], turned).vectors(),
+            ref reduced => [reduced[AXIS], reduced[RATE], Vector3::zeros()],
         }
-        vectors
     }
 
     /// The start of a motion with the given `n`, `L` and `e_x`.
-    pub(super) fn moving(&self, vectors: &[Vector3<f64>; V]) -> Moving<f64, V> {
-        moving(&self.principal_from_given, self.inertia, vectors)
+    pub(super) fn moving(&self, vectors: &[Vector3<f64>; 3]) -> Moving<f64, V> {
+        moving(&self.principal_from_given, self.inertia, &core::array::from_fn(|i| vectors[i]))
     }
 
     pub(super) fn state(&self, moving: &Moving<f64, V>) -> AxisState<f64> {
@@ -163,9 +163,9 @@ pub(super) struct KeptStates<const V: usize> {
     /// Open states, every `stride` steps from the start.
     states: Vec<Moving<f64, V>>,
     /// The error of the start, if another motion led to it.
-    pub(super) earlier: Option<ErrorAtEnd<V>>,
+    pub(super) earlier: Option<SplittingErrorAtEnd>,
     /// Computed at the first request.
-    estimate: OnceLock<ErrorEstimate<V>>,
+    estimate: OnceLock<ErrorEstimate>,
 }
 
 /// The steps of a motion.
@@ -297,25 +297,30 @@ impl<const V: usize> KeptStates<V> {
         self.estimate().at((t - self.span.0).abs())
     }
 
-    fn estimate(&self) -> &ErrorEstimate<V> {
+    fn estimate(&self) -> &ErrorEstimate {
         self.estimate.get_or_init(|| ErrorEstimate::new(self))
     }
 
-    /// This motion with the error that `earlier` has at its end as that of the start.
-    fn going_on_from(self, earlier: &Self) -> Self {
-        Self { earlier: Some(earlier.estimate().at_end.clone()), estimate: OnceLock::new(), ..self }
+    /// By how much `e_x` turns more slowly about `n` for a `w.n` that is larger.
+    pub(super) fn rate_about_axis_for(&self, casimir: f64) -> f64 {
+        let RigidSpheroid { inertia_xx, inertia_zz, .. } = self.spheroid;
+        self.spheroid.oblateness() * inertia_xx / inertia_zz * casimir
     }
 }
 
 impl<X> SplittingMotion<X> {
-    /// See [`PlannedMotion::going_on_from`](crate::plan::PlannedMotion::going_on_from).
-    pub(crate) fn going_on_from(self, earlier: &Self) -> Self {
-        let kept = match (self.kept, &earlier.kept) {
-            (Kept::Axis(states), Kept::Axis(earlier)) => Kept::Axis(states.going_on_from(earlier)),
-            (Kept::Body(states), Kept::Body(earlier)) => Kept::Body(states.going_on_from(earlier)),
-            _ => unreachable!("both are motions of the same type of state"),
-        };
-        Self { kept, ..self }
+    /// The error at the end, for a motion that goes on from there.
+    pub(crate) fn error_at_end(&self) -> SplittingErrorAtEnd {
+        of_either!(self, states => states.estimate().at_end.clone())
+    }
+
+    /// This motion with an error of its start.
+    pub(crate) fn with_error_at_start(mut self, error: SplittingErrorAtEnd) -> Self {
+        match &mut self.kept {
+            Kept::Axis(states) => (states.earlier, states.estimate) = (Some(error), OnceLock::new()),
+            Kept::Body(states) => (states.earlier, states.estimate) = (Some(error), OnceLock::new()),
+        }
+        self
     }
 
     /// The scheme.

@@ -20,7 +20,7 @@ pub(super) const READING: f64 = 4.0 * f64::EPSILON;
 
 /// No error is larger: components of `n` and `e_x` differ by two at most, and `|L|` stays below 1.2 times its unit, since
 /// `L.L <= L_0.L_0 + 2 sqrt(2) I^xx C |s|`.
-const LARGEST: f64 = 2.5;
+pub(super) const LARGEST: f64 = 2.5;
 
 /// A difference of two rotations that are close to each other, that is, an error.
 #[derive(Debug, Clone, Copy, Default)]
@@ -155,6 +155,11 @@ impl ErrorGrowth {
         let error = KNOWN_SAFETY * known + UNKNOWN_SAFETY * variance.max(0.0).sqrt() + READING;
         self.lost |= error >= 1.0 || error.is_nan();
         if self.lost { LARGEST } else { error }
+    }
+
+    /// The error of the length of `n`.
+    pub(super) fn of_length(&self) -> f64 {
+        KNOWN_SAFETY * self.known.length.abs() + UNKNOWN_SAFETY * self.covariance.length.max(0.0).sqrt()
     }
 
     /// The error of `w.n` at the state `n`, `w = L / I^xx`.

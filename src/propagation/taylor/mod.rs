@@ -31,7 +31,8 @@ use crate::numerics::fused::{Fused, detect_fused, run_fused};
 use crate::numerics::scalar::{Real, cast, cast_ref};
 use crate::propagation::Motion;
 use clock::StepLimit;
-use errors::{ErrorAtEnd, StepError, TaylorErrors};
+pub(crate) use errors::ErrorAtEnd as TaylorErrorAtEnd;
+use errors::{StepError, TaylorErrors};
 pub use forecast::TaylorForecast;
 #[cfg(target_arch = "x86_64")]
 pub(super) use lanes::axis_states_in_lanes;
@@ -93,7 +94,7 @@ struct KeptSeries<S, const V: usize> {
     fused: Option<Fused>,
     steps: Steps<S, V>,
     /// The estimated error of the start, if another motion led to it.
-    earlier: Option<ErrorAtEnd>,
+    earlier: Option<TaylorErrorAtEnd>,
     /// Computed at the first request, because most motions never need it.
     errors: OnceLock<Errors>,
 }
@@ -102,7 +103,7 @@ struct KeptSeries<S, const V: usize> {
 #[derive(Debug, Clone)]
 struct Errors {
     of_steps: Vec<StepError>,
-    at_end: ErrorAtEnd,
+    at_end: TaylorErrorAtEnd,
 }
 
 /// Adjoining steps with their series.
@@ -302,13 +303,9 @@ impl<S: Real, const V: usize> KeptSeries<S, V> {
                 let h = self.length(step) * self.setup.direction() / self.setup.scale.time;
                 errors.step(self.steps.series(step), |v| v.vector().map(S::re), h)
             });
-            Errors { of_steps: of_steps.collect(), at_end: errors.at_end() }
+            let of_steps = of_steps.collect();
+            Errors { of_steps, at_end: errors.at_end(self.setup.error_of_time(self.setup.span.1)) }
         })
-    }
-
-    /// This motion with the error that `earlier` has at its end as that of the start.
-    fn going_on_from(self, earlier: &Self) -> Self {
-        Self { earlier: Some(earlier.errors().at_end.clone()), errors: OnceLock::new(), ..self }
     }
 
     fn error_estimate(&self, t: f64) -> f64 {
@@ -350,14 +347,18 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
 }
 
 impl<S: Real, X> TaylorMotion<S, X> {
-    /// See [`PlannedMotion::going_on_from`](crate::plan::PlannedMotion::going_on_from).
-    pub(crate) fn going_on_from(self, earlier: &Self) -> Self {
-        let kept = match (self.kept, &earlier.kept) {
-            (Kept::Axis(series), Kept::Axis(earlier)) => Kept::Axis(series.going_on_from(earlier)),
-            (Kept::Body(series), Kept::Body(earlier)) => Kept::Body(series.going_on_from(earlier)),
-            _ => unreachable!("both are motions of the same type of state"),
-        };
-        Self { kept, ..self }
+    /// The error at the end, for a motion that goes on from there.
+    pub(crate) fn error_at_end(&self) -> TaylorErrorAtEnd {
+        of_either!(self, series => series.errors().at_end.clone())
+    }
+
+    /// This motion with an error of its start.
+    pub(crate) fn with_error_at_start(mut self, error: TaylorErrorAtEnd) -> Self {
+        match &mut self.kept {
+            Kept::Axis(series) => (series.earlier, series.errors) = (Some(error), OnceLock::new()),
+            Kept::Body(series) => (series.earlier, series.errors) = (Some(error), OnceLock::new()),
+        }
+        self
     }
 }
 
