@@ -27,7 +27,7 @@ impl Scene {
         let (mut state, mut angles, mut error) = (*self.problem.initial(), self.initial_angles, 0.0);
         if from != start {
             let take = |_, sample: &Sample| {
-                state = *sample.orientation();
+                state = sample.orientation().orthonormal();
                 Ok::<_, Error>(())
             };
             let sampled = for_each_sample(&until, &plan, ErrorEstimates::AtEnd, take, |_, _, _| Ok(()))?;
@@ -35,7 +35,7 @@ impl Scene {
             error = sampled.error.unwrap_or(0.0);
         }
         let scene = Self {
-            problem: self.problem.starting_from(state.orthonormal())?,
+            problem: self.problem.starting_from(state)?,
             initial_angles: angles,
             times: Times::Even { start: from, end: to, samples: self.times.count().max(2) },
             epoch: self.epoch.map(|epoch| epoch.after([from - start, 0.0])).transpose()?,
