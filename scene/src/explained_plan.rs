@@ -64,7 +64,7 @@ pub fn explained(scene: &Scene, plan: &Plan) -> String {
             1 => String::new(),
             count => format!(" at a time, in {count} segments of the span"),
         };
-        row("memory", format!("about {}{at_a_time}", bytes(prediction.bytes / segments as f64)));
+        row("memory", format!("about {}{at_a_time}", bytes(prediction.memory.of_a_segment(segments))));
         row("cost", format!("about {} on {MACHINE}", duration(prediction.cost)));
         row(
             "error",
@@ -172,7 +172,7 @@ pub fn bytes(count: f64) -> String {
 #[cfg(test)]
 mod tests {
     use twofold::parameters::Parameter;
-    use twofold::plan::{Method, Output, Skipped, Work};
+    use twofold::plan::{Memory, Method, Output, Skipped, Work};
 
     use super::*;
 
@@ -182,7 +182,7 @@ mod tests {
         rounding: 3e-13,
         order: 20,
         work: Work { steps: 40.0, right_hand_sides: 800.0, axis_evaluations: 3.0, orientation_evaluations: 4.0 },
-        bytes: 1e3,
+        memory: Memory { table: 200.0, steps: 40.0, most_stored: 30.0, per_step: 50.0 },
         cost: 1e3,
     };
 
@@ -222,7 +222,7 @@ mod tests {
         // Times are 100 + 4 t; the other method costs 2.5 times as much.
         let rest = format!(
             "span         102.0 to 120.0 s\nsamples      7\nderivatives  {derivatives}\nsteps        about 40 of order 20: 800 right-hand sides\n\
-             evaluations  about 7 of n, L\nmemory       about 1.0 kB\ncost         about 1.0 us on {MACHINE}\n\
+             evaluations  about 7 of n, L\nmemory       about 1.7 kB\ncost         about 1.0 us on {MACHINE}\n\
              error        goal 2.0e-9 by the method, which 98 % of random motions stay below; asked is 1e-6\n\
              rounding     about 3.0e-13, as the motion's error estimate will count it\n\nskipped\n  orientation: no output needs it\n\n\
              methods considered\n  free: not possible: {not_possible}\n  steady: loses digits that another keeps, about 2.0e-3 by rounding\n  \
@@ -240,7 +240,8 @@ mod tests {
         assert!(!explained(&scene, &plan).contains("\nsteps"));
         // 5.6e4 rad in segments of at most 5e3 rad.
         plan.span.1 = -5.6e4 / scene.turning_rate();
-        plan.prediction = Some(Prediction { bytes: 12e6, ..bound });
+        let memory = Memory { table: 5e5, steps: 120.0, most_stored: f64::INFINITY, per_step: 5e4 };
+        plan.prediction = Some(Prediction { memory, ..bound });
         let text = explained(&scene, &plan);
         assert!(text.contains("memory       about 1.0 MB at a time, in 12 segments of the span\n"), "{text}");
         plan = Plan { samples: 0, derivatives: Vec::new(), prediction: None, considered: Vec::new(), ..plan };

@@ -5,8 +5,10 @@ use super::{Cost, Method, Output, Request, State, Work};
 use crate::dynamics::Problem;
 use crate::error::Error;
 use crate::lorentz_violation::{error_of_principal_frame_along, principal_frame};
-use crate::propagation::splitting::{Goal, SplittingForecast};
-use crate::propagation::{AveragedMotion, SymmetricMotion, TaylorForecast, TorusMotion, UniformMotion, largest_torque};
+use crate::propagation::splitting::{Goal, MOST_STATES, SplittingForecast};
+use crate::propagation::{
+    AveragedMotion, ROOM_FOR_STEPS, SymmetricMotion, TaylorForecast, TorusMotion, UniformMotion, largest_torque,
+};
 use crate::solutions::averaged::AveragingOrder;
 use crate::solutions::torus::error_of_derivatives;
 
@@ -38,10 +40,30 @@ pub struct Prediction {
     /// Work. Turns and events are counted with typical numbers; with derivatives, it includes all motions that are computed for
     /// them.
     pub work: Work,
-    /// Heap memory of the motion, in bytes; a growing vector takes up to four times as much in total. Evaluations take none.
-    pub bytes: f64,
+    /// Heap memory of the motion.
+    pub memory: Memory,
     /// Time in ns on the [machine](super::MACHINE) on which the costs were fitted.
     pub cost: f64,
+}
+
+/// Heap memory of a motion. A growing vector takes up to four times as much in total; evaluations take none.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Memory {
+    /// What is computed once, in bytes.
+    pub table: f64,
+    /// Number of steps of the motion.
+    pub steps: f64,
+    /// No more steps than these are stored.
+    pub most_stored: f64,
+    /// For each step stored, in bytes.
+    pub per_step: f64,
+}
+
+impl Memory {
+    /// Memory, in bytes, of one of `count` segments of equal length in which the motion is computed one after the other.
+    pub fn of_a_segment(&self, count: usize) -> f64 {
+        self.table + self.per_step * (self.steps / count as f64).min(self.most_stored)
+    }
 }
 
 /// A method with its prediction, or the reason why it cannot be used.
@@ -99,13 +121,13 @@ impl Forecast {
         let Self { truncation, promise, rounding, order, steps, table } = self;
         let full = state == State::Orientation;
         let vectors = if full { 3.0 } else { 2.0 };
-        // Each step stores its coefficients, padded to registers, and its start; some room is added.
-        let dense_output = if method == Method::Splitting {
-            (4.0 + 48.0 * vectors) * steps.min(1e5)
+        // Each step of a series stores its coefficients, padded to registers, and its start; some room is added.
+        let (per_step, most_stored) = if method == Method::Splitting {
+            (4.0 + 48.0 * vectors, MOST_STATES as f64)
         } else {
-            1.2 * steps * ((order as f64 + 1.0) * 32.0 * vectors + 16.0)
+            (ROOM_FOR_STEPS * ((order as f64 + 1.0) * 32.0 * vectors + 16.0), f64::INFINITY)
         };
-        let bytes = dense_output + table;
+        let memory = Memory { table, steps, most_stored, per_step };
         let motions = method.motions_for(derivatives) as f64;
         let (all_steps, all_evaluations) = (motions * steps, motions * evaluations);
         Prediction {
@@ -119,7 +141,7 @@ impl Forecast {
                 axis_evaluations: if full { 0.0 } else { all_evaluations },
                 orientation_evaluations: if full { all_evaluations } else { 0.0 },
             },
-            bytes,
+            memory,
             cost: Cost::with_derivatives(method, state, derivatives).total(order, steps, evaluations),
         }
     }

@@ -41,7 +41,7 @@ mod output;
 mod request;
 mod work;
 
-pub use candidate::{Candidate, Prediction, Promise};
+pub use candidate::{Candidate, Memory, Prediction, Promise};
 pub use cost::{Cost, MACHINE};
 pub use decision::{Plan, Skipped};
 pub(crate) use gradient::gradient_in_parts;

@@ -46,8 +46,8 @@ fn plans_take_no_more_than_listed() -> Result<(), Error> {
                 };
                 let place = format!("{name}: {outputs:?} by {:?}", plan.method);
                 let listed = match plan.method {
-                    Some(Method::Taylor | Method::Splitting) => 8.0 * prediction.bytes + 4096.0,
-                    _ => prediction.bytes,
+                    Some(Method::Taylor | Method::Splitting) => 8.0 * prediction.memory.of_a_segment(1) + 4096.0,
+                    _ => prediction.memory.of_a_segment(1),
                 };
                 assert!(info.bytes_total as f64 <= listed, "{place}: {} bytes, at most {listed}", info.bytes_total);
                 assert_eq!(info.count_current, 0, "{place}: all is given back");

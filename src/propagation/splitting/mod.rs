@@ -36,7 +36,7 @@ mod tangents;
 
 pub use choice::SplittingForecast;
 pub(crate) use choice::{Goal, TANGENTS_AT_ONCE, require_tangent_maps};
-pub(crate) use motion::SplittingErrorAtEnd;
+pub(crate) use motion::{MOST_STATES, SplittingErrorAtEnd};
 pub use motion::{SPLITTING_STEP_LIMIT, SplittingMotion};
 pub use scheme::{Ends, Scheme};
 pub use schemes::{

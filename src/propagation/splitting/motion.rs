@@ -23,7 +23,7 @@ use crate::propagation::{Motion, TOLERANCE_RANGE};
 pub const SPLITTING_STEP_LIMIT: f64 = 1e10;
 
 /// Largest number of states stored for one motion: 100 bytes each.
-const MOST_STATES: u64 = 100_000;
+pub(crate) const MOST_STATES: u64 = 100_000;
 
 /// A problem in the principal frame of `s^IJ`, with the `V` vectors that the flows move.
 #[derive(Debug, Clone)]

@@ -52,6 +52,10 @@ pub const TOLERANCE_RANGE: (f64, f64) = (1e-16, 1e-2);
 /// Largest number of stored steps of one motion: each has about 2 kB of coefficients for `f64`.
 pub const STEP_LIMIT: usize = 500_000;
 
+/// Memory is reserved for as many steps as the span has of the first one's length, times this. Memory that no step reaches costs nothing; too
+/// little means that all series are copied.
+pub(crate) const ROOM_FOR_STEPS: f64 = 1.5;
+
 const LIMIT: StepLimit = StepLimit {
     steps: STEP_LIMIT,
     allowed: "at most 500,000 steps: take a shorter span (and go on from its end) or a larger tolerance",
@@ -190,7 +194,7 @@ impl<S: Real, const V: usize> Steps<S, V> {
 
     /// Reserves memory for some more steps than `count`, if that is not excessive.
     fn reserve(&mut self, count: f64, coefficients: usize) {
-        let count = (1.2 * count).min(STEP_LIMIT as f64 / 50.0) as usize;
+        let count = (ROOM_FOR_STEPS * count).min(STEP_LIMIT as f64 / 50.0) as usize;
         self.starts.reserve(count);
         self.coefficients.reserve(count * coefficients);
     }
