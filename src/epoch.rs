@@ -76,7 +76,7 @@ impl Epoch {
     pub fn after(&self, seconds: [f64; 2]) -> Result<Self, Error> {
         let days = (seconds[0] + seconds[1]) / DAY;
         Error::ensure(days.abs() <= LONGEST, "time from an epoch (d)", days, "at most 1e9 days, either way")?;
-        Ok(self.with_days(DoubleDouble::from(seconds).over(DAY.into())))
+        Ok(self.with_days(DoubleDouble::from(seconds) / DAY))
     }
 
     fn with_days(self, days: DoubleDouble) -> Self {
@@ -94,10 +94,11 @@ impl fmt::Display for Epoch {
     /// The shortest decimal number that identifies the epoch. Dates before 0, which only [`Epoch::after`] can produce, are
     /// rounded.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (sign, day, fraction) = match (self.day, self.fraction) {
-            (day, 0.0) if day < 0 => ("-", -day, 0.0),
-            (day, fraction) if day < 0 => ("-", -day - 1, 1.0 - fraction),
-            (day, fraction) => ("", day, fraction),
+        let (sign, day, fraction) = match (self.day, 1.0 - self.fraction) {
+            // A fraction below the rounding of one is lost too.
+            (day, 1.0) if day < 0 => ("-", -day, 0.0),
+            (day, rest) if day < 0 => ("-", -day - 1, rest),
+            (day, _) => ("", day, self.fraction),
         };
         // Written without an exponent, as `0.25`.
         let fraction = format!("{fraction}");
@@ -221,6 +222,8 @@ mod tests {
         }
         assert_eq!(epoch("1.0").after([-172_800.0, 0.0]).expect("near").to_string(), "-1.0");
         assert_eq!(epoch("1.25").after([-172_800.0, 0.0]).expect("near").to_string(), "-0.75");
+        // A day before zero, and a fraction of 1e-17 that no number beside one has.
+        assert_eq!(epoch("0.00000000000000001").after([-86_400.0, 0.0]).expect("near").to_string(), "-1.0");
     }
 
     #[test]

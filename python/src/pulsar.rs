@@ -23,7 +23,7 @@ pub struct Pulsar {
 
 /// The epoch of a modified Julian date.
 pub fn epoch(date: f64) -> PyResult<Epoch> {
-    twofold::Error::ensure((0.0..1e7).contains(&date), "epoch (MJD)", date, "from 0 to 1e7").map_err(raised)?;
+    twofold::Error::ensure((0.0..=1e7).contains(&date), "epoch (MJD)", date, "from 0 to 1e7").map_err(raised)?;
     Epoch::new(date.floor() as i64, date - date.floor()).map_err(raised)
 }
 

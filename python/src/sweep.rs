@@ -133,7 +133,9 @@ impl Sweep {
 pub struct SweepFile {
     out: PathBuf,
     replaced: bool,
-    spool: Mutex<Spool>,
+    /// None if the table has its name already.
+    spool: Option<Mutex<Spool>>,
+    scenes: u64,
 }
 
 #[pymethods]
@@ -142,33 +144,43 @@ impl SweepFile {
     #[new]
     #[pyo3(signature = (sweep, out, *, replace=false))]
     fn new(sweep: &Sweep, out: PathBuf, replace: bool) -> PyResult<Self> {
+        // A link is followed: the table grows beside what it points to.
+        let out = std::fs::canonicalize(&out).unwrap_or(out);
         let (files, scenes) = (SpoolFiles::of(&out), 0..sweep.scenes);
         let identity = Identity::new(&sweep.text, &scenes);
+        let named_before = files.are_complete(&identity);
+        if named_before && !files.rows.exists() && out.exists() {
+            // Only the tidying was interrupted.
+            files.remove().map_err(raised)?;
+            return Ok(Self { out, replaced: false, spool: None, scenes: scenes.end });
+        }
+        let replaced = replace || named_before;
         for path in [&out, &errors_beside(&out)] {
-            if path.exists() && !replace && !files.are_complete(&identity) {
+            if path.exists() && !replaced {
                 return Err(raised(format!("{} exists: allowed is replace=True", path.display())));
             }
         }
         let errors_header = csv_line(&Checked::new(&sweep.text).map_err(raised)?.errors_header());
         let spool =
             Spool::open(files, &identity, [&csv_line(&sweep.header), &errors_header], scenes).map_err(raised)?;
-        Ok(Self { out, replaced: replace, spool: Mutex::new(spool) })
+        Ok(Self { out, replaced, spool: Some(Mutex::new(spool)), scenes: sweep.scenes })
     }
 
     /// The first scene that is not in the table.
     #[getter]
     fn next(&self) -> u64 {
-        self.spool.lock().expect("nobody panics with it").next()
+        self.spool.as_ref().map_or(self.scenes, |spool| spool.lock().expect("nobody panics with it").next())
     }
 
     /// Appends the rows that `Sweep.rows` gives for the scenes from `next` to before `stop`, so that they outlive the process.
     fn append(&self, stop: u64, rows: &[u8], errors: &[u8], failed: u64) -> PyResult<()> {
-        let mut spool = self.spool.lock().expect("nobody panics with it");
+        let mut spool = self.spool.as_ref().expect("no scene is left").lock().expect("nobody panics with it");
         spool.append(stop, [rows, errors], failed).and_then(|()| spool.commit()).map_err(raised)
     }
 
     /// Gives the complete table its name, and that of errors if there are any.
     fn complete(&self) -> PyResult<()> {
-        self.spool.lock().expect("nobody panics with it").give_names(&self.out, self.replaced).map_err(raised)
+        let Some(spool) = &self.spool else { return Ok(()) };
+        spool.lock().expect("nobody panics with it").give_names(&self.out, self.replaced).map_err(raised)
     }
 }

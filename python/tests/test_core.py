@@ -160,6 +160,14 @@ class TestMotion:
         assert 0 < off < (torus.error(times) + motion.error(times)).max()
         assert (torus.method, motion.method) == ("torus", "taylor")
 
+    def test_the_error_is_that_of_its_time(self, scene):
+        """Against a motion a million times as accurate. Errors of steps add up or grow: after a hundredth of the span a tenth is more than there can be."""
+        coarse, fine = (scene.motion(method="taylor", tolerance=tolerance) for tolerance in (1e-7, 1e-13))
+        times = np.array([4.0, 40.0, 400.0])
+        off = np.max(np.abs(np.array(coarse.state(times)) - fine.state(times)), axis=(0, 2))
+        error = coarse.error(times)
+        assert (0.0 < off).all() and (off < error).all() and error[0] < 0.1 * error[2]
+
     def test_shapes(self, motion):
         for shape in [(), (0,), (1,), (5,), (2, 3)]:
             times = np.full(shape, 7.0)
@@ -252,6 +260,9 @@ class TestTable:
     @pytest.mark.parametrize(("header", "name", "unit"), [("a [", "a [", ""), ("a [é", "a [é", ""), ("a [rad", "a [rad", ""), ("a []", "a", "")])
     def test_odd_headers(self, header, name, unit):
         assert twofold.Table(f"{header}\n1\n".encode()).units == {name: unit}
+
+    def test_tables_that_differ_in_one_number(self):
+        assert twofold.Table(b"a [s]\n1\n2\n") == twofold.Table(b"a [s]\n1\n2\n") != twofold.Table(b"a [s]\n1\n3\n")
 
     def test_words_are_words_in_every_table(self):
         assert twofold.Scene("retrograde").pulses()["cut"].count("") > 0
@@ -531,6 +542,14 @@ class TestFits:
             found["f0"]
         with pytest.raises(twofold.Error, match="f0"):
             twofold.fit_timing(truth, data, ["phase"], priors={"f0": (10.0, 1.0)})
+
+    def test_an_error_that_leads_out_of_the_model_has_no_parabola(self):
+        """A beam of 0.3 rad with an error of more than its radius: a standard deviation less is no beam."""
+        model = twofold.TimingModel(10.0, chi=1.3, inclination=1.2, rho=0.3)
+        times = [1e5, 1e6]
+        data = twofold.TimingData(width_times=times, widths=model.width(times), width_sigmas=[0.02, 0.02])
+        found = twofold.fit_timing(model, data, ["rho"])
+        assert found.sigmas[0] > 0.3 and found.nonlinearity == np.inf
 
     def test_data_are_pickled(self):
         data = twofold.TimingData([1.0, 2.0], 1e-6, rest=[1e-9, 0.0], numbers=[7.0, np.nan], width_times=[1.0], widths=[0.1], width_sigmas=[0.01])

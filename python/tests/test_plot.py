@@ -413,6 +413,16 @@ def test_everything_on_the_sphere_is_seen_from_the_same_place():
     assert axes.get_aspect() == 1.0 and not axes.axison
 
 
+def test_a_sphere_does_not_depend_on_the_reading_of_the_clock():
+    """The same motion, begun at another time, and e_x for the same length of time."""
+    early, late = (
+        plot.sphere(twofold.Scene("tp-2", time={"start": start}).motion(), until=start + 20.0, samples=201, equatorial=5.0)
+        for start in (0.0, 3.0)
+    )
+    for line, same in zip(late.lines, early.lines, strict=True):
+        np.testing.assert_allclose(line.get_xydata(), same.get_xydata(), atol=1e-9)
+
+
 @pytest.mark.parametrize("view", [(0.0, 90.0), (90.0, 0.0), (-45.0, 10.0), (200.0, 60.0)])
 def test_limits_of_the_sphere_hold_every_view(view):
     axes = plot.sphere(twofold.Scene("tp-2").motion(), until=5.0, samples=2, view=view)

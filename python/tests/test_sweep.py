@@ -13,6 +13,7 @@ from concurrent.futures.process import BrokenProcessPool
 
 import pytest
 import twofold
+from twofold._twofold import SweepFile
 
 GRID = """
 scene = "tp-2"
@@ -291,6 +292,47 @@ def test_a_killed_worker(one_core, method, tmp_path):
     assert 20 <= first < 100
     assert recorded.parts == [(start, start + 4) for start in range(first, 100, 4)]
     assert path.read_bytes() == one_core
+
+
+def killed_while_named(sweep, path, one_core):
+    """A complete table at the moment before it gets its name."""
+    file = SweepFile(sweep, path)
+    rows, errors, failed = sweep.rows(0, 100)
+    file.append(100, rows, errors, failed)
+    path.mkdir()
+    with pytest.raises(twofold.Error, match="exists"):
+        file.complete()
+    path.rmdir()
+    assert (path.parent / "table.csv.partial").read_bytes() == one_core
+
+
+def test_a_table_whose_naming_was_cut_off_is_finished(sweep, one_core, tmp_path):
+    path, partial = tmp_path / "table.csv", tmp_path / "table.csv.partial"
+    with ThreadPoolExecutor(1) as executor:
+        killed_while_named(sweep, path, one_core)
+        path.write_text("of another")
+        with pytest.raises(twofold.Error, match="exists: allowed is replace=True"):
+            sweep.write(path, executor)
+        assert path.read_text() == "of another"
+        path.unlink()
+        sweep.write(path, executor)
+        assert path.read_bytes() == one_core and os.listdir(tmp_path) == ["table.csv"]
+        path.unlink()
+        killed_while_named(sweep, path, one_core)
+        # Named, and killed before the journal was removed: nothing is computed again.
+        partial.rename(path)
+        recorded = Recorded(executor)
+        sweep.write(path, recorded)
+        assert recorded.parts == [] and path.read_bytes() == one_core and os.listdir(tmp_path) == ["table.csv"]
+
+
+def test_a_link_is_followed(sweep, one_core, tmp_path):
+    path, link = tmp_path / "table.csv", tmp_path / "link"
+    path.write_text("old")
+    link.symlink_to(path)
+    with ThreadPoolExecutor(1) as executor:
+        sweep.write(link, executor, replace=True)
+    assert link.is_symlink() and path.read_bytes() == one_core
 
 
 @pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")

@@ -203,6 +203,12 @@ def test_series_in_equal_steps():
     assert strain(pulsar, 3.0, 1.0, 1.0, gwpy=False)[0] == pulsar.wave(3.0)[0]
 
 
+def test_a_series_has_its_last_sample():
+    """Of doubles, 0.29 times 100 is 28.999999999999996."""
+    plus, cross = strain(source(), 3.0, 0.29, 100.0, gwpy=False)
+    assert plus.shape == cross.shape == (29,)
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

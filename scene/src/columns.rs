@@ -106,9 +106,8 @@ pub fn values(group: Output, scene: &Scene, sample: &Sample) -> Option<Vec<f64>>
 /// Angles that grow without limit or jump by a turn: their spectrum would be that of the growth or of the jumps.
 const TURNING: [&str; 5] = ["alpha", "gamma", "alpha_printed", "Phi", "psi"];
 
-/// The strain of a rotation perpendicular to the symmetry axis, `eps |L|^2` since `I^xx = 1`, plus the torque, `|s|` since `C = 1`. The terms of a
-/// wave have this size, however small their sum is.
-/// size, whatever is left of their sum.
+/// The strain of a rotation perpendicular to the symmetry axis, `eps |L|^2` since `I^xx = 1`, plus the torque, `|s|` since `C = 1`. Each term of a
+/// wave has this size, even where they cancel.
 fn strain_of_rotation(scene: &Scene) -> f64 {
     let (body, s) = (scene.problem.spheroid(), scene.problem.coefficients());
     scene.strain_unit() * (body.oblateness().abs() * scene.problem.initial().momentum.norm_squared() + s.norm())
@@ -143,7 +142,10 @@ impl Column {
             let available = scene.has_what_is_needed_for(column.group);
             if column.name == name {
                 found = Some(available.map(|()| column));
-            } else if available.is_ok() && !TURNING.contains(&column.name.as_str()) {
+            } else if available.is_ok()
+                && !TURNING.contains(&column.name.as_str())
+                && column.group.need().state != State::Nothing
+            {
                 possible.push(column.name);
             }
         }

@@ -74,7 +74,7 @@ impl Scene {
         Ok(plan)
     }
 
-    /// Refuses a span of too many turns for outputs that follow all of them.
+    /// Refuses a span with too many turns if an output must follow each of them.
     pub fn check_rotation(&self, outputs: &[Output]) -> Result<(), String> {
         let rotation = self.rotation();
         if rotation <= LARGEST_ROTATION {

@@ -11,8 +11,8 @@ use crate::scene_file::Scene;
 /// Rotation, in rad, up to which a motion is one series: its memory is got from the system once.
 const ROTATION_AS_A_WHOLE: f64 = 5e4;
 
-/// Rotation per segment of a longer motion, in rad. Its series take some 14 MB; segments of ten times as much were computed at a fifth of the speed,
-/// because each had to get its memory from the system anew.
+/// Rotation per segment of a longer motion, in rad. Its series take some 14 MB; segments ten times as long took five times
+/// as long in all, because each had to get fresh memory from the system.
 const ROTATION_PER_SEGMENT: f64 = 5e3;
 
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -31,7 +31,11 @@ impl<U: Unknown> fmt::Display for Direction<U> {
             [symbol] => write!(f, "{symbol} alone")?,
             _ => write!(f, "{} = {}", symbols.join(" : "), sizes.join(" : "))?,
         }
-        write!(f, " (the data change by {:.1e} of what these do alone, added in quadrature)", self.ratio)
+        match (symbols.len(), self.ratio) {
+            (1, 0.0) => write!(f, " (no datum depends on it)"),
+            (1, _) => write!(f, " (the data change by less than their errors over its whole range)"),
+            (_, ratio) => write!(f, " (the data change by {ratio:.1e} of what these do alone, added in quadrature)"),
+        }
     }
 }
 
@@ -54,9 +58,8 @@ pub(super) struct Directions<'a, U> {
 }
 
 impl<'a, U: Unknown> Directions<'a, U> {
-    pub(super) fn new(scaled: &'a ScaledJacobian, unknowns: &'a [U], model: &impl Model<Unknown = U>) -> Self {
-        let ranges = unknowns.iter().map(|unknown| model.range(*unknown));
-        Self { scaled, unknowns, ranges: DVector::from_iterator(unknowns.len(), ranges) }
+    pub(super) fn new(scaled: &'a ScaledJacobian, unknowns: &'a [U], ranges: DVector<f64>) -> Self {
+        Self { scaled, unknowns, ranges }
     }
 
     /// The degenerate directions: one for each symmetry that is among them, and the remaining ones.
@@ -178,8 +181,11 @@ mod tests {
     #[test]
     fn directions_are_written_with_four_digits() {
         let direction = |words, change: &[(Name, f64)]| Direction { words, change: change.to_vec(), ratio: 1.25e-13 };
+        let weak = "d(a) alone (the data change by less than their errors over its whole range)";
+        assert_eq!(direction(None, &[(A, 1.0)]).to_string(), weak);
+        let idle = Direction { ratio: 0.0, ..direction(None, &[(A, 1.0)]) };
+        assert_eq!(idle.to_string(), "d(a) alone (no datum depends on it)");
         let alone = " (the data change by 1.2e-13 of what these do alone, added in quadrature)";
-        assert_eq!(direction(None, &[(A, 1.0)]).to_string(), format!("d(a) alone{alone}"));
         let found = direction(Some("a against b"), &[(A, 1.0), (B, -0.5), (Fraction, 1e-3)]).to_string();
         assert_eq!(found, format!("a against b; d(a) : d(b) : d(f) = 1.0000 : -0.5000 : 0.0010{alone}"));
         let found = direction(None, &[(A, 9.99e-4), (B, -9.99e-4)]).to_string();

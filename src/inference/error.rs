@@ -31,6 +31,13 @@ pub enum InferenceError {
         /// Largest cosine of the angle between the residuals and the derivative by an unknown: zero at a minimum.
         cosine: f64,
     },
+    /// An unknown, as a double, moves in steps that are not small compared with its standard deviation.
+    Coarse {
+        /// The unknown.
+        unknown: &'static str,
+        /// Its last digit, in standard deviations.
+        step: f64,
+    },
     /// The residuals are rounding errors, and the stated errors are too small for a fit to them.
     Rounding {
         /// The kind of data whose stated errors are smallest relative to rounding.
@@ -77,10 +84,16 @@ impl fmt::Display for InferenceError {
                 "datum of turn {turn} near t = {near:?} t_c: the model has no whole pulse there that is the only one of its turn; \
                  allowed are data of pulses that the model has at the start of the fit"
             ),
+            Self::NotConverged { why, cosine } if cosine.is_nan() => write!(f, "the fit did not begin: {why}"),
             Self::NotConverged { why, cosine } => write!(
                 f,
                 "the fit ended off a minimum ({why}; the residuals have a cosine of {cosine:.1e} with a derivative): a start \
                  nearer to the data may help"
+            ),
+            Self::Coarse { unknown, step } => write!(
+                f,
+                "a last digit of {unknown} as a double is {step:.1e} of its standard deviation, and a fit is to a hundredth: allowed in --observe are \
+                 larger standard deviations"
             ),
             Self::Rounding { observable, rounding } => write!(
                 f,

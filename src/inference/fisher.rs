@@ -53,8 +53,10 @@ impl Fisher {
 impl<M: Model> Fisher<M> {
     /// The Fisher matrix from a Jacobian in units of the standard deviations.
     pub fn of_jacobian(jacobian: &Jacobian, unknowns: &[M::Unknown], parameters: &M) -> Self {
-        let scaled = ScaledJacobian::new(jacobian);
-        let directions = Directions::new(&scaled, unknowns, parameters);
+        let ranges = unknowns.iter().map(|unknown| parameters.range(*unknown));
+        let ranges = DVector::from_iterator(unknowns.len(), ranges);
+        let scaled = ScaledJacobian::new(jacobian, &ranges);
+        let directions = Directions::new(&scaled, unknowns, ranges);
         Self {
             parameters: parameters.clone(),
             unknowns: unknowns.to_vec(),

@@ -1,7 +1,7 @@
 //! For tests: a model of three numbers, and data that are arbitrary functions of them. The result that a fit should find is
 //! known in closed form.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::least_squares::{Comparison, Fit};
 use super::{InferenceError, Jacobian, Model, Observable, Symmetry, Unknown};
@@ -111,5 +111,5 @@ impl Comparison<Numbers> for Functions {
 
 /// A Jacobian whose entries are accurate to a few roundings.
 pub(super) fn exact(matrix: DMatrix<f64>) -> Jacobian {
-    Jacobian { magnitudes: matrix.abs(), matrix, relative_error: 1e-15 }
+    Jacobian { magnitudes: matrix.abs(), rounding: DVector::zeros(matrix.nrows()), matrix, relative_error: 1e-15 }
 }

@@ -26,6 +26,8 @@ pub struct Jacobian {
     pub magnitudes: DMatrix<f64>,
     /// Relative error of the terms.
     pub relative_error: f64,
+    /// How much each datum changes because the directions of the star are rounded. What an unknown changes by less over its whole range is rounding.
+    pub rounding: DVector<f64>,
 }
 
 /// Largest ratio between the error of derivatives and their tolerance: `gradient-both-ways` finds 8 in 3,000 motions.
@@ -54,11 +56,17 @@ pub fn jacobian(
             by_numbers[(row, column)] = term.value(&seeded, datum.observable, &|t| states.at(t, column))?.eps;
         }
     }
-    let rotation = if states.phases_are_kept { 0.0 } else { last(&states.times) * turning_rate(parameters) };
+    let by_rotation = f64::EPSILON * last(&states.times) * turning_rate(parameters);
+    // The rounding of a rate is a rotation that grows with time, also where phases are kept.
+    let of_directions = SAFETY * (TOLERANCE + by_rotation);
+    // Only the values are used.
+    let star = base.seeded(Parameter::Rho);
+    let per_radian = |(datum, term): (&Datum, &Term)| term.per_radian(&star, datum.observable, &|t| states.at(t, 0));
     let found = Jacobian {
         matrix: &by_numbers * &weights,
         magnitudes: by_numbers.abs() * weights.abs(),
-        relative_error: SAFETY * (TOLERANCE + f64::EPSILON * rotation),
+        relative_error: SAFETY * (TOLERANCE + if states.phases_are_kept { 0.0 } else { by_rotation }),
+        rounding: DVector::from_iterator(data.len(), data.iter().zip(&terms).map(per_radian)) * of_directions,
     };
     match found.matrix.iter().find(|value| !value.is_finite()) {
         Some(&value) => {
@@ -161,6 +169,37 @@ impl Term {
         }
     }
 
+    /// How much the datum changes if the directions of the star change by a radian: of a time, the inverse of the rate at which the edge is crossed;
+    /// of a strain, the size of the terms of which it is a sum.
+    fn per_radian(
+        &self,
+        parameters: &Parameters<Dual64>,
+        observable: Observable,
+        state: &impl Fn([f64; 2]) -> BodyState<Dual64>,
+    ) -> f64 {
+        let (beam, n) = (parameters.beam(), parameters.observer().direction);
+        let Parameters { spheroid, coefficients: s, bulge, .. } = parameters;
+        let margin = |event: &Event, t: f64| {
+            beam.margin_rates(spheroid, s, *bulge, &state([event.epoch, t]), &n).map(|rate| rate.re.abs())
+        };
+        let edges = |event: &Event| 1.0 / margin(event, event.start)[1] + 1.0 / margin(event, event.end)[1];
+        match (self, observable) {
+            (Self::Pulse(event), Observable::ClosestApproaches) => {
+                let [_, _, second, _] = margin(event, event.closest);
+                let momentum = state([event.epoch, event.closest]).momentum.map(|x| x.re);
+                momentum.norm() / (spheroid.inertia_xx.re * second)
+            }
+            (Self::Pulse(event), _) => edges(event),
+            (Self::Pulses(before, event), _) => edges(before) + edges(event),
+            (Self::Sample(t), _) => {
+                let momentum = state([*t, 0.0]).momentum.map(|x| x.re);
+                let torque = spheroid.constant_c.re * s.map(|x| x.re).norm();
+                let rotation = spheroid.oblateness().re * momentum.norm_squared() / spheroid.inertia_xx.re;
+                (parameters.strain_scale * parameters.strain_unit).re.abs() * (rotation.abs() + torque.abs())
+            }
+        }
+    }
+
     /// The datum as a function of one number.
     fn value(
         &self,
@@ -199,6 +238,7 @@ impl Jacobian {
         for matrix in [&mut self.matrix, &mut self.magnitudes] {
             matrix.row_iter_mut().zip(&weights).for_each(|(mut row, weight)| row *= *weight);
         }
+        self.rounding.component_mul_assign(&weights);
         self
     }
 }

@@ -19,12 +19,14 @@ pub(super) struct ScaledJacobian {
 }
 
 impl ScaledJacobian {
-    pub(super) fn new(jacobian: &Jacobian) -> Self {
-        let Jacobian { matrix, magnitudes, relative_error } = jacobian;
+    /// `ranges` are the largest possible changes of the unknowns.
+    pub(super) fn new(jacobian: &Jacobian, ranges: &DVector<f64>) -> Self {
+        let Jacobian { matrix, magnitudes, relative_error, rounding } = jacobian;
         let columns = matrix.ncols();
         let lengths = DVector::from_fn(columns, |j, _| matrix.column(j).norm());
         let errors: Vec<f64> = (0..columns).map(|j| relative_error * magnitudes.column(j).norm()).collect();
-        let (idle, used): (Vec<usize>, Vec<usize>) = (0..columns).partition(|&j| lengths[j] <= errors[j]);
+        let (idle, used): (Vec<usize>, Vec<usize>) =
+            (0..columns).partition(|&j| lengths[j] <= errors[j] || lengths[j] * ranges[j] <= rounding.norm());
         if used.is_empty() {
             let (values, vectors) = (DVector::zeros(0), DMatrix::zeros(columns, 0));
             return Self { lengths, idle, values, vectors, rounding: 0.0 };
@@ -80,7 +82,7 @@ mod tests {
     /// Numbers that no datum depends on leave nothing to be decomposed.
     #[test]
     fn a_jacobian_of_zeros_has_no_singular_values() {
-        let zeros = ScaledJacobian::new(&exact(DMatrix::zeros(4, 3)));
+        let zeros = ScaledJacobian::new(&exact(DMatrix::zeros(4, 3)), &DVector::from_element(3, 1.0));
         assert_eq!((zeros.idle, zeros.values.len(), zeros.rounding), (vec![0, 1, 2], 0, 0.0));
         assert_eq!((zeros.vectors.nrows(), zeros.vectors.ncols(), zeros.lengths.len()), (3, 0, 3));
     }

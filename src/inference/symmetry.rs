@@ -47,12 +47,26 @@ pub(super) fn symmetries(parameters: &Parameters<f64>) -> Vec<Symmetry<Parameter
                 (Strain, strain_scale),
             ],
         ),
-        ("the strain scale: there is no strain among the data", vec![(Strain, 1.0)]),
+        (
+            "eps against Omega^z: only I^zz Omega^z is seen",
+            vec![(Oblateness, 1.0 + oblateness), (Spin, -parameters.spin())],
+        ),
+        ("C: there is no torque", vec![(ConstantC, 1.0)]),
+        ("the size of s^IJ: there is no torque", vec![(SScale, 1.0)]),
+        ("the strain scale: the data have no strain, or the star emits none", vec![(Strain, 1.0)]),
     ];
+    let (sin, cos) = parameters.phi_o.sin_cos();
+    // Polarizations refer to Z: the strain shows a rotation about the last axis.
     let turns = [
         (Vector3::z(), "a rotation of all (star, s^IJ and observer) about Z: no direction in space is marked"),
-        (Vector3::y(), "a rotation of all (star, s^IJ and observer) about Y: no direction in space is marked"),
-        (Vector3::x(), "a rotation of all (star, s^IJ and observer) about X: no direction in space is marked"),
+        (
+            Vector3::new(-sin, cos, 0.0),
+            "a rotation of all (star, s^IJ and observer) about the normal of Z and the line of sight: no direction in space is marked",
+        ),
+        (
+            Vector3::new(cos, sin, 0.0),
+            "a rotation of all (star, s^IJ and observer) about the projection of the line of sight on X-Y: no direction in space is marked",
+        ),
     ];
     let rotations = turns.into_iter().filter_map(|(axis, words)| Some((words, rotation(parameters, axis)?)));
     named.into_iter().chain(rotations).map(|(words, change)| Symmetry { words, change }).collect()

@@ -1,6 +1,6 @@
 //! The fit of a [`TimingModel`] to arrival times and pulse widths over decades.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::least_squares::{self, Comparison, Fit, least_squares};
 use super::{Fisher, InferenceError, Jacobian};
@@ -144,7 +144,10 @@ impl Comparison<TimingModel> for TimingData {
             Error::ensure(value.abs() <= LARGEST, what, *value, "a number up to 1e150 in size")?;
         }
         let magnitudes = matrix.abs();
-        Ok((residuals, Jacobian { matrix, magnitudes, relative_error: DERIVATIVES }))
+        Ok((
+            residuals,
+            Jacobian { rounding: DVector::zeros(matrix.nrows()), matrix, magnitudes, relative_error: DERIVATIVES },
+        ))
     }
 
     fn rounding(&self, found: &Fit<TimingModel>) -> Result<Option<InferenceError>, InferenceError> {
@@ -385,6 +388,22 @@ mod tests {
                 Err(InferenceError::NotConverged { why, .. }) => assert_ne!(why, "the residuals are rounding"),
                 Err(other) => panic!("{other:?}"),
             }
+        }
+    }
+
+    /// Widths ten standard deviations above and below the model in turn have residuals larger than stated, without arrivals and beside exact ones.
+    #[test]
+    fn widths_that_disagree_are_no_rounding() {
+        let model = star();
+        let width = |k: i32| {
+            let (time, off) = (1e6 * f64::from(k), if k % 2 == 0 { 1e-3 } else { -1e-3 });
+            MeasuredWidth { time, duration: model.width(time).expect("a width") + off, sigma: 1e-4 }
+        };
+        for numbers in [vec![], vec![-4_000_000, 7_000_000]] {
+            let arrivals = arrivals(&model, &numbers, 0.0, 1e-5);
+            let data = TimingData { arrivals, widths: (0..6).map(width).collect(), priors: Vec::new() };
+            let found = fit_timing(&model, &data, &[Rho]).expect("a fit");
+            assert_eq!(found.judged(), Residuals::Larger, "{numbers:?}");
         }
     }
 

@@ -39,15 +39,6 @@ impl DoubleDouble {
         products[0] + products[1] + products[2]
     }
 
-    /// The quotient by long division: two digits and a correction.
-    pub(crate) fn over(self, divisor: Self) -> Self {
-        let first = self.high / divisor.high;
-        let rest = self + divisor * Self::from(-first);
-        let second = rest.high / divisor.high;
-        let rest = rest + divisor * Self::from(-second);
-        Self::sum(first, second) + Self::from(rest.high / divisor.high)
-    }
-
     /// The square root of a non-negative number: one Newton step from the root of the high part.
     pub(crate) fn sqrt(self) -> Self {
         let root = self.high.sqrt();
@@ -115,8 +106,13 @@ impl Neg for DoubleDouble {
 impl Div for DoubleDouble {
     type Output = Self;
 
+    /// By long division: two digits and a correction.
     fn div(self, divisor: Self) -> Self {
-        self.over(divisor)
+        let first = self.high / divisor.high;
+        let rest = self + divisor * Self::from(-first);
+        let second = rest.high / divisor.high;
+        let rest = rest + divisor * Self::from(-second);
+        Self::sum(first, second) + Self::from(rest.high / divisor.high)
     }
 }
 
@@ -132,7 +128,7 @@ impl Div<f64> for DoubleDouble {
     type Output = Self;
 
     fn div(self, divisor: f64) -> Self {
-        self.over(Self::from(divisor))
+        self / Self::from(divisor)
     }
 }
 
@@ -261,7 +257,7 @@ mod tests {
         assert_eq!(root.high, core::f64::consts::SQRT_2);
         let rest = root * root + DoubleDouble::from(-2.0);
         assert!(rest.high.abs() < 1e-31, "{rest:?}");
-        let third = DoubleDouble::from(1.0).over(DoubleDouble::from(3.0));
+        let third = DoubleDouble::from(1.0) / DoubleDouble::from(3.0);
         let rest = third * DoubleDouble::from(3.0) + DoubleDouble::from(-1.0);
         assert!(rest.high.abs() < 1e-31, "{rest:?}");
     }
@@ -317,12 +313,12 @@ mod tests {
         // Machin: pi / 4 = 4 arctan(1/5) - arctan(1/239).
         let arctan = |n: f64| {
             let whole = |k: f64| DoubleDouble::from(k);
-            let square = whole(1.0).over(whole(n * n));
+            let square = whole(1.0) / whole(n * n);
             // Horner's rule, from terms below 1e-33 on.
             (0..24).rev().fold(DoubleDouble::default(), |sum, k| {
                 let odd = f64::from(2 * k + 1);
-                whole(1.0).over(whole(odd)) - square * sum
-            }) * whole(1.0).over(whole(n))
+                whole(1.0) / whole(odd) - square * sum
+            }) * (whole(1.0) / whole(n))
         };
         let turn = (arctan(5.0) * 4.0 - arctan(239.0)) * 8.0;
         let off = turn - DoubleDouble::TAU;

@@ -1,4 +1,4 @@
-//! Numerics without physics: scalars, sums and averages, roots, elliptic functions, vector instructions.
+//! Numerics without physics: scalars, sums, roots, elliptic functions, vector instructions.
 
 pub mod angle;
 pub(crate) mod arithmetic;

@@ -21,7 +21,7 @@ pub struct Cost {
 const TORUS_DERIVATIVE: [f64; 2] = [100_000.0, 20_000.0];
 
 impl Cost {
-    /// Costs of a method that carries `state`, from `cargo run -p twofold-tools --bin fit_cost`.
+    /// Costs of a method that carries `state`, from `cargo run --release -p twofold-tools --bin fit_cost`.
     pub fn of(method: Method, state: State) -> Self {
         let closed = |setup, evaluation| Self { setup, step: [0.0; 3], evaluation: [evaluation, 0.0] };
         match (method, state) {
@@ -48,8 +48,7 @@ impl Cost {
     ///
     /// By splitting, a state with tangent maps takes 1.4 times the work of a state alone, and each register of four directions takes 0.6 times that.
     /// A dual number takes ten times the work of a series in vector registers and three times that of a closed form, once for each parameter. On the
-    /// torus it goes through both closed orbits once and through a part of them for each state.
-    /// once and through a part of them for each state.
+    /// torus it follows both closed orbits once, and a part of them again for each state.
     pub(super) fn with_derivatives(method: Method, state: State, count: usize) -> Self {
         let Self { setup, step, evaluation } = Self::of(method, state);
         let factor = match (method, count) {

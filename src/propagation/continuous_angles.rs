@@ -6,6 +6,7 @@ use crate::dynamics::BodyState;
 use crate::dynamics::equations_of_motion::{angular_velocity, reduced_rates};
 use crate::error::Error;
 use crate::euler_angles::EulerAngles;
+use crate::lorentz_violation::traceless;
 use crate::numerics::angle::whole_turns;
 use crate::numerics::scalar::{Real, real_part};
 use crate::propagation::{Motion, Turning};
@@ -99,8 +100,8 @@ impl<'m, S: Real, M: Motion<S, State = BodyState<S>>> ContinuousAngles<'m, S, M>
     fn rotation(&self, state: &BodyState<f64>, duration: f64) -> f64 {
         let spheroid = self.motion.spheroid();
         let (xx, zz) = (spheroid.inertia_xx.re().abs(), spheroid.inertia_zz.re().abs());
-        let by_violation =
-            (4.0 * spheroid.constant_c.re().abs() * self.motion.coefficients().map(S::re).norm() / xx).sqrt();
+        let anisotropic = traceless(&self.motion.coefficients().map(S::re)).norm();
+        let by_violation = (4.0 * spheroid.constant_c.re().abs() * anisotropic / xx).sqrt();
         (state.momentum.norm() / xx.min(zz) + by_violation) * duration.abs()
     }
 
@@ -132,7 +133,7 @@ impl<'m, S: Real, M: Motion<S, State = BodyState<S>>> ContinuousAngles<'m, S, M>
     /// `g t + k int p dt + |I^zz - I^xx| |Omega^z| p / I^xx`.
     fn stays_aside(&self, state: &BodyState<f64>, duration: f64) -> bool {
         let spheroid = self.motion.spheroid().map(|x| x.re());
-        let s = self.motion.coefficients().map(S::re);
+        let s = traceless(&self.motion.coefficients().map(S::re));
         let (xx, t) = (spheroid.inertia_xx, duration.abs());
         let (axis_rate, torque) = reduced_rates(&spheroid, &s, &state.axis, &state.momentum);
         let rate = state.momentum.norm() / xx;

@@ -29,7 +29,7 @@ use crate::dynamics::{BodyState, Problem};
 use crate::error::Error;
 use crate::numerics::double_double::DoubleDouble;
 use crate::propagation::{AveragedMotion, UniformMotion};
-use crate::solutions::averaged::{AveragedPhases, AveragingOrder, Turns};
+use crate::solutions::averaged::{AveragingOrder, OfRotations, Turns};
 use crate::solutions::torus::TorusSolution;
 
 /// A motion whose state is a periodic function of three phases that grow linearly in time: any time has the same cost. Two of the phases move `n` and
@@ -177,7 +177,7 @@ impl PhasedMotion {
         match &self.solution {
             Solution::Averaged(motion) => {
                 let [about_momentum, slow, about_axis] = turns.map(|turns| turns * TAU);
-                motion.state_of(&AveragedPhases { slow, about_momentum, about_axis })
+                motion.state_of(&OfRotations { slow, about_momentum, about_axis })
             }
             Solution::Torus(torus) => torus.state_on_torus(turns),
             Solution::Uniform(motion) => motion.state_after_turns([turns[0], turns[2]]),

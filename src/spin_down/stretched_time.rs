@@ -137,10 +137,12 @@ impl StretchedTime {
     /// `n - 2`.
     pub fn stretched_at(&self, time: [f64; 2]) -> Result<[f64; 2], Error> {
         let wanted = DoubleDouble::from(time);
-        self.precession.check_time(wanted.high)?;
         if self.is_uniform() {
+            self.precession.check_time(wanted.high)?;
             return Ok(wanted.into());
         }
+        // The wobble is that of the stretched time, which is at least so long.
+        self.precession.check_time(wanted.high / MOST_STRETCHED)?;
         let lost = self.braking.rate * wanted.high * (self.braking.index - 2.0).abs().max(1.0);
         Error::ensure(
             lost.abs() <= MOST,
@@ -157,6 +159,7 @@ impl StretchedTime {
                 break;
             }
         }
+        self.precession.check_time(tau.high)?;
         Ok(tau.into())
     }
 
@@ -490,6 +493,18 @@ mod tests {
             let damped = StretchedTime::new(&braking, &precession).unwrap();
             let is_taken = |part: f64| damped.stretched_at([part * limit * 1e5, 0.0]).is_ok();
             assert_eq!([0.0, 0.99, 1.01].map(is_taken), [true, true, false], "{chi}");
+        }
+    }
+
+    /// A wobble is followed for two damping times of the stretched time, `t = tau + kappa tau^2 / 2`: a star that slows down has more time for it, one
+    /// that spins up less.
+    #[test]
+    fn two_damping_times_are_of_the_stretched_time() {
+        let precession = Precession::new([0.2, 1.3, 0.7], 0.013, 1e-5);
+        for rate in [4e-7, -4e-7] {
+            let star = StretchedTime::new(&Braking { rate, index: 3.0, torque_share: 0.0 }, &precession).unwrap();
+            let limit = 2e5 + rate * 2e10;
+            assert_eq!([0.999, 1.001].map(|part| star.stretched_at([part * limit, 0.0]).is_ok()), [true, false]);
         }
     }
 

@@ -6,12 +6,17 @@ use rand::rngs::ChaCha8Rng;
 use super::measurement::{Measurement, note_nonlinearity, readable, uncertainties, write_csv};
 use super::{Failure, FitArgs, note, print};
 use twofold::inference::{Fisher, InferenceError, Residuals, fit, nonlinearity};
-use twofold_scene::measurements::{DataFile, beside, with_noise};
+use twofold_scene::measurements::{DataFile, LeftOut, beside, with_noise};
 use twofold_scene::significant::significant;
 
 pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
     let measurement = Measurement::read(&args.measurement)?;
-    let refused = |error: InferenceError| measurement.refused(error);
+    let refused = |error: InferenceError| match error {
+        InferenceError::TooFew { .. } if !args.data.is_empty() => {
+            Failure::BadInput(format!("{}: {error}", args.data.join(", ")))
+        }
+        error => measurement.refused(error),
+    };
     let (parameters, unknowns, end) = (&measurement.parameters, &measurement.unknowns, measurement.end);
     let signal = measurement.signal()?;
     let mut data = match (args.data.as_slice(), args.simulate) {
@@ -26,10 +31,14 @@ pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
             let tables = files.iter().map(|file| DataFile::read(file)).collect::<Result<Vec<_>, _>>();
             let found = tables.and_then(|tables| measurement.data_in(&tables, &signal));
             let (data, left_out) = found.map_err(Failure::BadInput)?;
-            if left_out > 0 {
+            let LeftOut { first_turn, shared_turns } = left_out;
+            if first_turn > 0 {
                 note(&format!(
-                    "{left_out} of the data are left out, since the pulse of the first turn may be cut in another model"
+                    "{first_turn} of the data are left out, since the pulse of the first turn may be cut in another model"
                 ));
+            }
+            if shared_turns > 0 {
+                note(&format!("{shared_turns} of the pulses are left out, since they share a turn with another"));
             }
             data
         }

@@ -14,7 +14,7 @@ pub(super) const INTERRUPTED: u8 = 130;
 struct OnRequest {
     /// Set at the first request, for work that stops by itself; the next request ends the process.
     stop: Option<Arc<AtomicBool>>,
-    /// Take away what is not complete.
+    /// Remove incomplete output.
     removals: Vec<Box<dyn Fn() + Send>>,
 }
 
@@ -74,9 +74,8 @@ fn requested() {
     process::exit(INTERRUPTED.into());
 }
 
-/// Lets what follows come to its end: a request that came before ends the command now, one that comes later waits for as long as the value
-/// lives. For the end of a command, whose failure may come from what a request took away, and for a file that is put among what a
-/// request takes away.
+/// Defers interrupts while the returned value lives; one that has already arrived ends the command now. For the end of a command, which could fail
+/// because an interrupt has removed a file, and for a file that joins those which an interrupt removes.
 pub(super) fn hold_requests() -> impl Sized {
     on_request()
 }

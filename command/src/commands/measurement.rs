@@ -52,7 +52,9 @@ impl Measurement {
     pub(super) fn refused(&self, error: InferenceError) -> Failure {
         match error {
             InferenceError::Model(error) => error.into(),
-            error @ InferenceError::Rounding { .. } => Failure::BadInput(format!("{}: {error}", self.name)),
+            error @ (InferenceError::Rounding { .. } | InferenceError::TooFew { .. }) => {
+                Failure::BadInput(format!("{}: {error}", self.name))
+            }
             error => Failure::Failed(format!("{}: {error}", self.name)),
         }
     }
@@ -97,7 +99,7 @@ pub(super) fn readable(rows: &[Vec<String>]) -> String {
 
 /// Unknowns with their values, standard deviations and correlations: a table for reading, and one with all numbers.
 ///
-/// `unit_of` has by what a value is multiplied for the output, and its unit there.
+/// `unit_of` gives the factor and the unit in which an unknown is written.
 pub(super) fn uncertainties<M: Model>(
     fisher: &Fisher<M>,
     unit_of: impl Fn(M::Unknown) -> (f64, String),

@@ -58,6 +58,11 @@ impl OutputFile {
         self.temporary.as_file()
     }
 
+    /// Where it is until it is complete.
+    pub(super) fn path(&self) -> &Path {
+        self.temporary.path()
+    }
+
     pub(super) fn complete(self) -> Result<(), Failure> {
         let named = if self.replace {
             self.temporary.persist(&self.path)

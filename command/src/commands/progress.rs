@@ -1,4 +1,4 @@
-//! How far a long computation is, and work on all processors with a bar.
+//! Progress of long computations, and parallel work with a progress bar.
 
 use std::io::{self, IsTerminal};
 use std::time::{Duration, Instant};
@@ -12,7 +12,7 @@ use super::note;
 pub(super) struct Progress {
     shown: Shown,
     start: Instant,
-    /// Steps done before, of which nothing is to be seen in the rate.
+    /// Steps completed earlier, which do not count towards the rate.
     first: u64,
     steps: u64,
     /// What a step is, where that is of interest.

@@ -111,11 +111,17 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     note_poles(&scene, &summary);
     if let Some(error) = summary.error {
         note(&format!("estimated error of {} at the end of the span: {error:.1e}", components(&scene)));
+        let turned = f64::EPSILON * scene.rotation();
+        if turned > error {
+            note(&format!(
+                "that is for the initial state in doubles, whose last digit turns the star by {turned:.1e} rad by then"
+            ));
+        }
     }
     Ok(())
 }
 
-/// What an estimated error is of: `L` over its size, or over the one that the torque can give it, if that is larger.
+/// The quantities that an estimated error refers to. `L` is divided by its size, or by the one that the torque can give it, if that is larger.
 fn components(scene: &Scene) -> &'static str {
     let (body, s, l) = (scene.problem.spheroid(), scene.problem.coefficients(), scene.problem.initial().momentum);
     let values = s.symmetric_eigenvalues();
@@ -149,7 +155,7 @@ pub(super) fn read_with_spin_down(name: &str, columns: Columns<'_>) -> Result<Sc
 /// Bytes of a number in a table: as a rule 16 or 17 digits, a point and a comma; some with a sign or an exponent.
 const BYTES_OF_A_NUMBER: f64 = 19.0;
 
-/// Size of a table from which on it is foretold.
+/// Size above which the size of a table is announced.
 const LARGE: f64 = 1e7;
 
 pub(super) fn note_size(rows: f64, columns: usize) {

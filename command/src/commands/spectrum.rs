@@ -58,7 +58,10 @@ fn note_lines(column: &Column, summary: &LinesSummary) {
     if let Some(rounding) = summary.rounding {
         note(&format!("lines below {rounding:.1e}{unit} are not listed: a constant has as much by rounding"));
     }
-    note(&format!("{name} differs from its constant and all lines found by up to {:.1e}{unit}", summary.left));
+    note(&format!(
+        "{name} differs from its constant and all lines found by up to {:.1e}{unit} in sixteen states",
+        summary.left
+    ));
     if summary.written == 0 {
         note(&format!("{name} has no line"));
     }

@@ -19,7 +19,7 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
     write_all(standard_output()?, text)
 }
 
-/// Says what was done, where the result is in files or in the status: a closed standard output is then no failure.
+/// Prints a summary of what was done. The result itself is in files or in the status, so a closed standard output is no failure.
 pub(super) fn tell(text: &str) -> Result<(), Failure> {
     write_all(io::stdout().lock(), text)
 }

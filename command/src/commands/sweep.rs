@@ -12,7 +12,8 @@ use super::progress::Progress;
 use super::run::note_size;
 use super::{Failure, note};
 use twofold_scene::sweep::{
-    Done, Identity, Shard, Spool, SpoolError, SpoolFiles, Sweep, SweepText, compute, csv_line, errors_beside, merge,
+    Done, Identity, Shard, Spool, SpoolError, SpoolFiles, Sweep, SweepText, compute, csv_line, errors_beside,
+    is_beginning_of, merge,
 };
 
 #[derive(Args)]
@@ -62,9 +63,9 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
         files.remove().map_err(failed)?;
         return if errors_beside(&target).exists() { Err(some_failed(&args.out)) } else { Ok(()) };
     }
-    let out = free_name(&args.out, args.force || named_before)?;
-    let errors = errors_beside(&target);
-    free_name(&errors, args.force || named_before)?;
+    // What an earlier attempt at naming has written may be replaced; whether a file is that is seen when the table is named.
+    let out = free_name(&args.out, args.force || (named_before && format == Format::Parquet))?;
+    free_name(&errors_beside(&target), args.force || named_before)?;
 
     let headers = [csv_line(&sweep.header()), csv_line(&sweep.errors_header())];
     let refuse = |error: SpoolError| {
@@ -98,7 +99,7 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
             files.rows.display()
         )));
     }
-    give_names(&mut spool, &out, (args.force || named_before, format))?;
+    give_names(&mut spool, &out, (args.force, format))?;
     if spool.failed() == 0 { Ok(()) } else { Err(some_failed(&args.out)) }
 }
 
@@ -139,7 +140,7 @@ fn failed(error: SpoolError) -> Failure {
 fn give_names(spool: &mut Spool, out: &Path, (replace, format): (bool, Format)) -> Result<(), Failure> {
     let cannot = |error: SpoolError| match error {
         SpoolError::File(path, error) if error.kind() == io::ErrorKind::AlreadyExists => {
-            Failure::Failed(format!("{} has appeared meanwhile; --force replaces it", path.display()))
+            Failure::Failed(format!("{} exists and is not of this table; --force replaces it", path.display()))
         }
         SpoolError::File(path, error) => Failure::Failed(format!("{} cannot be written: {error}", path.display())),
         error => failed(error),
@@ -148,10 +149,14 @@ fn give_names(spool: &mut Spool, out: &Path, (replace, format): (bool, Format)) 
         Format::Csv => spool.give_names(out, replace).map_err(cannot),
         Format::Parquet => {
             spool.name_errors(out, replace).map_err(cannot)?;
-            let output = OutputFile::beside(out, replace)?;
+            let exists = out.exists();
+            let output = OutputFile::beside(out, replace || exists)?;
             let rows = &spool.files().rows;
             let table = File::open(rows).map_err(|error| Failure::Failed(format!("{}: {error}", rows.display())))?;
             convert(table, output.file(), out)?;
+            if exists && !replace && !is_beginning_of(out, output.path()) {
+                return Err(cannot(SpoolError::File(out.to_owned(), io::ErrorKind::AlreadyExists.into())));
+            }
             output.complete()?;
             spool.files().remove().map_err(failed)
         }
@@ -178,7 +183,8 @@ fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<()
     let errors_output = OutputFile::beside(&errors_beside(&args.out), args.force)?;
     let mut errors = BufWriter::new(errors_output.file());
     let cannot = |error: io::Error| Failure::Failed(format!("the table of errors cannot be written: {error}"));
-    errors.write_all(&csv_line(&sweep.errors_header())).map_err(cannot)?;
+    let header = csv_line(&sweep.errors_header());
+    errors.write_all(&header).map_err(cannot)?;
     let mut any_failed = false;
     for path in &args.merge {
         let file = File::open(path).map_err(|error| bad(path, error))?;
@@ -187,8 +193,12 @@ fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<()
             Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
             part => part.map_err(|error| bad(&errors_beside(path), error))?,
         };
-        let mut part = BufReader::new(part);
-        part.skip_until(b'\n').map_err(|error| bad(&errors_beside(path), error))?;
+        let (mut part, mut first) = (BufReader::new(part), Vec::new());
+        part.read_until(b'\n', &mut first).map_err(|error| bad(&errors_beside(path), error))?;
+        if first != header {
+            let why = "does not begin with the header of this sweep's errors";
+            return Err(Failure::BadInput(format!("--merge {}: {why}", errors_beside(path).display())));
+        }
         io::copy(&mut part, &mut errors).map_err(cannot)?;
         any_failed = true;
     }
@@ -217,9 +227,9 @@ fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<()
     if any_failed { Err(some_failed(&args.out)) } else { Ok(()) }
 }
 
-/// Says at the end how fast it was, of the scenes `computed` now and those that are `there` altogether.
-fn note_rate(computed: u64, there: u64, elapsed: Duration, failed: u64) {
+/// Reports the rate of the scenes `computed` in this run, and how many of `all` so far failed.
+fn note_rate(computed: u64, all: u64, elapsed: Duration, failed: u64) {
     let seconds = elapsed.as_secs_f64();
     let rate = computed as f64 / seconds.max(1e-9);
-    note(&format!("{computed} scenes in {seconds:.2} s, {rate:.4e} scenes/s; {failed} of {there} failed"));
+    note(&format!("{computed} scenes in {seconds:.2} s, {rate:.4e} scenes/s; {failed} of {all} failed"));
 }

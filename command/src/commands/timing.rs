@@ -56,7 +56,7 @@ pub(crate) struct TimingArgs {
     pub(crate) force: bool,
 }
 
-/// Most arrival times, and most samples of strain.
+/// Largest number of arrival times, and of samples of strain.
 const MOST: usize = 10_000_000;
 
 pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
@@ -93,22 +93,21 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
     let drawn = png(&picture).map_err(|why| Failure::Failed(format!("{}: {why}", file("png"))))?;
     folder.write(&file("svg"), picture.as_bytes())?;
     folder.write(&file("png"), &drawn)?;
-    match strain_series(&pulsar, &series)? {
+    let strain = strain_series(&pulsar, &series)?;
+    match &strain {
         Some([plus, cross]) => {
             folder.write(&file("h_plus.txt"), plus.as_bytes())?;
             folder.write(&file("h_cross.txt"), cross.as_bytes())?;
         }
-        None => {
-            note("no strain: the scene lacks `observer.distance`");
-            // Of another scene of this name: they do not belong to what is beside them now.
-            if args.force {
-                for old in ["h_plus.txt", "h_cross.txt"] {
-                    let _ = std::fs::remove_file(args.out.join(file(old)));
-                }
-            }
-        }
+        None => note("no strain: the scene lacks `observer.distance`"),
     }
     let files = folder.complete()?;
+    if args.force && strain.is_none() {
+        // Left by an earlier scene of this name: they do not belong to the new files.
+        for old in ["h_plus.txt", "h_cross.txt"] {
+            let _ = std::fs::remove_file(args.out.join(file(old)));
+        }
+    }
     note_dark(&timing, epochs.len());
     let farthest = epochs.iter().map(|at| at.seconds_since(&pulsar.epoch)[0].abs()).fold(0.0, f64::max);
     note(&format!(
@@ -194,7 +193,8 @@ fn epochs(args: &TimingArgs, scene: &Scene, epoch: &Epoch) -> Result<Vec<Epoch>,
     let (count, step) = match args.every {
         Some(every) => {
             positive("--every", every)?;
-            ((days / every).floor() + 1.0, every)
+            // The quotient of decimal numbers may be below a whole number by their rounding.
+            ((days / every * (1.0 + 4.0 * f64::EPSILON)).floor() + 1.0, every)
         }
         None => {
             let count = args.epochs.unwrap_or(scene.times.count());

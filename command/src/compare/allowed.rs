@@ -1,4 +1,4 @@
-//! Up to what a column of a file may differ, and why so much.
+//! The largest allowed difference of each column, with its reason.
 
 use super::known::KnownFile;
 use super::recompute::Scales;
@@ -47,7 +47,7 @@ pub(super) fn allowed(known: &KnownFile, column: &str, scales: Option<&Scales>) 
     }
 }
 
-/// What is allowed for stamps or values of a series of pulses, from the error of `m.n` and its slowest rate at an edge.
+/// The allowed difference of stamps or values of a series of pulses: the error of `m.n` over its slowest rate at an edge.
 pub(super) fn allowed_of_series(known: &KnownFile, column: &str, slowest_rate: f64) -> Allowed {
     let Some(edge) = own_error(known, "m.n").map(|error| error / slowest_rate) else { return Allowed::UNKNOWN };
     if column == "stamp" {

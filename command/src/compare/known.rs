@@ -26,7 +26,7 @@ pub(super) struct KnownFile {
     pub(super) content: Content,
     pub(super) example: &'static str,
     pub(super) rows: usize,
-    /// Quantities of which it is known by how much the published file is off; for the series, `m.n` that they are roots of.
+    /// Known errors of the published file, by quantity; for a series of pulses, the error of `m.n`, whose roots they are.
     pub(super) own_errors: &'static [(&'static str, f64)],
 }
 

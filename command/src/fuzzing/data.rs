@@ -35,7 +35,7 @@ pub fn data_file(bytes: &[u8]) {
     let Ok(table) = DataFile::of_bytes("data.csv", table.to_vec()) else { return };
     let noise: Vec<_> = (0..6).filter(|k| kinds >> k & 1 == 1).map(|k| (Observable::ALL[k], 1e-3)).collect();
     let read = match table.is_of_pulses() {
-        Ok(true) => table.pulses(scene(), &noise),
+        Ok(true) => table.pulses(scene(), &noise).map(|(data, _)| data),
         Ok(false) => table.strain(scene(), &noise),
         Err(why) => Err(why),
     };

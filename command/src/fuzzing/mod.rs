@@ -1,4 +1,4 @@
-//! What takes bytes from outside, one function for each kind: for a fuzzer to search, and for the suite to try what it has found.
+//! Entry points for fuzzing, one for each kind of input; the test suite replays what the fuzzer has found.
 //!
 //! A function returns whatever the bytes are. It panics where a promise is broken: a file is used or refused with a message, a number
 //! that is written is finite, a table that goes on after damage is the undamaged one. The work of an input is bounded here where the

@@ -1,4 +1,4 @@
-//! On what and when the report was made. Nothing that names a person, a machine or a folder.
+//! When and on which system the report was made. Nothing that names a person, a machine or a folder.
 
 use std::path::Path;
 use std::process::Command;

@@ -154,6 +154,64 @@ fn what_the_data_do_not_determine_is_refused_with_the_reason() {
     }
 }
 
+/// A star of tp-1's shape, seen off its poles.
+const STAR: &str = "[star]\ninertia_ratio = 1.1\nspin = 1.0\n[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n[initial]\n\
+    alpha = 1.5707963267948966\nbeta = 0.7\ngamma = 0.3\nalpha_rate = 1.51\nbeta_rate = 0.1\n[observer]\ntheta_o = 0.8\nphi_o = 0.4\n[pulsar]\n\
+    chi = 0.5\ndelta = 0.2\nrho = 0.6\n[time]\nspan = 100.0\nsamples = 51\n";
+
+/// Pulses of a star without spin do not depend on eps, those without a torque not on C, those of a star at rest on an axis of s not on eps either; the
+/// strain of a star at rest about its axis is zero. Derivatives by these are rounding. They are named, and other error bars are as without them.
+#[test]
+fn an_unknown_without_effect_is_named_and_leaves_the_others_alone() {
+    let folder = Folder::new();
+    let pulses = "arrivals:1e-5,widths:3e-5";
+    let rest =
+        [("beta = 0.7", "beta = 1.5707963267948966"), ("_rate = 1.51", "_rate = 0.0"), ("_rate = 0.1", "_rate = 0.0")];
+    let [no_spin, isotropic] = [("spin = 1.0", "spin = 0.0"), ("[0.02, 0.01, -0.04]", "[0.01, 0.01, 0.01]")];
+    let cases: [(&[(&str, &str)], &str, &str, &str, &str); 4] = [
+        (&[no_spin], pulses, "eps", "spin,beta,gamma,rho", "d(eps) alone (no datum depends on it)"),
+        (&[isotropic], pulses, "c", "spin,eps,rho", "C: there is no torque; d(C) alone"),
+        (&rest, pulses, "eps", "spin,rho", "d(eps) alone (no datum depends on it)"),
+        (&rest, "strain:1e-3", "s_axial", "", "d(s_axial) alone"),
+    ];
+    for (changes, observe, idle, others, named) in cases {
+        let text = changes.iter().fold(STAR.to_owned(), |text, (from, to)| {
+            assert!(text.contains(from), "{from}");
+            text.replace(from, to)
+        });
+        folder.write("star.toml", text);
+        let sigmas = |unknowns: &str| {
+            let args = [
+                "fisher",
+                "star.toml",
+                "--observe",
+                observe,
+                "--parameters",
+                unknowns,
+                "--out",
+                "sigmas.csv",
+                "--force",
+            ];
+            let told = stderr(&folder.run(&args));
+            let table = folder.read("sigmas.csv");
+            let rows = cells(&table).into_iter().skip(1);
+            let rows: Vec<_> = rows.map(|row| (row[0].to_owned(), row[2].parse::<f64>().unwrap_or(f64::NAN))).collect();
+            (rows, told)
+        };
+        if others.is_empty() {
+            let (_, told) = sigmas(&format!("{idle},spin"));
+            assert!(told.contains("no datum depends on it"), "{told}");
+            continue;
+        }
+        let ((with, told), (without, _)) = (sigmas(&format!("{idle},{others}")), sigmas(others));
+        assert!(told.contains(named), "{told}");
+        assert!(with[0].1.is_nan() && with.len() == without.len() + 1, "{with:?}");
+        for ((name, with), (_, without)) in with[1..].iter().zip(&without) {
+            assert!((with / without - 1.0).abs() < 1e-9, "{name}: {with:e}, alone {without:e}");
+        }
+    }
+}
+
 #[test]
 fn data_that_are_too_few_or_of_no_pulse_are_refused() {
     let truth = model("tp-2");

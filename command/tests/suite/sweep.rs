@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::common::{Folder, altered, cells, comes_to, ends, is_refused, number_after, stderr, stdout, twofold};
+use twofold_scene::sweep::{Identity, Spool, SpoolFiles, SweepText};
 use twofold_verify::random::Random;
 use twofold_verify::refused_files::refused_files;
 
@@ -159,17 +160,29 @@ fn threads_and_shards_do_not_change_a_byte() {
     // The table of a sweep of other outputs has as many scenes under another header.
     let other = folder.read("one.csv").replacen("alpha", "other", 1);
     folder.write("other.csv", other);
+    // A sweep with another grid or seed has as many scenes under the same header.
+    let one = folder.read("one.csv");
+    let (head, rest) = one.split_once("\n1,").expect("two rows");
+    let (_, rest) = rest.split_once(',').expect("a parameter");
+    folder.write("moved.csv", format!("{head}\n1,0.125,{rest}"));
     for (parts, why) in [
         (&["other.csv"][..], "other.csv does not begin with the header of this sweep's table"),
         (&names[1..], "part-1.csv") as (&[&str], &str),
         (&names[..6], "is the last and ends before scene 685: the sweep has 800"),
         (&[names[0], names[0]], "has scene 0 where scene 114 is expected"),
         (&["sweep.toml"], "does not begin with the header"),
+        (&["moved.csv"], "moved.csv is of another sweep: its scene 1 has other parameters"),
     ] {
         let refused = ends(merge(parts, "refused.csv"), 2);
         assert!(why == "part-1.csv" || stderr(&refused).contains(why), "{}", stderr(&refused));
         assert!(!folder.names().iter().any(|name| name.contains("refused")), "{:?}", folder.names());
     }
+    // Errors under the header of another sweep are not taken for this one's.
+    let errors = names.iter().map(|name| format!("{name}.errors.csv")).find(|name| folder.at(name).exists());
+    let errors = errors.expect("a part in which a scene fails");
+    let of_another = folder.read(&errors).replacen("initial.phase", "initial.beta", 1);
+    folder.write(&errors, of_another);
+    is_refused(&merge(&names, "refused.csv"), &[&errors, "does not begin with the header of this sweep's errors"]);
     // Errors that cannot be read, here a folder, are not taken for none.
     fs::create_dir(folder.at("part-1.csv.errors.csv")).expect("a folder");
     is_refused(&merge(&names, "refused.csv"), &["part-1.csv.errors.csv"]);
@@ -250,6 +263,57 @@ fn a_killed_sweep_goes_on_to_the_same_bytes() {
     assert_eq!(read("whole.csv"), read("table.csv"), "after {kills} kills");
     assert_eq!(read("whole.csv.errors.csv"), read("table.csv.errors.csv"));
     assert!(!folder.names().iter().any(|name| name.contains("partial")), "{:?}", folder.names());
+}
+
+/// A sweep that was complete and did not get its name: half of a copy of the errors is its own, a table of its name is not.
+#[test]
+fn a_file_that_appears_before_the_table_is_named_stays() {
+    let folder = Folder::new();
+    folder.write("sweep.toml", SWEEP);
+    ends(folder.run(&["sweep", "sweep.toml", "--out", "whole.csv"]), 3);
+    let [whole, errors] = ["whole.csv", "whole.csv.errors.csv"].map(|name| folder.bytes(name));
+    let text = SweepText::read(&folder.at("sweep.toml").to_string_lossy()).expect("a sweep");
+    let complete = || {
+        let files = SpoolFiles::of(&folder.at("table.csv"));
+        let mut spool = Spool::open(files, &Identity::new(&text, &(0..800)), [b"", b""], 0..800).expect("a table");
+        spool.append(800, [&whole, &errors], 80).expect("rows");
+        spool.commit().expect("a mark");
+        spool.completed().expect("a mark");
+    };
+    let run = |more: &[&str]| folder.run(&[&["sweep", "sweep.toml", "--out", "table.csv"], more].concat());
+    complete();
+    folder.write("table.csv", "theirs");
+    assert!(stderr(&ends(run(&[]), 2)).contains("--out table.csv: exists; --force replaces it"));
+    assert_eq!(folder.read("table.csv"), "theirs");
+    ends(run(&["--force"]), 3);
+    assert!(folder.bytes("table.csv") == whole && folder.bytes("table.csv.errors.csv") == errors);
+    fs::remove_file(folder.at("table.csv")).expect("a table");
+    complete();
+    folder.write("table.csv.errors.csv", "theirs");
+    assert!(stderr(&ends(run(&[]), 1)).contains("table.csv.errors.csv exists and is not of this table"));
+    assert_eq!(folder.read("table.csv.errors.csv"), "theirs");
+    folder.write("table.csv.errors.csv", &errors[..errors.len() / 2]);
+    ends(run(&[]), 3);
+    assert!(folder.bytes("table.csv") == whole && folder.bytes("table.csv.errors.csv") == errors);
+}
+
+/// A sweep that is killed when its table has its name, but its journal is still there.
+#[test]
+fn a_sweep_killed_while_it_tidied_tells_again_that_scenes_failed() {
+    let folder = Folder::with(&[("sweep.toml", SWEEP)]);
+    let run = || stderr(&ends(folder.run(&["sweep", "sweep.toml", "--out", "table.csv"]), 3));
+    let why = "error: some scenes failed: table.csv.errors.csv says which and why\n";
+    assert!(run().ends_with(why));
+    let table = folder.bytes("table.csv");
+    let text = SweepText::read(&folder.at("sweep.toml").to_string_lossy()).expect("a sweep");
+    let files = SpoolFiles::of(&folder.at("table.csv"));
+    let mut spool = Spool::open(files, &Identity::new(&text, &(0..800)), [b"", b""], 0..800).expect("a table");
+    spool.completed().expect("a mark");
+    drop(spool);
+    fs::remove_file(folder.at("table.csv.partial")).expect("rows");
+    assert_eq!(run(), why);
+    assert!(folder.bytes("table.csv") == table);
+    assert_eq!(folder.names(), ["sweep.toml", "table.csv", "table.csv.errors.csv"]);
 }
 
 /// A billion scenes begin at once, take little memory, and are interrupted with what is there kept; the size of the table is foretold, and what is told of the second half counts that half.

@@ -1,6 +1,6 @@
 //! Measured series in the format of `twofold pulses` and `twofold run`.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fs::File;
 use std::io::Read;
 
@@ -52,7 +52,7 @@ impl DataFile {
 
     /// Whether it is a table of pulses, according to its header.
     pub fn is_of_pulses(&self) -> Result<bool, String> {
-        Ok(self.columns()?.iter().any(|column| column == "turn"))
+        Ok(self.columns()?.iter().any(|column| column == "turn" || column.starts_with("midpoint [")))
     }
 
     /// The names in the header.
@@ -93,6 +93,17 @@ impl DataFile {
         }
     }
 
+    fn positive(&self, line: u64, column: &str, text: &str) -> Result<f64, String> {
+        match self.number(line, column, text)? {
+            value if value > 0.0 => Ok(value),
+            _ => Err(format!(
+                "{}:{line}: `{column}` is `{}`: allowed is a number above zero",
+                self.name,
+                shortened(text)
+            )),
+        }
+    }
+
     pub(super) fn whole(&self, line: u64, column: &str, text: &str) -> Result<i64, String> {
         let whole = text.parse().ok().filter(|whole| (-LARGEST_TURN..=LARGEST_TURN).contains(whole));
         whole.ok_or_else(|| {
@@ -106,12 +117,12 @@ impl DataFile {
     /// The data of the whole pulses of the first beam in a table of `twofold pulses`, in units of `t_c` from the start of the
     /// scene.
     ///
-    /// Pulses without a turn, and two of one turn, are left out.
+    /// Pulses without a turn, and two of one turn, are left out; with the data comes the number of pulses that share a turn.
     ///
     /// # Errors
-    /// A column that is missing, a field that is not a number, or more than 100,000 rows; the error names file, line, column
-    /// and field.
-    pub fn pulses(&self, scene: &Scene, noise: &[Noise]) -> Result<Vec<Datum>, String> {
+    /// A column that is missing, a field that is not a number, a duration that is not positive, a pulse that is there twice, or more than 100,000
+    /// rows; the error names file, line, column and field.
+    pub fn pulses(&self, scene: &Scene, noise: &[Noise]) -> Result<(Vec<Datum>, usize), String> {
         let unit = scene.units.time_name;
         let wanted = [
             "beam".to_owned(),
@@ -123,12 +134,19 @@ impl DataFile {
         ];
         let mut rows = Vec::new();
         let mut of_turn: HashMap<i64, usize> = HashMap::new();
+        let mut seen = HashSet::new();
         for (line, fields) in self.rows(&wanted)? {
             if fields[0] != "1" || fields[1].is_empty() {
                 continue;
             }
             let turn = self.whole(line, "turn", &fields[1])?;
             *of_turn.entry(turn).or_default() += 1;
+            if !seen.insert((turn, fields[2].clone())) {
+                let (name, midpoint) = (&self.name, shortened(&fields[2]));
+                return Err(format!(
+                    "{name}:{line}: the pulse of turn {turn} at {midpoint} is there twice: allowed are data measured once"
+                ));
+            }
             rows.push((line, turn, fields));
         }
         let single = |turn: i64| of_turn.get(&turn) == Some(&1);
@@ -140,7 +158,7 @@ impl DataFile {
             for &(observable, sigma) in noise {
                 let value = match observable {
                     Observable::Arrivals => near,
-                    Observable::Widths => field(3)? / time,
+                    Observable::Widths => self.positive(*line, &wanted[3], &fields[3])? / time,
                     Observable::ClosestApproaches => (field(4)? - start) / time,
                     // A period across turns without a pulse does not count.
                     Observable::Periods if !fields[5].is_empty() && single(turn - 1) => field(5)? / time,
@@ -149,7 +167,8 @@ impl DataFile {
                 data.push(Datum { observable, place: Place::Turn { number: *turn, near }, epoch: 0.0, value, sigma });
             }
         }
-        Ok(data)
+        let shared = rows.iter().filter(|(_, turn, _)| !single(*turn)).count();
+        Ok((data, shared))
     }
 
     /// The strains in a table of `twofold run` with the columns `h`.
@@ -192,7 +211,8 @@ mod tests {
              2,6,46,3,47,8\n1,8,62,3,63,16\n1,9,70,3,71,8\n1,9,71,3,72,1\n1,10,78,3,79,8\n",
         );
         let noise = [Observable::Arrivals, Observable::Widths, Observable::ClosestApproaches, Observable::Periods];
-        let data = file.pulses(&scene, &noise.map(|observable| (observable, 0.5))).unwrap();
+        let (data, shared) = file.pulses(&scene, &noise.map(|observable| (observable, 0.5))).unwrap();
+        assert_eq!(shared, 2);
         let of = |observable| {
             let data = data.iter().filter(move |datum| datum.observable == observable);
             data.map(|datum| (datum.place, datum.value)).collect::<Vec<_>>()

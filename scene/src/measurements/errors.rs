@@ -4,7 +4,10 @@ use nalgebra::DVector;
 use rand::rngs::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use twofold::Error;
-use twofold::inference::{Datum, Fisher, Model, TimingData};
+use twofold::inference::{Datum, Fisher, Model, TimingData, Unknown};
+
+/// Draws of a start until one is within the limits of the unknowns.
+const DRAWS: usize = 100;
 
 /// The same data with a random error each, normal with its standard deviation.
 pub fn with_noise(data: &[Datum], random: &mut ChaCha8Rng) -> Vec<Datum> {
@@ -20,10 +23,26 @@ pub fn add_timing_noise(data: &mut TimingData, random: &mut ChaCha8Rng) {
 }
 
 /// A starting point for a fit: the parameters of a Fisher matrix with its unknowns displaced by a draw from their normal distribution, `factor`
-/// times as wide.
+/// times as wide, within the limits of the unknowns.
+///
+/// # Errors
+/// As for [`Fisher::beside`]; no draw of a hundred is within the limits.
 pub fn beside<M: Model>(fisher: &Fisher<M>, factor: f64, random: &mut ChaCha8Rng) -> Result<M, Error> {
-    let normal = DVector::from_fn(fisher.unknowns.len(), |_, _| StandardNormal.sample(random));
-    fisher.beside(&normal, factor)
+    for _ in 0..DRAWS {
+        let normal = DVector::from_fn(fisher.unknowns.len(), |_, _| StandardNormal.sample(random));
+        let start = fisher.beside(&normal, factor)?;
+        let is_allowed = |unknown: &M::Unknown| {
+            let ((low, high), value) = (unknown.limits(), start.value(*unknown));
+            low.is_none_or(|low| low <= value) && high.is_none_or(|high| value <= high)
+        };
+        if fisher.unknowns.iter().all(is_allowed) {
+            return Ok(start);
+        }
+    }
+    Err(Error::Unsupported {
+        what: "a simulated start",
+        why: "no draw of a hundred is within the limits of the unknowns",
+    })
 }
 
 #[cfg(test)]

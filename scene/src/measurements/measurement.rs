@@ -1,5 +1,7 @@
 //! A scene that is measured, and its unknown parameters.
 
+use std::collections::HashSet;
+
 use twofold::Error;
 use twofold::inference::{Datum, Event, Noise, Place, Signal, Unknown, check_span, data_of};
 use twofold::parameters::{Parameter, Parameters};
@@ -24,6 +26,15 @@ pub struct Measurement {
     pub unknowns: Vec<Parameter>,
     /// End of the span in t_c since the start.
     pub end: f64,
+}
+
+/// What of the tables is not among the data.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Data of the first turn: their pulse may be cut off in another model.
+    pub first_turn: usize,
+    /// Pulses that share a turn with another one.
+    pub shared_turns: usize,
 }
 
 impl Measurement {
@@ -136,13 +147,14 @@ impl Measurement {
         data_of(signal, &events, &self.samples(), &self.noise)
     }
 
-    /// The data in tables that lie within the span of the scene, and the number of data of the first turn that were left out: their pulse may be cut
-    /// off in another model.
+    /// The data in tables that lie within the span of the scene, and what was left out.
     ///
     /// # Errors
     /// A table that contains neither pulses nor strains, data that occur twice or not at all, and data outside the span.
-    pub fn data_in(&self, tables: &[DataFile], signal: &Signal) -> Result<(Vec<Datum>, usize), String> {
+    pub fn data_in(&self, tables: &[DataFile], signal: &Signal) -> Result<(Vec<Datum>, LeftOut), String> {
         let mut data: Vec<Datum> = Vec::new();
+        let mut left_out = LeftOut::default();
+        let mut seen = HashSet::new();
         let names = || tables.iter().map(|table| table.name.as_str()).collect::<Vec<_>>().join(", ");
         for table in tables {
             let (file, of_pulses) = (&table.name, table.is_of_pulses()?);
@@ -151,12 +163,21 @@ impl Measurement {
                     "{file}: arrival times in one double each are too coarse for a span of more than 1e5 rad of rotation: allowed are --simulate and strains"
                 ));
             }
-            let read = if of_pulses { DataFile::pulses } else { DataFile::strain };
-            let more = read(table, &self.scene, &self.noise)?;
-            let first = more.first().copied();
-            if let Some(again) = first.filter(|datum| data.iter().any(|other| same(other, datum))) {
+            let more = if of_pulses {
+                let (more, shared) = table.pulses(&self.scene, &self.noise)?;
+                left_out.shared_turns += shared;
+                more
+            } else {
+                table.strain(&self.scene, &self.noise)?
+            };
+            // A strain is both of its polarizations.
+            let together =
+                if of_pulses { 1 } else { self.noise.iter().filter(|(kind, _)| !kind.is_of_pulses()).count().max(1) };
+            let rows = more.chunks(together);
+            let mut again = rows.filter(|row| !seen.insert(row.iter().map(identity).collect::<Vec<_>>()));
+            if let Some([again, ..]) = again.next() {
                 return Err(format!(
-                    "{file}: {} = {:?} is also in an earlier file: allowed are data measured once",
+                    "{file}: {} = {:?} is there twice, or also in an earlier file: allowed are data measured once",
                     again.observable.key(),
                     again.value
                 ));
@@ -184,14 +205,18 @@ impl Measurement {
         }
         let before = data.len();
         data.retain(|datum| !matches!(datum.place, Place::Turn { near, .. } if near < signal.turn()));
-        let left_out = before - data.len();
+        left_out.first_turn = before - data.len();
         Ok((data, left_out))
     }
 }
 
-/// Whether two data are identical: of the same kind, number and time, to the last digit.
-fn same(a: &Datum, b: &Datum) -> bool {
-    a.observable == b.observable && a.value == b.value && a.place == b.place
+/// What identifies a datum: its kind, its number or time, and its value, to the last digit.
+fn identity(datum: &Datum) -> (&'static str, i64, [u64; 2]) {
+    let (number, time) = match datum.place {
+        Place::Turn { number, near } => (number, near),
+        Place::Time(time) => (0, time),
+    };
+    (datum.observable.key(), number, [time, datum.value].map(f64::to_bits))
 }
 
 /// The unknowns in a list of names, or all of them for the word `all`.
@@ -258,21 +283,28 @@ mod tests {
         let (measurement, signal) = measured("strain:1,arrivals:1", 400.0, 10);
         let both = [pulses("1,0,0.5,1,1,\n1,9,50,1,50,\n1,10,56,1,56,\n"), strains("3,1,2\n4,1,2\n")];
         let (data, left_out) = measurement.data_in(&both, &signal).unwrap();
-        assert_eq!((data.len(), left_out), (6, 1));
+        assert_eq!((data.len(), left_out), (6, LeftOut { first_turn: 1, shared_turns: 0 }));
         let why = measurement.data_in(&both[1..], &signal).unwrap_err();
         assert!(why.contains("--observe arrivals: there is no such datum in strains"), "{why}");
 
         let (measurement, signal) = measured("strain:1", 400.0, 10);
         for (rows, is_taken) in [("3,1,2\n", false), ("3,1.5,2\n", true), ("5,1,2\n", true)] {
             let data = measurement.data_in(&[strains("3,1,2\n4,1,2\n"), strains(rows)], &signal);
-            assert_eq!(data.map(|(data, left_out)| (data.len(), left_out)).ok(), is_taken.then_some((6, 0)), "{rows}");
+            assert_eq!(
+                data.map(|(data, left_out)| (data.len(), left_out)).ok(),
+                is_taken.then_some((6, LeftOut::default())),
+                "{rows}"
+            );
         }
+        let why = measurement.data_in(&[strains("3,1,2\n4,1,2\n4,1,2\n")], &signal).unwrap_err();
+        assert!(why.contains("h_plus = 1.0 is there twice"), "{why}");
     }
 
     #[test]
     fn data_of_two_kinds_numbers_or_times_are_two() {
         let (observable, place) = (twofold::inference::Observable::StrainPlus, Place::Time(3.0));
         let datum = Datum { observable, place, epoch: 0.0, value: 1.0, sigma: 1.0 };
+        let same = |a: &Datum, b: &Datum| identity(a) == identity(b);
         assert!(same(&datum, &datum));
         let cross = Datum { observable: twofold::inference::Observable::StrainCross, ..datum };
         for other in [cross, Datum { value: 2.0, ..datum }, Datum { place: Place::Time(4.0), ..datum }] {

@@ -7,7 +7,7 @@ mod timing_data;
 
 pub use data_file::DataFile;
 pub use errors::{add_timing_noise, beside, with_noise};
-pub use measurement::{Measurement, named};
+pub use measurement::{LeftOut, Measurement, named};
 pub use timing_data::read_timing;
 
 use twofold::Error;
@@ -15,6 +15,9 @@ use twofold::inference::{Noise, Observable};
 use twofold::parameters::Parameters;
 
 use crate::scene_file::Scene;
+
+const POLE: &str =
+    "above 1e-6: on a pole the angles are not parameters; turn the start, s^IJ and the observer away from Z together";
 
 /// The parameters of a scene in units `I^xx = C = 1`, time in `t_c`; `Omega^z` is held fixed when others change. A beam or an observer that the
 /// scene lacks gets placeholder values: data that need them cannot be observed (see [`missing_section`]).
@@ -24,7 +27,7 @@ use crate::scene_file::Scene;
 pub fn parameters_of(scene: &Scene) -> Result<Parameters<f64>, Error> {
     let angles = scene.initial_angles;
     let sine = angles.beta.sin();
-    Error::ensure(sine > 1e-6, "sin(beta) at the start", sine, "above 1e-6: on a pole the angles are not parameters")?;
+    Error::ensure(sine > 1e-6, "sin(beta) at the start", sine, POLE)?;
     let rates = scene.problem.initial().rates(scene.problem.spheroid())?;
     let mut parameters =
         Parameters::new(*scene.problem.spheroid(), *scene.problem.coefficients(), angles, rates).holding_spin();

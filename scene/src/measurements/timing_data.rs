@@ -197,6 +197,9 @@ mod tests {
         let line = "x 0.0 55000.5 2.0 @";
         assert_eq!(read("data", &format!("\n# a\nC b\nFORMAT 1\n{line} -pn 3\n")).unwrap().arrivals, arrival(Some(3)));
         assert_eq!(read("data.tim", &format!("{line}\n")).unwrap().arrivals, arrival(None));
+        // `C` alone begins a comment; a name may begin with it.
+        let named = format!("C {line}\nCHIME_0812{}\n", &line[1..]);
+        assert_eq!(read("data.tim", &named).unwrap().arrivals, arrival(None));
         // A flag that changes the time is refused wherever it stands.
         for flags in ["-to 1e-3", "-pn 3 -to 1e-3", "-fe L -pn 3 -padd 0.5"] {
             let why = read("data.tim", &format!("{line} {flags}\n")).unwrap_err();

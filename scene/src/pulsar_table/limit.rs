@@ -289,6 +289,26 @@ mod tests {
         }
     }
 
+    /// A change of 0.3 deg with an error of 0.02 deg is measured better than one of 0.001 deg with an error of 0.05 deg, though its limit is weaker: had
+    /// both been zero, its limit would be the stronger one.
+    #[test]
+    fn the_pulse_that_is_measured_best_is_recommended_whatever_was_measured() {
+        let pulse = |name: &str, change: &str| {
+            format!(
+                "[[pulsar]]\nname = \"{name}\"\nspin_period = 4e-3\nlambda = 95\nchi = 51\nwidth = 13\nwidth_change = {change}\nyears = 15\n"
+            )
+        };
+        let text = pulse("steady", "[0.001, 0.05]") + &pulse("changed", "[0.3, 0.02]");
+        let pulsars = crate::pulsar_table::pulsars("table", &text).unwrap();
+        let [steady, changed] = [0, 1].map(|i| {
+            let figure = pulsars[i].figure("bound_over_eta_own").unwrap();
+            (pulsars[i].limit(&figure).unwrap().all, pulsars[i].sensitivity(&figure).unwrap().expect("an error"))
+        });
+        // Both are one number times the error.
+        assert!(changed.0 > steady.0 && (steady.1 / changed.1 - 2.5).abs() < 1e-9, "{steady:?} {changed:?}");
+        assert_eq!(recommended(&pulsars).unwrap().0.name, "changed");
+    }
+
     #[test]
     fn an_angle_to_the_line_of_sight_of_either_sign_has_one_limit() {
         assert_eq!(limit_over_directions(-0.7, 1.0, 0.5), limit_over_directions(0.7, 1.0, 0.5));

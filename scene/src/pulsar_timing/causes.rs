@@ -8,7 +8,7 @@ use twofold::spin_down::{Braking, StretchedTime};
 
 use super::{PulsarScene, Timing};
 
-/// The contributions to the residuals (s): the delay by each cause at the arrival times, without what the fit of the arrival times absorbs. They add up
+/// The contributions to the residuals (s): the delay by each cause, less the part that the fit to the arrival times absorbs. They add up
 /// to the residuals, except for the part of the secular spin-down that no fit removes, and for the rounding of arrival times, which they do not
 /// contain.
 ///

@@ -253,7 +253,7 @@ pub(super) fn read_time(section: &Section<'_>, units: &Units) -> Result<Times, F
     let start = section.number_or("start", 0.0)?;
     let span =
         years.number_where("a number of Julian years from -1e6 to 1e6, not zero", |x| x != 0.0 && x.abs() <= 1e6)?;
-    Ok(Times::Even { start, end: start + span * JULIAN_YEAR, samples: samples(section)? })
+    even_times(section, &years, start, start + span * JULIAN_YEAR)
 }
 
 /// The epoch of the start, a modified Julian date; and a caution if it looks like another kind of date.
@@ -299,7 +299,11 @@ pub fn like_julian_date(epoch: &Epoch) -> Option<String> {
 pub(crate) fn read_times(section: &Section<'_>) -> Result<Times, Fault> {
     section.not_both(&[("span", "end"), ("times", "span"), ("times", "end"), ("times", "samples")])?;
     let start = section.number_or("start", 0.0)?;
-    if section.has("times") { listed_times(section, start) } else { even_times(section, start) }
+    if section.has("times") {
+        return listed_times(section, start);
+    }
+    let (end, entry) = read_end(section, start)?;
+    even_times(section, &entry, start, end)
 }
 
 /// The end of the span, with the entry that defines it.
@@ -311,13 +315,9 @@ pub(crate) fn read_end<'a>(section: &Section<'a>, start: f64) -> Result<(f64, En
     }
 }
 
-fn samples(section: &Section<'_>) -> Result<usize, Fault> {
-    section.required("samples", "number of rows, both ends included")?.whole_number(2, MOST_SAMPLES)
-}
-
-fn even_times(section: &Section<'_>, start: f64) -> Result<Times, Fault> {
-    let (end, entry) = read_end(section, start)?;
-    let samples = samples(section)?;
+/// Times in equal steps up to an end that follows from `entry`.
+fn even_times(section: &Section<'_>, entry: &Entry<'_>, start: f64, end: f64) -> Result<Times, Fault> {
+    let samples = section.required("samples", "number of rows, both ends included")?.whole_number(2, MOST_SAMPLES)?;
     // Rows must differ in time: a span that is lost in the rounding of its ends has no even spacing.
     let spacing = (end - start).abs() / (samples - 1) as f64;
     if !(spacing.is_finite() && spacing > 4.0 * f64::EPSILON * start.abs()) {

@@ -22,6 +22,11 @@ pub(super) fn guarded<T>(compute: impl FnOnce() -> Result<T, String>) -> Result<
     })
 }
 
+/// The fields with which the row of a scene begins: its number and its parameters.
+pub(super) fn start_of_row(number: u64, parameters: &[f64]) -> impl Iterator<Item = String> {
+    [number.to_string()].into_iter().chain(parameters.iter().map(|x| format!("{x:?}")))
+}
+
 /// Computes the scenes `numbers` and writes their rows. A scene that cannot be computed also gets a row.
 pub(super) fn chunk_text(sweep: &Sweep<'_>, numbers: Range<u64>) -> Result<ChunkText, csv::Error> {
     let columns = sweep.outputs.header(&sweep.units).len();
@@ -37,7 +42,7 @@ pub(super) fn chunk_text(sweep: &Sweep<'_>, numbers: Range<u64>) -> Result<Chunk
             Ok(_) => values.next().expect("as many results as scenes"),
             Err(why) => Err(why.clone()),
         };
-        let start = || [number.to_string()].into_iter().chain(parameters.iter().map(|x| format!("{x:?}")));
+        let start = || start_of_row(number, parameters);
         let status = if outcome.is_ok() { "ok" } else { "failed" };
         start().chain([status.to_owned()]).try_for_each(|field| rows.write_field(field))?;
         let missing = || vec![f64::NAN; columns];

@@ -3,6 +3,7 @@
 use std::io::{self, BufRead, Write};
 
 use super::Sweep;
+use super::chunk::start_of_row;
 
 /// Writes the rows of `parts`, named tables, under one header; together they must be all scenes of the sweep, in order.
 pub fn merge(
@@ -31,6 +32,10 @@ pub fn merge(
             if number != Some(next) || !line.ends_with(b"\n") {
                 let found = number.map_or("a line that is not a row".to_owned(), |number| format!("scene {number}"));
                 return Err(not_next(format!("has {found} where scene {next} is expected")));
+            }
+            let start: Vec<_> = start_of_row(next, &sweep.parameters.of_scene(next)).collect();
+            if !line.starts_with(format!("{},", start.join(",")).as_bytes()) {
+                return Err(not_next(format!("is of another sweep: its scene {next} has other parameters")));
             }
             write(&line)?;
             next += 1;

@@ -26,7 +26,7 @@ pub use identity::Identity;
 pub use journal::signed_again;
 pub use merge::{csv_line, merge};
 pub use shard::Shard;
-pub use spool::{Spool, SpoolError, SpoolFiles, errors_beside};
+pub use spool::{Spool, SpoolError, SpoolFiles, errors_beside, is_beginning_of};
 
 use twofold::plan::Method;
 

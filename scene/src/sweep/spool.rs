@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::fs::{self, File};
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -185,8 +185,8 @@ impl Spool {
         self.write_line(&journal::completion())
     }
 
-    /// Gives a complete table of errors its name next to the table `out`, if there are any. An existing file of that name is removed if it may be
-    /// `replaced`.
+    /// Gives a complete table of errors its name next to the table `out`, if there are any. An existing file of that name is replaced or removed if
+    /// it may be `replaced`; what an earlier attempt has written may always be.
     ///
     /// # Errors
     /// A file that cannot be written, or exists.
@@ -196,7 +196,7 @@ impl Spool {
         }
         let errors = errors_beside(out);
         if self.mark.failed > 0 {
-            free(&errors, replaced)?;
+            free(&errors, replaced || is_beginning_of(&errors, &self.files.errors))?;
             let copied = fs::copy(&self.files.errors, &errors).and_then(|_| File::open(&errors)?.sync_all());
             copied.map_err(refused(&errors))?;
         } else if errors.is_file() && replaced {
@@ -280,6 +280,27 @@ fn intact_prefixes(mut file: &File, prefixes: &[Prefix]) -> io::Result<usize> {
         position = prefix.length;
     }
     Ok(prefixes.len())
+}
+
+/// Whether the file `part` has the bytes with which `whole` begins, as a copy has that was interrupted.
+pub fn is_beginning_of(part: &Path, whole: &Path) -> bool {
+    let same = || -> io::Result<bool> {
+        let (mut part, mut whole) = (BufReader::new(File::open(part)?), BufReader::new(File::open(whole)?));
+        loop {
+            let bytes = part.fill_buf()?;
+            if bytes.is_empty() {
+                return Ok(true);
+            }
+            let mut expected = vec![0; bytes.len()];
+            whole.read_exact(&mut expected)?;
+            if bytes != expected {
+                return Ok(false);
+            }
+            let read = bytes.len();
+            part.consume(read);
+        }
+    };
+    same().unwrap_or(false)
 }
 
 fn free(path: &Path, replaced: bool) -> Result<(), SpoolError> {
@@ -391,6 +412,28 @@ mod tests {
         let refused = open().expect_err("a table without a journal").to_string();
         assert!(refused.contains("no journal") && !files.journal.exists(), "{refused}");
         assert_eq!(bytes(folder), before);
+    }
+
+    /// After an interrupted attempt to name a table, what it has written of the errors is replaced, and nothing else.
+    #[test]
+    fn only_what_an_earlier_attempt_has_written_is_replaced() {
+        for (there, is_taken) in
+            [("errors\n0,w", true), ("errors\n0,why\n", true), ("errors\n0,who", false), ("errors\n0,why\nmore", false)]
+        {
+            let folder = tempfile::tempdir().expect("a folder");
+            let out = folder.path().join("a.csv");
+            let open = || Spool::open(SpoolFiles::of(&out), &identity("text"), [b"head\n", b"errors\n"], 0..40);
+            let mut spool = open().expect("a table");
+            spool.append(40, [b"0,1\n", b"0,why\n"], 1).expect("a row");
+            spool.commit().expect("a mark");
+            spool.completed().expect("a mark");
+            drop(spool);
+            fs::write(errors_beside(&out), there).expect("a file");
+            let named = open().expect("a table").give_names(&out, false);
+            assert_eq!(named.is_ok(), is_taken, "{there}: {named:?}");
+            let expected = if is_taken { "errors\n0,why\n" } else { there };
+            assert_eq!(fs::read_to_string(errors_beside(&out)).expect("errors"), expected);
+        }
     }
 
     /// A table of errors is named if a scene has failed, and removed if none has.

@@ -69,7 +69,7 @@ impl SpinFit {
             .map(|&(number, time)| (number, since(time)))
             .max_by(|a, b| a.1.high.abs().total_cmp(&b.1.high.abs()));
         let (last, span) = farthest.expect("there are points");
-        let chord = DoubleDouble::from((last - first) as f64).over(span);
+        let chord = DoubleDouble::from((last - first) as f64) / span;
         let left: Vec<_> = points
             .iter()
             .map(|&(number, time)| (DoubleDouble::from((number - first) as f64) - chord * since(time)).high)
@@ -91,7 +91,7 @@ impl SpinFit {
         })
     }
 
-    /// What the fit of phase, frequency and `derivatives` derivatives to pulses at some times leaves of small delays of these pulses: the contribution
+    /// The residuals that small delays of pulses leave after a fit of phase, frequency and `derivatives` derivatives to them: the contribution
     /// of the delays to the residuals. For as many delays as times, and more different times than fitted parameters.
     pub fn residuals_of_delays(times: &[f64], delays: Vec<f64>, derivatives: usize) -> Vec<f64> {
         let unit = times.iter().fold(0.0_f64, |largest, time| largest.max(time.abs()));
@@ -107,7 +107,7 @@ impl SpinFit {
         let frequency = DoubleDouble::from(self.frequency);
         let [rate, second] = self.derivatives;
         let root = (frequency * frequency + wanted * rate).sqrt();
-        let mut t = wanted.over(if frequency.high < 0.0 { frequency - root } else { frequency + root });
+        let mut t = wanted / (if frequency.high < 0.0 { frequency - root } else { frequency + root });
         if second != 0.0 {
             let wanted = wanted * 0.5;
             for _ in 0..NEWTON_STEPS {
@@ -186,7 +186,7 @@ mod tests {
         let points: Vec<_> = (0..400)
             .map(|k| {
                 let number = 1_000_000_007 * k - 200_000_000_000;
-                let time = DoubleDouble::from((number as f64) - 0.25).over(frequency) + signal(k).into();
+                let time = DoubleDouble::from((number as f64) - 0.25) / frequency + signal(k).into();
                 (number, time.into())
             })
             .collect();

@@ -84,6 +84,7 @@ mod tests {
 
     use super::*;
     use crate::dynamics::RigidSpheroid;
+    use crate::dynamics::fixture::problem;
 
     #[test]
     fn nothing_moves_without_momentum_and_torque() {
@@ -92,6 +93,22 @@ mod tests {
         let found = QuasiPeriodicMotion::new(&Problem::new(star, Matrix3::zeros(), start).unwrap()).unwrap();
         assert_eq!(found.rates(), [0.0; 3]);
         assert_eq!(found.state_after_turns([0.0; 3]), start);
+    }
+
+    /// The errors of the rates of a free motion may have either sign: a difference of rates has as large an error as their sum, apart from the rounding
+    /// of the result.
+    #[test]
+    fn errors_of_rates_add_up_in_sums_and_in_differences() {
+        let found = QuasiPeriodicMotion::new(&problem([0.0; 3])).unwrap();
+        let error = |multiples| {
+            let [frequency, error] = found.frequency(multiples);
+            error - f64::EPSILON * frequency.abs()
+        };
+        let one = error([1, 0, 0]);
+        assert!(one > 0.0);
+        for (multiples, rates) in [([1, 0, 1], 2.0), ([1, 0, -1], 2.0), ([-1, 0, 1], 2.0), ([2, 0, -3], 5.0)] {
+            assert!((error(multiples) / one - rates).abs() < 1e-13, "{multiples:?}: {}", error(multiples) / one);
+        }
     }
 
     /// The rate of `e_x` about `n` of a nearly spherical star is a difference of rates 1e8 times as large: `-epsilon Omega^z`, apart from the

@@ -74,7 +74,10 @@ fn expected_rounding(turn: f64, steps: f64, strength: f64, vectors: usize) -> f6
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector3;
+
     use super::*;
+    use crate::dynamics::AxisState;
     use crate::dynamics::fixture::{ANGLES, STAR, problem, tensor};
     use crate::euler_angles::EulerRates;
 
@@ -91,6 +94,17 @@ mod tests {
         let problem = Problem::from_angles(STAR, tensor([0.0; 3]), &ANGLES, &rest).unwrap();
         let found = problem.taylor_forecast(1e3, 1e-10).unwrap();
         assert_eq!((found.steps, found.rounding), (1.0, READING));
+    }
+
+    /// At rest on an unstable axis of `s`, where all terms of the series vanish, steps are as long as a growing deviation allows, here `e^80` of it:
+    /// those that are predicted are those that the motion takes.
+    #[test]
+    fn a_star_at_rest_that_may_leave_takes_the_steps_predicted() {
+        let rest = AxisState { axis: Vector3::x(), momentum: Vector3::zeros() };
+        let problem = Problem::new(STAR, tensor([0.3, 0.0, -0.3]), rest).unwrap();
+        let taken = problem.taylor((0.0, 100.0), 1e-10).unwrap().step_count;
+        assert!(taken > 1);
+        assert_eq!(problem.taylor_forecast(100.0, 1e-10).unwrap().steps, taken as f64);
     }
 
     #[test]

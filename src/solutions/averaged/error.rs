@@ -11,10 +11,12 @@
 //!
 //! The motion of a bulge alone is exact ([`bulge`](crate::dynamics::bulge)): with one, of strength `y = |b| (s_max - s_min) I^xx`, a power `x^k` becomes `x (x + y)^(k - 1)`.
 //!
-//! The effect on `l` after a time is the smaller of two estimates. Neighbouring solutions separate at most at the rate `kappa = (k_1 - k_3) / 2`
-//! (half the largest `l.(d x k d)`, for unit `d`). Alternatively, because they stay near their own closed curves, they separate by the
-//! difference of their periods. The latter is computed from two neighbouring tops, shifted towards either axis, and is valid only if they are on
-//! the same side of the separatrix.
+//! The effect on `l` after a time is the smallest of three estimates. Neighbouring solutions separate at most at the rate `kappa = (k_1 - k_3) / 2`
+//! (half the largest `l.(d x k d)`, for unit `d`). With two nearly equal values, of difference `g`, they separate about the third axis in proportion
+//! to time, at `K = k_1 - k_3` times their difference along it, and this changes at most at `g` times their distance: to
+//! `(1 + K t) exp(t (sqrt(K g) + g))` times themselves. Because they stay near their own closed curves, they separate by the difference of their
+//! periods. This is computed from two neighbouring tops, shifted towards either axis, and is valid only if they are on the same side of the
+//! separatrix.
 
 use nalgebra::Vector3;
 
@@ -41,7 +43,7 @@ struct Fault {
 
 impl<S: Real> AveragedSolution<S> {
     /// Estimated largest error of `n`, `e_x` and `L / G` at the time `t`: [`truncation`](Self::truncation) and
-    /// [`rounding`](Self::rounding). It is counted from the initial state, also after [`near`](Self::near).
+    /// [`rounding`](Self::rounding).
     pub fn error_estimate(&self, t: f64) -> f64 {
         // The distance of two directions is at most two, and the relative error of G is less than the strength.
         let most = 2.0 * (1.0 + self.relative_strength.re());
@@ -63,7 +65,7 @@ impl<S: Real> AveragedSolution<S> {
             rate: SECULAR * power * both * self.turning_rate(),
             neighbour: TENSOR * power,
         };
-        self.consequence(&fault, self.elapsed(t))
+        self.consequence(&fault, t.abs())
     }
 
     /// Rounding of the initial state and of the contribution of Lorentz violation to the phases, at the time `t`. The free rotation itself is
@@ -79,20 +81,24 @@ impl<S: Real> AveragedSolution<S> {
             rate: 8.0 * f64::EPSILON * added,
             neighbour: 8.0 * f64::EPSILON,
         };
-        self.consequence(&fault, self.elapsed(t)) + self.rounding_of_rate_about_axis() * self.elapsed(t)
+        self.consequence(&fault, t.abs()) + self.rounding_of_rate_about_axis() * t.abs()
     }
 
     fn consequence(&self, fault: &Fault, elapsed: f64) -> f64 {
         let k = self.tensor().map(S::re);
         let l = real_part(&self.direction());
         let kappa = (k.max() - k.min()) / 2.0;
+        let middle = k.sum() - k.max() - k.min();
         // e^(kappa t) - 1 over kappa, also if nothing moves.
         let grown = kappa * elapsed;
         let integral = if grown > 0.0 { grown.exp_m1() / grown * elapsed } else { elapsed };
         let by_growth = (fault.constant + fault.rate * integral) + fault.constant * (integral * kappa);
+        let gap = (k.max() - middle).min(middle - k.min()) + 2.0 * kappa * fault.neighbour;
+        let by_shear = (fault.constant + fault.rate * elapsed)
+            * ((1.0 + 2.0 * grown) * (((2.0 * kappa * gap).sqrt() + gap) * elapsed).exp());
         let [along, about] = neighbouring_rates(&k, &l, fault.neighbour);
         let by_periods = fault.constant + (fault.rate + along) * elapsed;
-        let of_momentum = by_growth.min(by_periods);
+        let of_momentum = by_growth.min(by_shear).min(by_periods);
         let of_angle = fault.rate * elapsed + (about * elapsed).min(2.0 * grown * of_momentum);
         of_momentum.min(2.0) * 2.0 + of_angle
     }

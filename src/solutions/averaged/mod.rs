@@ -60,5 +60,5 @@ pub use generator::{generator, generator_slopes};
 pub use hamiltonian::{AveragingOrder, mean_angular_velocity, mean_potential};
 pub use middle_axis::{middle_axis_growth, period_near_separatrix};
 pub use motion::AveragedSolution;
-pub use phases::{AveragedPhases, AveragedRates, AveragedTurns, Turns};
+pub use phases::{OfRotations, Turns};
 pub use top::{Top, TopPhases, TopShape};

@@ -48,76 +48,49 @@ fn nearest(x: f64) -> f64 {
     if x.abs() < 1e15 { (x + WHOLE) - WHOLE } else { x.round() }
 }
 
-/// The phases of a motion in turns.
+/// A value for each of the three rotations of an averaged motion: their phases, in rad or in turns, or their rates.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AveragedTurns {
-    /// Phase of the slow precession of `L`; on a separatrix, where it has no period, `u / (2 pi)`.
-    pub slow: Turns,
-    /// Rotation of the frame about `L`, without its periodic part.
-    pub about_momentum: Turns,
-    /// Rotation of the body about its symmetry axis relative to the frame.
-    pub about_axis: Turns,
+pub struct OfRotations<T> {
+    /// The slow precession of `L`. Its phase grows by a turn when `L` circles its axis once, in either sense; on a separatrix, where it has no
+    /// period, it is `u`, and its rate `lambda`.
+    pub slow: T,
+    /// The rotation of the frame about `L`, without its periodic part.
+    pub about_momentum: T,
+    /// The rotation of the body about its symmetry axis relative to the frame.
+    pub about_axis: T,
 }
 
-/// Mean rates of a motion (rad per unit of time).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AveragedRates<S> {
-    /// Rate of the phase of the slow precession, which grows by a turn when `L` circles its axis once, in either sense; `lambda` on
-    /// a separatrix.
-    pub slow: S,
-    /// Rate of the frame about `L`, without its periodic part.
-    pub about_momentum: S,
-    /// Rate of the body about its symmetry axis relative to the frame.
-    pub about_axis: S,
-}
-
-/// Phases of a motion at one time (rad), defined modulo a turn.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AveragedPhases<S> {
-    /// Phase with the rate [`AveragedRates::slow`], including its initial value.
-    pub slow: S,
-    /// Phase with the rate [`AveragedRates::about_momentum`].
-    pub about_momentum: S,
-    /// Phase with the rate [`AveragedRates::about_axis`].
-    pub about_axis: S,
-}
-
-impl<S: Real> AveragedPhases<S> {
-    /// The phases after an additional time.
-    pub(crate) fn later(&self, rates: &AveragedRates<S>, time: S) -> Self {
-        Self {
-            slow: self.slow + rates.slow * time,
-            about_momentum: self.about_momentum + rates.about_momentum * time,
-            about_axis: self.about_axis + rates.about_axis * time,
+impl<T: Copy> OfRotations<T> {
+    /// The values of a function of the values of both.
+    pub(crate) fn with<U: Copy, V>(&self, other: &OfRotations<U>, f: impl Fn(T, U) -> V) -> OfRotations<V> {
+        OfRotations {
+            slow: f(self.slow, other.slow),
+            about_momentum: f(self.about_momentum, other.about_momentum),
+            about_axis: f(self.about_axis, other.about_axis),
         }
     }
 }
 
-/// The contribution of Lorentz violation to the rates of free rotation, and the slow rate.
-pub(super) struct Added<S> {
-    pub(super) slow: S,
-    pub(super) about_momentum: S,
-    pub(super) about_axis: S,
+impl<S: Real> OfRotations<S> {
+    /// These phases after an additional time.
+    pub(crate) fn later(&self, rates: &Self, time: S) -> Self {
+        self.with(rates, |phase, rate| phase + rate * time)
+    }
 }
 
-/// Rates in turns: `|L| / I^xx` and `-epsilon Omega^z` to 32 digits, plus the added rates.
+/// Rates in turns: `|L| / I^xx` and `-epsilon Omega^z` to 32 digits, plus those that Lorentz violation adds; the slow rate is added whole.
 pub(super) fn turning<S: Real>(
     spheroid: &RigidSpheroid<S>,
     initial: &BodyState<S>,
-    added: &Added<S>,
-) -> [DoubleDouble; 3] {
+    added: &OfRotations<S>,
+) -> OfRotations<DoubleDouble> {
     let [inertia_xx, inertia_zz] = [spheroid.inertia_xx, spheroid.inertia_zz].map(S::re);
     let [n, momentum] = [&initial.axis, &initial.momentum].map(|v| real_part(v).into());
-    let about_momentum = DoubleDouble::dot(&momentum, &momentum).sqrt().over(inertia_xx.into());
+    let about_momentum = DoubleDouble::dot(&momentum, &momentum).sqrt() / inertia_xx;
     let difference = DoubleDouble::sum(inertia_xx, -inertia_zz);
-    let about_axis =
-        (difference * DoubleDouble::dot(&momentum, &n)).over(DoubleDouble::product(inertia_xx, inertia_zz));
-    let with = |free: DoubleDouble, added: S| (free + added.re().into()).over(DoubleDouble::TAU);
-    [
-        with(DoubleDouble::default(), added.slow),
-        with(about_momentum, added.about_momentum),
-        with(about_axis, added.about_axis),
-    ]
+    let about_axis = difference * DoubleDouble::dot(&momentum, &n) / DoubleDouble::product(inertia_xx, inertia_zz);
+    let free = OfRotations { slow: DoubleDouble::default(), about_momentum, about_axis };
+    free.with(added, |free, added| (free + added.re().into()) / DoubleDouble::TAU)
 }
 
 /// The error of the length of `n` due to rounding: `n.n - 1`, to its own digits.

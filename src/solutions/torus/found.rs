@@ -20,6 +20,20 @@ pub(super) const THINNEST: f64 = 1e-8;
 /// the distance, which is then above 1e-12.
 const AT_REST: f64 = 1e-6;
 
+/// Eigenvalues that differ by less than this fraction of the largest difference count as equal near a state of rest.
+const EQUAL: f64 = 1e-8;
+
+/// Whether `n` and `L` are nearly at rest in the plane of two equal eigenvalues of `s`. There a deviation grows in proportion to time: both periods of
+/// the torus are those of the fast rotation.
+fn near_neutral_rest(values: &Vector3<f64>, axis: &Vector3<f64>, momentum: &Vector3<f64>, unit: f64) -> bool {
+    let spread = values.max() - values.min();
+    let aside = axis.cross(momentum).norm() / unit;
+    (0..3).any(|i| {
+        let apart = (values[(i + 1) % 3] - values[(i + 2) % 3]).abs();
+        apart <= EQUAL * spread && aside.max(axis[i].abs()).max(momentum[i].abs() / unit) <= AT_REST
+    })
+}
+
 /// Whether `n` and `L` are nearly at rest, both along a principal axis `i` of `s`, in an unstable way. The torque is that of the energy
 /// `C n.s n`, `C (s_i + sum of (s_j - s_i) u_j^2)` for small components `u_j` of `n`, so that with `k_j = 2 C (s_j - s_i)` and the spin momentum `G`
 ///
@@ -92,12 +106,12 @@ impl Torus {
             let start = [initial.axis, initial.momentum, initial.equatorial_axis];
             (turn, integrals, start)
         };
-        if near_unstable_rest(&spheroid, &principal.coefficients().diagonal(), initial.axis, initial.momentum, unit) {
+        let given = principal.coefficients().diagonal();
+        if near_unstable_rest(&spheroid, &given, initial.axis, initial.momentum, unit)
+            || near_neutral_rest(&given, &initial.axis, &initial.momentum, unit)
+        {
             let what = "a series on the torus";
-            return Err(Error::Unsupported {
-                what,
-                why: "n and L are nearly at rest along an axis of s, where this is unstable",
-            });
+            return Err(Error::Unsupported { what, why: "n and L are nearly at rest, where a deviation grows" });
         }
         let (turn, integrals, start) = in_frame(x);
         let found = lattice(&integrals, unit, &start)

@@ -37,7 +37,8 @@ impl Plans {
                     // Part of the rounding is that of the state given.
                     let (truncation, rounding) = (found.truncation, found.rounding.log2().round());
                     let text = format!("{admitted}, truncation {truncation:?}, rounding 2 to the {rounding}");
-                    let (order, bytes, cost, work) = (found.order, found.memory.of_a_segment(1), found.cost, found.work);
+                    let (order, bytes, cost, work) =
+                        (found.order, found.memory.of_a_segment(1), found.cost, found.work);
                     let text = format!("{text}, order {order}, bytes {bytes:?}, cost {cost:?}, steps {:?}", work.steps);
                     table.row(&name, format_args!("{text}, evaluations {:?}", work.evaluations()));
                 });

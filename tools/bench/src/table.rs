@@ -189,6 +189,15 @@ mod tests {
         }
     }
 
+    #[test]
+    fn times_have_three_digits_in_the_unit_of_their_size() {
+        for (seconds, text) in
+            [(25e-6, "25 us"), (1.5e-6, "1.500 us"), (0.25e-3, "250 us"), (2.5e-3, "2.500 ms"), (1.5, "1.500 s")]
+        {
+            assert_eq!(time(seconds), text);
+        }
+    }
+
     /// Each number under its own name.
     #[test]
     fn errors_stand_under_their_names() {

@@ -120,7 +120,8 @@ fn fisher_of_formulas() -> Result<Fisher, String> {
     };
     let columns = UNKNOWNS.iter().map(column).collect::<Result<Vec<_>, String>>()?;
     let matrix = DMatrix::from_columns(&columns);
-    let jacobian = Jacobian { magnitudes: matrix.abs(), matrix, relative_error: 1e-13 };
+    let jacobian =
+        Jacobian { magnitudes: matrix.abs(), rounding: DVector::zeros(matrix.nrows()), matrix, relative_error: 1e-13 };
     Ok(Fisher::of_jacobian(&jacobian, &UNKNOWNS, &model))
 }
 

@@ -144,7 +144,7 @@ impl TimingModel {
         check_turns(number as f64)?;
         // Up to the largest number of turns every integer is a double.
         let wanted = DoubleDouble::from(number as f64);
-        let mut time = (wanted - self.value(Phase).into()).over(self.frequency);
+        let mut time = (wanted - self.value(Phase).into()) / self.frequency;
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
             let tau = self.time.stretched_at(time.into())?;

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use twofold::solutions::averaged::AveragedPhases;
+use twofold::solutions::averaged::OfRotations;
 
 use super::scenes::difference;
 use crate::averaged_scenes::{AveragedScene, EstimateSeen};
@@ -68,7 +68,7 @@ fn rounding() -> Result<Measured, String> {
         let [slow, about_momentum, about_axis] =
             phases.map(|phase| phase - tau * DoubleDouble::from_f64((phase.high() / TAU).round()));
         let start = exact.phases_at([0.0; 2]);
-        let right = exact.state_at(&AveragedPhases { slow: start.slow + slow, about_momentum, about_axis });
+        let right = exact.state_at(&OfRotations { slow: start.slow + slow, about_momentum, about_axis });
         let right = BodyState::from_vectors(right.vectors().map(|v| v.map(DoubleDouble::high)));
         let off = difference(&averaged.state(t), &right);
         let estimate = averaged.rounding(t);

@@ -2,7 +2,7 @@
 
 use twofold::observables::pulsar::PulsarClock;
 use twofold::propagation::PhasedMotion;
-use twofold::solutions::averaged::{AveragedPhases, AveragedRates};
+use twofold::solutions::averaged::OfRotations;
 
 use crate::prelude::*;
 use twofold_scene::pulsar_timing::PulsarScene;
@@ -222,8 +222,8 @@ fn against_averaged() -> Result<Measured, String> {
 /// The same averaged motion with every operation in 31 digits.
 struct Exact {
     mean: AveragedSolution<DoubleDouble>,
-    rates: AveragedRates<DoubleDouble>,
-    start: AveragedPhases<DoubleDouble>,
+    rates: OfRotations<DoubleDouble>,
+    start: OfRotations<DoubleDouble>,
     beam: Beam<DoubleDouble>,
     line_of_sight: Vector3<DoubleDouble>,
     turn: DoubleDouble,
@@ -257,7 +257,7 @@ impl Exact {
             let turns = (whole / self.turn).high().round();
             whole - self.turn * DoubleDouble::from_f64(turns)
         };
-        let phases = AveragedPhases {
+        let phases = OfRotations {
             slow: phase(start.slow, rates.slow),
             about_momentum: phase(start.about_momentum, rates.about_momentum),
             about_axis: phase(start.about_axis, rates.about_axis),
