@@ -148,22 +148,22 @@ impl SweepFile {
         let out = std::fs::canonicalize(&out).unwrap_or(out);
         let (files, scenes) = (SpoolFiles::of(&out), 0..sweep.scenes);
         let identity = Identity::new(&sweep.text, &scenes);
-        let named_before = files.are_complete(&identity);
+        let named_before = files.complete(&identity).is_some();
         if named_before && !files.rows.exists() && out.exists() {
             // Only the tidying was interrupted.
             files.remove().map_err(raised)?;
             return Ok(Self { out, replaced: false, spool: None, scenes: scenes.end });
         }
-        let replaced = replace || named_before;
-        for path in [&out, &errors_beside(&out)] {
-            if path.exists() && !replaced {
+        // Whether errors are from an earlier attempt to name the table is seen when it is named.
+        for (path, replaced) in [(&out, replace), (&errors_beside(&out), replace || named_before)] {
+            if (path.exists() || path.is_symlink()) && !replaced {
                 return Err(raised(format!("{} exists: allowed is replace=True", path.display())));
             }
         }
         let errors_header = csv_line(&Checked::new(&sweep.text).map_err(raised)?.errors_header());
         let spool =
             Spool::open(files, &identity, [&csv_line(&sweep.header), &errors_header], scenes).map_err(raised)?;
-        Ok(Self { out, replaced, spool: Some(Mutex::new(spool)), scenes: sweep.scenes })
+        Ok(Self { out, replaced: replace, spool: Some(Mutex::new(spool)), scenes: sweep.scenes })
     }
 
     /// The first scene that is not in the table.
@@ -174,7 +174,8 @@ impl SweepFile {
 
     /// Appends the rows that `Sweep.rows` gives for the scenes from `next` to before `stop`, so that they outlive the process.
     fn append(&self, stop: u64, rows: &[u8], errors: &[u8], failed: u64) -> PyResult<()> {
-        let mut spool = self.spool.as_ref().expect("no scene is left").lock().expect("nobody panics with it");
+        let spool = self.spool.as_ref().ok_or_else(|| raised("the table is complete".to_owned()))?;
+        let mut spool = spool.lock().expect("nobody panics with it");
         spool.append(stop, [rows, errors], failed).and_then(|()| spool.commit()).map_err(raised)
     }
 

@@ -32,7 +32,7 @@ impl<U: Unknown> fmt::Display for Direction<U> {
             _ => write!(f, "{} = {}", symbols.join(" : "), sizes.join(" : "))?,
         }
         match (symbols.len(), self.ratio) {
-            (1, 0.0) => write!(f, " (no datum depends on it)"),
+            (1, 0.0) => write!(f, " (over its whole range no datum changes by more than rounding)"),
             (1, _) => write!(f, " (the data change by less than their errors over its whole range)"),
             (_, ratio) => write!(f, " (the data change by {ratio:.1e} of what these do alone, added in quadrature)"),
         }
@@ -184,7 +184,7 @@ mod tests {
         let weak = "d(a) alone (the data change by less than their errors over its whole range)";
         assert_eq!(direction(None, &[(A, 1.0)]).to_string(), weak);
         let idle = Direction { ratio: 0.0, ..direction(None, &[(A, 1.0)]) };
-        assert_eq!(idle.to_string(), "d(a) alone (no datum depends on it)");
+        assert_eq!(idle.to_string(), "d(a) alone (over its whole range no datum changes by more than rounding)");
         let alone = " (the data change by 1.2e-13 of what these do alone, added in quadrature)";
         let found = direction(Some("a against b"), &[(A, 1.0), (B, -0.5), (Fraction, 1e-3)]).to_string();
         assert_eq!(found, format!("a against b; d(a) : d(b) : d(f) = 1.0000 : -0.5000 : 0.0010{alone}"));

@@ -92,8 +92,8 @@ impl fmt::Display for InferenceError {
             ),
             Self::Coarse { unknown, step } => write!(
                 f,
-                "a last digit of {unknown} as a double is {step:.1e} of its standard deviation, and a fit is to a hundredth: allowed in --observe are \
-                 larger standard deviations"
+                "the fit ended off a minimum: a last digit of {unknown} as a double is {step:.1e} of its standard deviation, and a fit is to a \
+                 hundredth; allowed are larger standard deviations"
             ),
             Self::Rounding { observable, rounding } => write!(
                 f,

@@ -13,6 +13,7 @@ use super::signal::{TOLERANCE, strain, turning_rate};
 use super::{Datum, Event, InferenceError, Observable, Place, long_span};
 use crate::dynamics::BodyState;
 use crate::error::Error;
+use crate::lorentz_violation::traceless;
 use crate::observables::pulsar::event_time::event_time;
 use crate::parameters::{Parameter, Parameters};
 use crate::plan::{Gradient, Method, Output, Request, gradient_in_parts};
@@ -26,7 +27,8 @@ pub struct Jacobian {
     pub magnitudes: DMatrix<f64>,
     /// Relative error of the terms.
     pub relative_error: f64,
-    /// How much each datum changes because the directions of the star are rounded. What an unknown changes by less over its whole range is rounding.
+    /// How much each datum changes if the directions of the star are off by [`relative_error`](Self::relative_error). What an unknown changes by less
+    /// over its whole range is rounding.
     pub rounding: DVector<f64>,
 }
 
@@ -56,17 +58,16 @@ pub fn jacobian(
             by_numbers[(row, column)] = term.value(&seeded, datum.observable, &|t| states.at(t, column))?.eps;
         }
     }
-    let by_rotation = f64::EPSILON * last(&states.times) * turning_rate(parameters);
-    // The rounding of a rate is a rotation that grows with time, also where phases are kept.
-    let of_directions = SAFETY * (TOLERANCE + by_rotation);
+    let rotation = if states.phases_are_kept { 0.0 } else { last(&states.times) * turning_rate(parameters) };
+    let relative_error = SAFETY * (TOLERANCE + f64::EPSILON * rotation);
     // Only the values are used.
     let star = base.seeded(Parameter::Rho);
     let per_radian = |(datum, term): (&Datum, &Term)| term.per_radian(&star, datum.observable, &|t| states.at(t, 0));
     let found = Jacobian {
         matrix: &by_numbers * &weights,
         magnitudes: by_numbers.abs() * weights.abs(),
-        relative_error: SAFETY * (TOLERANCE + if states.phases_are_kept { 0.0 } else { by_rotation }),
-        rounding: DVector::from_iterator(data.len(), data.iter().zip(&terms).map(per_radian)) * of_directions,
+        relative_error,
+        rounding: DVector::from_iterator(data.len(), data.iter().zip(&terms).map(per_radian)) * relative_error,
     };
     match found.matrix.iter().find(|value| !value.is_finite()) {
         Some(&value) => {
@@ -169,8 +170,8 @@ impl Term {
         }
     }
 
-    /// How much the datum changes if the directions of the star change by a radian: of a time, the inverse of the rate at which the edge is crossed;
-    /// of a strain, the size of the terms of which it is a sum.
+    /// How much the datum changes, in proportion, if the directions of the star change: a time by the sine of the beam over the rate at which `m.n`
+    /// crosses the edge; a strain by the size of the terms of which it is a sum.
     fn per_radian(
         &self,
         parameters: &Parameters<Dual64>,
@@ -182,7 +183,9 @@ impl Term {
         let margin = |event: &Event, t: f64| {
             beam.margin_rates(spheroid, s, *bulge, &state([event.epoch, t]), &n).map(|rate| rate.re.abs())
         };
-        let edges = |event: &Event| 1.0 / margin(event, event.start)[1] + 1.0 / margin(event, event.end)[1];
+        // At an edge `m.n` changes by at most the sine of the angle between them.
+        let sine = parameters.rho.re.sin();
+        let edges = |event: &Event| sine / margin(event, event.start)[1] + sine / margin(event, event.end)[1];
         match (self, observable) {
             (Self::Pulse(event), Observable::ClosestApproaches) => {
                 let [_, _, second, _] = margin(event, event.closest);
@@ -193,7 +196,7 @@ impl Term {
             (Self::Pulses(before, event), _) => edges(before) + edges(event),
             (Self::Sample(t), _) => {
                 let momentum = state([*t, 0.0]).momentum.map(|x| x.re);
-                let torque = spheroid.constant_c.re * s.map(|x| x.re).norm();
+                let torque = spheroid.constant_c.re * traceless(&s.map(|x| x.re)).norm();
                 let rotation = spheroid.oblateness().re * momentum.norm_squared() / spheroid.inertia_xx.re;
                 (parameters.strain_scale * parameters.strain_unit).re.abs() * (rotation.abs() + torque.abs())
             }

@@ -156,8 +156,8 @@ pub(super) fn least_squares<M: Model>(
         return Err(rounding);
     }
     if is_off {
-        let last_digit = |(value, sigma): (f64, f64)| f64::EPSILON * value.abs() / sigma;
-        let steps = found.fisher.values().into_iter().zip(found.fisher.sigmas()).map(last_digit);
+        let steps = unknowns.iter().map(|unknown| model.last_digit(*unknown));
+        let steps = steps.zip(found.fisher.sigmas()).map(|(digit, sigma)| digit / sigma);
         if let Some((unknown, step)) = unknowns.iter().zip(steps).find(|(_, step)| *step > 1e-2) {
             return Err(InferenceError::Coarse { unknown: unknown.symbol(), step });
         }

@@ -6,6 +6,7 @@ use core::fmt::Debug;
 use super::Symmetry;
 use super::symmetry::symmetries;
 use crate::error::Error;
+use crate::lorentz_violation::traceless;
 use crate::observables::pulsar::timing_model::{TimingModel, TimingParameter};
 use crate::parameters::{Parameter, Parameters};
 
@@ -32,6 +33,11 @@ pub trait Model: Clone {
     /// Value of a parameter minus its value in another model.
     fn difference(&self, other: &Self, unknown: Self::Unknown) -> f64 {
         self.value(unknown) - other.value(unknown)
+    }
+
+    /// The last digit of a parameter.
+    fn last_digit(&self, unknown: Self::Unknown) -> f64 {
+        f64::EPSILON * self.value(unknown).abs()
     }
 
     /// The model with some parameters changed.
@@ -82,7 +88,10 @@ impl Model for Parameters<f64> {
         use Parameter::{AlphaRate, BetaRate, GammaRate, Spin};
         match unknown {
             Spin | GammaRate | AlphaRate | BetaRate => {
-                self.alpha_rate.abs().max(self.spin().abs()).max(self.beta_rate.abs())
+                // The torque makes a star librate that is at rest.
+                let torque = self.spheroid.constant_c.abs() * traceless(&self.coefficients).norm();
+                let by_torque = (2.0 * torque / self.spheroid.inertia_xx).sqrt();
+                self.alpha_rate.abs().max(self.spin().abs()).max(self.beta_rate.abs()).max(by_torque)
             }
             _ => 1.0,
         }
@@ -125,6 +134,12 @@ impl Model for TimingModel {
             return (a - c) + (b - d);
         }
         self.value(unknown) - other.value(unknown)
+    }
+
+    /// F0 has two doubles.
+    fn last_digit(&self, unknown: TimingParameter) -> f64 {
+        let digit = if unknown == TimingParameter::F0 { f64::EPSILON.powi(2) } else { f64::EPSILON };
+        digit * self.value(unknown).abs()
     }
 
     fn moved(&self, unknowns: &[TimingParameter], changes: &[f64]) -> Result<Self, Error> {

@@ -25,8 +25,10 @@ impl ScaledJacobian {
         let columns = matrix.ncols();
         let lengths = DVector::from_fn(columns, |j, _| matrix.column(j).norm());
         let errors: Vec<f64> = (0..columns).map(|j| relative_error * magnitudes.column(j).norm()).collect();
+        let is_rounding =
+            |j: usize| matrix.column(j).iter().zip(rounding).all(|(slope, least)| slope.abs() * ranges[j] <= *least);
         let (idle, used): (Vec<usize>, Vec<usize>) =
-            (0..columns).partition(|&j| lengths[j] <= errors[j] || lengths[j] * ranges[j] <= rounding.norm());
+            (0..columns).partition(|&j| lengths[j] <= errors[j] || is_rounding(j));
         if used.is_empty() {
             let (values, vectors) = (DVector::zeros(0), DMatrix::zeros(columns, 0));
             return Self { lengths, idle, values, vectors, rounding: 0.0 };

@@ -36,9 +36,9 @@ pub(super) fn symmetries(parameters: &Parameters<f64>) -> Vec<Symmetry<Parameter
         ("the size of s^IJ against its components, which it only scales", with_s((SScale, -s_scale))),
         ("gamma against delta: only gamma + delta, the place of the beam, is seen", vec![(Gamma, 1.0), (Delta, -1.0)]),
         ("gamma: a spheroid looks the same at any gamma, and no beam is seen", vec![(Gamma, 1.0)]),
-        ("chi: no pulses are among the data", vec![(Chi, 1.0)]),
-        ("delta: no pulses are among the data", vec![(Delta, 1.0)]),
-        ("rho: no pulses are among the data", vec![(Rho, 1.0)]),
+        ("chi: pulses and their widths show it, and these data do not", vec![(Chi, 1.0)]),
+        ("delta: pulses show it, and these data do not", vec![(Delta, 1.0)]),
+        ("rho: the widths of pulses show it, and these data do not", vec![(Rho, 1.0)]),
         (
             "eps against Omega^z and the strain scale: the axis moves by I^zz Omega^z, and h is in proportion to eps I^xx / r",
             vec![
@@ -51,8 +51,8 @@ pub(super) fn symmetries(parameters: &Parameters<f64>) -> Vec<Symmetry<Parameter
             "eps against Omega^z: only I^zz Omega^z is seen",
             vec![(Oblateness, 1.0 + oblateness), (Spin, -parameters.spin())],
         ),
-        ("C: there is no torque", vec![(ConstantC, 1.0)]),
-        ("the size of s^IJ: there is no torque", vec![(SScale, 1.0)]),
+        ("C: the torque changes none of these data", vec![(ConstantC, 1.0)]),
+        ("the size of s^IJ: the torque changes none of these data", vec![(SScale, 1.0)]),
         ("the strain scale: the data have no strain, or the star emits none", vec![(Strain, 1.0)]),
     ];
     let (sin, cos) = parameters.phi_o.sin_cos();

@@ -188,12 +188,13 @@ mod tests {
     use crate::plan::Counted;
     use crate::propagation::UniformMotion;
 
-    /// Free precession about Z at the rate 1, starting at a given time.
+    /// Free precession about Z at the rate 1, starting at a given time; the tensor has an isotropic part alone, which exerts no torque.
     fn precession(from: f64) -> (UniformMotion<f64>, EulerRates<f64>) {
         let spin = 1.3 * START.beta.cos() / 1.1;
         let rates = EulerRates { alpha: 1.0, beta: 0.0, gamma: 0.2 / 1.3 * spin };
         let initial = BodyState::from_angles(&STAR, &START, &rates);
-        (UniformMotion::free(&Problem::new(STAR, Matrix3::zeros(), initial).unwrap(), (from, from + 100.0)), rates)
+        let problem = Problem::new(STAR, Matrix3::from_diagonal_element(0.7), initial).unwrap();
+        (UniformMotion::free(&problem, (from, from + 100.0)), rates)
     }
 
     /// A path of length `x exp(x)` times the distance to the pole, for a rotation `x`, is short enough up to `x = 0.567`.

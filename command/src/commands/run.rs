@@ -8,6 +8,7 @@ use super::output_file::OutputFile;
 use super::progress::Progress;
 use super::standard_output::standard_output;
 use super::{Failure, note, print};
+use twofold::dynamics::equations_of_motion::angular_velocity;
 use twofold_scene::explained_plan::{bytes, explained};
 use twofold_scene::scene_file::{Columns, Scene};
 use twofold_scene::trajectory::{self, Summary, TrajectoryError};
@@ -95,7 +96,10 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
         scene.check_rotation(&scene.columns).map_err(refused)?;
         scene
     };
+    let start = scene.times.start();
     let scene = args.window.of(scene, &args.scene)?;
+    let elapsed = (scene.times.last() - start) / scene.units.time;
+    let turned = f64::EPSILON * elapsed.abs() * angular_velocity_at_start(&scene);
     for output in &scene.columns {
         scene.has_what_is_needed_for(*output).map_err(refused)?;
     }
@@ -111,14 +115,22 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     note_poles(&scene, &summary);
     if let Some(error) = summary.error {
         note(&format!("estimated error of {} at the end of the span: {error:.1e}", components(&scene)));
-        let turned = f64::EPSILON * scene.rotation();
-        if turned > error {
+        if turned > error.max(LEAST_TURNED) {
             note(&format!(
                 "that is for the initial state in doubles, whose last digit turns the star by {turned:.1e} rad by then"
             ));
         }
     }
     Ok(())
+}
+
+/// A rotation by a last digit of the initial state that is told, in rad.
+const LEAST_TURNED: f64 = 1e-10;
+
+/// Of the state at the start, per `t_c`.
+fn angular_velocity_at_start(scene: &Scene) -> f64 {
+    let (body, state) = (scene.problem.spheroid(), scene.problem.initial());
+    angular_velocity(body, &state.axis, &state.momentum).norm()
 }
 
 /// The quantities that an estimated error refers to. `L` is divided by its size, or by the one that the torque can give it, if that is larger.

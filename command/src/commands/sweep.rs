@@ -13,7 +13,7 @@ use super::run::note_size;
 use super::{Failure, note};
 use twofold_scene::sweep::{
     Done, Identity, Shard, Spool, SpoolError, SpoolFiles, Sweep, SweepText, compute, csv_line, errors_beside,
-    is_beginning_of, merge,
+    is_beginning_of, merge, merge_errors,
 };
 
 #[derive(Args)]
@@ -57,11 +57,12 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     if args.restart {
         files.discard().map_err(|error| Failure::BadInput(format!("{}: {error}", files.rows.display())))?;
     }
-    let named_before = files.are_complete(&identity);
+    let complete = files.complete(&identity);
+    let named_before = complete.is_some();
     if named_before && !files.rows.exists() && target.exists() {
         // Only the tidying was interrupted.
         files.remove().map_err(failed)?;
-        return if errors_beside(&target).exists() { Err(some_failed(&args.out)) } else { Ok(()) };
+        return if complete == Some(0) { Ok(()) } else { Err(some_failed(&args.out)) };
     }
     // What an earlier attempt at naming has written may be replaced; whether a file is that is seen when the table is named.
     let out = free_name(&args.out, args.force || (named_before && format == Format::Parquet))?;
@@ -183,8 +184,7 @@ fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<()
     let errors_output = OutputFile::beside(&errors_beside(&args.out), args.force)?;
     let mut errors = BufWriter::new(errors_output.file());
     let cannot = |error: io::Error| Failure::Failed(format!("the table of errors cannot be written: {error}"));
-    let header = csv_line(&sweep.errors_header());
-    errors.write_all(&header).map_err(cannot)?;
+    errors.write_all(&csv_line(&sweep.errors_header())).map_err(cannot)?;
     let mut any_failed = false;
     for path in &args.merge {
         let file = File::open(path).map_err(|error| bad(path, error))?;
@@ -193,13 +193,8 @@ fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<()
             Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
             part => part.map_err(|error| bad(&errors_beside(path), error))?,
         };
-        let (mut part, mut first) = (BufReader::new(part), Vec::new());
-        part.read_until(b'\n', &mut first).map_err(|error| bad(&errors_beside(path), error))?;
-        if first != header {
-            let why = "does not begin with the header of this sweep's errors";
-            return Err(Failure::BadInput(format!("--merge {}: {why}", errors_beside(path).display())));
-        }
-        io::copy(&mut part, &mut errors).map_err(cannot)?;
+        let name = format!("--merge {}", errors_beside(path).display());
+        merge_errors(sweep, &name, BufReader::new(part), &mut errors).map_err(Failure::BadInput)?;
         any_failed = true;
     }
     errors.flush().map_err(cannot)?;

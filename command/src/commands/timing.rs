@@ -193,8 +193,9 @@ fn epochs(args: &TimingArgs, scene: &Scene, epoch: &Epoch) -> Result<Vec<Epoch>,
     let (count, step) = match args.every {
         Some(every) => {
             positive("--every", every)?;
-            // The quotient of decimal numbers may be below a whole number by their rounding.
-            ((days / every * (1.0 + 4.0 * f64::EPSILON)).floor() + 1.0, every)
+            // The quotient of decimal numbers may be below a whole number by the rounding of both fractions of a day, and by its own.
+            let rounding = 2.0 * f64::EPSILON / every + 4.0 * f64::EPSILON * days / every;
+            ((days / every + rounding).floor() + 1.0, every)
         }
         None => {
             let count = args.epochs.unwrap_or(scene.times.count());

@@ -143,7 +143,7 @@ fn what_the_data_do_not_determine_is_refused_with_the_reason() {
         (&[STrace, Spin], &TIMES_AND_WIDTHS, &["a multiple of the unit tensor exerts no torque", "d(tr s) alone"]),
         (&[Alpha, PhiO, S(0, 1), Spin], &TIMES_AND_WIDTHS, &["rotation of all (star, s^IJ and observer) about Z"]),
         (&[Oblateness, Spin, Strain], &strain, &["h is in proportion to eps"]),
-        (&[Spin, Chi], &strain, &["no pulses are among the data"]),
+        (&[Spin, Chi], &strain, &["chi: pulses and their widths show it, and these data do not"]),
         // Determined in principle, but not by data as bad as these.
         (&Parameter::OF_PULSES, &[(Observable::Arrivals, 1e3), (Observable::Widths, 1e3)], &["d("]),
     ] {
@@ -169,9 +169,21 @@ fn an_unknown_without_effect_is_named_and_leaves_the_others_alone() {
         [("beta = 0.7", "beta = 1.5707963267948966"), ("_rate = 1.51", "_rate = 0.0"), ("_rate = 0.1", "_rate = 0.0")];
     let [no_spin, isotropic] = [("spin = 1.0", "spin = 0.0"), ("[0.02, 0.01, -0.04]", "[0.01, 0.01, 0.01]")];
     let cases: [(&[(&str, &str)], &str, &str, &str, &str); 4] = [
-        (&[no_spin], pulses, "eps", "spin,beta,gamma,rho", "d(eps) alone (no datum depends on it)"),
-        (&[isotropic], pulses, "c", "spin,eps,rho", "C: there is no torque; d(C) alone"),
-        (&rest, pulses, "eps", "spin,rho", "d(eps) alone (no datum depends on it)"),
+        (
+            &[no_spin],
+            pulses,
+            "eps",
+            "spin,beta,gamma,rho",
+            "d(eps) alone (over its whole range no datum changes by more than rounding)",
+        ),
+        (&[isotropic], pulses, "c", "spin,eps,rho", "C: the torque changes none of these data; d(C) alone"),
+        (
+            &rest,
+            pulses,
+            "eps",
+            "spin,rho",
+            "d(eps) alone (over its whole range no datum changes by more than rounding)",
+        ),
         (&rest, "strain:1e-3", "s_axial", "", "d(s_axial) alone"),
     ];
     for (changes, observe, idle, others, named) in cases {
@@ -200,7 +212,7 @@ fn an_unknown_without_effect_is_named_and_leaves_the_others_alone() {
         };
         if others.is_empty() {
             let (_, told) = sigmas(&format!("{idle},spin"));
-            assert!(told.contains("no datum depends on it"), "{told}");
+            assert!(told.contains("no datum changes by more than rounding"), "{told}");
             continue;
         }
         let ((with, told), (without, _)) = (sigmas(&format!("{idle},{others}")), sigmas(others));

@@ -180,9 +180,14 @@ fn threads_and_shards_do_not_change_a_byte() {
     // Errors under the header of another sweep are not taken for this one's.
     let errors = names.iter().map(|name| format!("{name}.errors.csv")).find(|name| folder.at(name).exists());
     let errors = errors.expect("a part in which a scene fails");
-    let of_another = folder.read(&errors).replacen("initial.phase", "initial.beta", 1);
-    folder.write(&errors, of_another);
+    let ours = folder.read(&errors);
+    folder.write(&errors, ours.replacen("initial.phase", "initial.beta", 1));
     is_refused(&merge(&names, "refused.csv"), &[&errors, "does not begin with the header of this sweep's errors"]);
+    let (head, row) = ours.split_once('\n').expect("an error");
+    let (number, row) = row.split_once(',').expect("a parameter");
+    folder.write(&errors, format!("{head}\n{number},0.125,{}", row.split_once(',').expect("fields").1));
+    is_refused(&merge(&names, "refused.csv"), &[&errors, "is of another sweep: its scene", "has other parameters"]);
+    folder.write(&errors, ours);
     // Errors that cannot be read, here a folder, are not taken for none.
     fs::create_dir(folder.at("part-1.csv.errors.csv")).expect("a folder");
     is_refused(&merge(&names, "refused.csv"), &["part-1.csv.errors.csv"]);
@@ -304,10 +309,12 @@ fn a_sweep_killed_while_it_tidied_tells_again_that_scenes_failed() {
     let run = || stderr(&ends(folder.run(&["sweep", "sweep.toml", "--out", "table.csv"]), 3));
     let why = "error: some scenes failed: table.csv.errors.csv says which and why\n";
     assert!(run().ends_with(why));
-    let table = folder.bytes("table.csv");
+    let [table, errors] = ["table.csv", "table.csv.errors.csv"].map(|name| folder.bytes(name));
     let text = SweepText::read(&folder.at("sweep.toml").to_string_lossy()).expect("a sweep");
     let files = SpoolFiles::of(&folder.at("table.csv"));
     let mut spool = Spool::open(files, &Identity::new(&text, &(0..800)), [b"", b""], 0..800).expect("a table");
+    spool.append(800, [&table, &errors], 80).expect("rows");
+    spool.commit().expect("a mark");
     spool.completed().expect("a mark");
     drop(spool);
     fs::remove_file(folder.at("table.csv.partial")).expect("rows");

@@ -48,6 +48,30 @@ pub fn merge(
     Ok(())
 }
 
+/// Writes the errors in the table `part`, whose scenes must be those of the sweep.
+pub fn merge_errors(sweep: &Sweep<'_>, part: &str, table: impl BufRead, writer: impl Write) -> Result<(), String> {
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(table);
+    let mut writer = csv::Writer::from_writer(writer);
+    let read = |error: csv::Error| format!("{part}: {error}");
+    let mut records = reader.records();
+    if !records.next().transpose().map_err(read)?.is_some_and(|header| header.iter().eq(sweep.errors_header())) {
+        return Err(format!("{part} does not begin with the header of this sweep's errors"));
+    }
+    for record in records {
+        let record = record.map_err(read)?;
+        let number =
+            record.get(0).and_then(|number| number.parse::<u64>().ok()).filter(|number| *number < sweep.scenes);
+        let number =
+            number.ok_or_else(|| format!("{part} has a line that is not an error of a scene of this sweep"))?;
+        let parameters = sweep.parameters.of_scene(number);
+        if !start_of_row(number, &parameters).zip(&record).all(|(ours, theirs)| ours == theirs) {
+            return Err(format!("{part} is of another sweep: its scene {number} has other parameters"));
+        }
+        writer.write_record(&record).map_err(|error| format!("the table of errors: {error}"))?;
+    }
+    writer.flush().map_err(|error| format!("the table of errors: {error}"))
+}
+
 /// A line of a table.
 pub fn csv_line(fields: &[String]) -> Vec<u8> {
     let mut writer = csv::Writer::from_writer(Vec::new());

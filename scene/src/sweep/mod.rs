@@ -24,7 +24,7 @@ pub use engine::{Done, compute};
 pub use file::SweepText;
 pub use identity::Identity;
 pub use journal::signed_again;
-pub use merge::{csv_line, merge};
+pub use merge::{csv_line, merge, merge_errors};
 pub use shard::Shard;
 pub use spool::{Spool, SpoolError, SpoolFiles, errors_beside, is_beginning_of};
 

@@ -63,10 +63,11 @@ impl SpoolFiles {
         Self { rows: with(".partial"), errors: with(".partial.errors"), journal: with(".partial.journal") }
     }
 
-    /// Whether there is a table, with the given identity, that was complete and about to be renamed.
-    pub fn are_complete(&self, identity: &Identity) -> bool {
-        let Ok(Ok(journal)) = File::open(&self.journal).map(Journal::read) else { return false };
-        journal.complete && journal.identity.as_ref() == Some(identity.facts())
+    /// How many scenes failed of a table with the given identity that was complete and about to be renamed, if there is one.
+    pub fn complete(&self, identity: &Identity) -> Option<u64> {
+        let journal = Journal::read(File::open(&self.journal).ok()?).ok()?;
+        let is_ours = journal.complete && journal.identity.as_ref() == Some(identity.facts());
+        is_ours.then(|| journal.marks.last().map_or(0, |(mark, _)| mark.failed))
     }
 
     /// Removes the files left by an interrupted process.
@@ -199,7 +200,8 @@ impl Spool {
             free(&errors, replaced || is_beginning_of(&errors, &self.files.errors))?;
             let copied = fs::copy(&self.files.errors, &errors).and_then(|_| File::open(&errors)?.sync_all());
             copied.map_err(refused(&errors))?;
-        } else if errors.is_file() && replaced {
+        } else if errors.exists() {
+            free(&errors, replaced)?;
             fs::remove_file(&errors).map_err(refused(&errors))?;
         }
         Ok(())
@@ -211,6 +213,8 @@ impl Spool {
     /// # Errors
     /// A file that cannot be written, or exists and may not be `replaced`.
     pub fn give_names(&mut self, out: &Path, replaced: bool) -> Result<(), SpoolError> {
+        // Before the errors have their name: a table that cannot have its own leaves none beside a foreign one.
+        free(out, replaced)?;
         self.name_errors(out, replaced)?;
         free(out, replaced)?;
         fs::rename(&self.files.rows, out).map_err(refused(out))?;
@@ -454,9 +458,9 @@ mod tests {
             if replaced {
                 fs::write(&errors, "of another sweep").expect("a file");
             }
-            assert!(!files.are_complete(&identity("text")));
+            assert_eq!(files.complete(&identity("text")), None);
             spool.completed().expect("a mark");
-            assert!(files.are_complete(&identity("text")) && !files.are_complete(&identity("other")));
+            assert_eq!([files.complete(&identity("text")), files.complete(&identity("other"))], [Some(failed), None]);
             spool.give_names(&out, replaced).expect("a table");
             assert_eq!(fs::read(&out).expect("a table"), b"head\n0,1\n");
             let expected = (failed == 1).then(|| b"errors\n0,why\n".to_vec());

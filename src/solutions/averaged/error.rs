@@ -14,7 +14,7 @@
 //! The effect on `l` after a time is the smallest of three estimates. Neighbouring solutions separate at most at the rate `kappa = (k_1 - k_3) / 2`
 //! (half the largest `l.(d x k d)`, for unit `d`). With two nearly equal values, of difference `g`, they separate about the third axis in proportion
 //! to time, at `K = k_1 - k_3` times their difference along it, and this changes at most at `g` times their distance: to
-//! `(1 + K t) exp(t (sqrt(K g) + g))` times themselves. Because they stay near their own closed curves, they separate by the difference of their
+//! `(1 + K t) exp(t (sqrt(K g) + g))` times themselves, where `g` contains the error of the tensor. Because they stay near their own closed curves, they separate by the difference of their
 //! periods. This is computed from two neighbouring tops, shifted towards either axis, and is valid only if they are on the same side of the
 //! separatrix.
 
