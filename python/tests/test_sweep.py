@@ -299,15 +299,16 @@ def killed_while_named(sweep, path, one_core):
     file = SweepFile(sweep, path)
     rows, errors, failed = sweep.rows(0, 100)
     file.append(100, rows, errors, failed)
-    path.mkdir()
+    in_the_way = path.parent / "table.csv.errors.csv"
+    in_the_way.mkdir()
     with pytest.raises(twofold.Error, match="exists"):
         file.complete()
-    path.rmdir()
+    in_the_way.rmdir()
     assert (path.parent / "table.csv.partial").read_bytes() == one_core
 
 
 def test_a_table_whose_naming_was_cut_off_is_finished(sweep, one_core, tmp_path):
-    path, partial = tmp_path / "table.csv", tmp_path / "table.csv.partial"
+    path, partial, errors = (tmp_path / name for name in ("table.csv", "table.csv.partial", "table.csv.errors.csv"))
     with ThreadPoolExecutor(1) as executor:
         killed_while_named(sweep, path, one_core)
         path.write_text("of another")
@@ -316,8 +317,9 @@ def test_a_table_whose_naming_was_cut_off_is_finished(sweep, one_core, tmp_path)
         assert path.read_text() == "of another"
         path.unlink()
         sweep.write(path, executor)
-        assert path.read_bytes() == one_core and os.listdir(tmp_path) == ["table.csv"]
+        assert path.read_bytes() == one_core and sorted(os.listdir(tmp_path)) == ["table.csv", "table.csv.errors.csv"]
         path.unlink()
+        errors.unlink()
         killed_while_named(sweep, path, one_core)
         # Named, and killed before the journal was removed: nothing is computed again.
         partial.rename(path)

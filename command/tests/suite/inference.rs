@@ -168,23 +168,23 @@ fn an_unknown_without_effect_is_named_and_leaves_the_others_alone() {
     let rest =
         [("beta = 0.7", "beta = 1.5707963267948966"), ("_rate = 1.51", "_rate = 0.0"), ("_rate = 0.1", "_rate = 0.0")];
     let [no_spin, isotropic] = [("spin = 1.0", "spin = 0.0"), ("[0.02, 0.01, -0.04]", "[0.01, 0.01, 0.01]")];
-    let cases: [(&[(&str, &str)], &str, &str, &str, &str); 4] = [
+    let cases = [
         (
-            &[no_spin],
+            &[no_spin][..],
             pulses,
             "eps",
             "spin,beta,gamma,rho",
             "d(eps) alone (over its whole range no datum changes by more than rounding)",
         ),
-        (&[isotropic], pulses, "c", "spin,eps,rho", "C: the torque changes none of these data; d(C) alone"),
+        (&[isotropic][..], pulses, "c", "spin,eps,rho", "C: the torque changes none of these data; d(C) alone"),
         (
-            &rest,
+            &rest[..],
             pulses,
             "eps",
             "spin,rho",
             "d(eps) alone (over its whole range no datum changes by more than rounding)",
         ),
-        (&rest, "strain:1e-3", "s_axial", "", "d(s_axial) alone"),
+        (&rest[..], "strain:1e-3", "s_axial", "", "d(s_axial) alone"),
     ];
     for (changes, observe, idle, others, named) in cases {
         let text = changes.iter().fold(STAR.to_owned(), |text, (from, to)| {
