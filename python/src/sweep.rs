@@ -90,7 +90,7 @@ impl Sweep {
         while next < stop {
             py.check_signals()?;
             let end = stop.min(next + AT_ONCE);
-            let ([more, more_errors], more_failed) = py.detach(|| sweep.rows(next..end)).map_err(raised)?;
+            let ([more, more_errors], more_failed) = py.detach(|| sweep.rows(next..end));
             rows.extend(more);
             errors.extend(more_errors);
             failed += more_failed;

@@ -14,6 +14,7 @@ mod samples;
 pub mod scene_file;
 pub mod significant;
 pub mod sweep;
+pub mod text_file;
 pub mod trajectory;
 pub mod wave;
 mod window;

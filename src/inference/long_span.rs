@@ -7,7 +7,6 @@ use crate::observables::pulsar::{ClockPulse, PulsarClock};
 use crate::parameters::Parameters;
 use crate::plan::{Method, Plan, Request};
 use crate::propagation::PhasedMotion;
-use crate::solutions::averaged::AveragingOrder;
 
 /// Rotation (rad) up to which every turn is followed.
 const LARGEST_FOLLOWED: f64 = 1e5;
@@ -35,7 +34,7 @@ pub(super) fn plan(parameters: &Parameters<f64>, request: Request) -> Result<Pla
     if !is_long(parameters, end) || plan.as_ref().is_ok_and(meets) {
         return plan;
     }
-    ensure_exact(&PhasedMotion::averaged(&problem, AveragingOrder::Second)?, end)?;
+    ensure_exact(&PhasedMotion::averaged(&problem)?, end)?;
     problem.plan(&Request { method: Some(Method::Averaged), ..request })
 }
 
@@ -64,7 +63,7 @@ fn ensure_exact(motion: &PhasedMotion, end: f64) -> Result<(), Error> {
 }
 
 fn clock(parameters: &Parameters<f64>, end: f64) -> Result<PulsarClock, Error> {
-    PulsarClock::on(motion(parameters, end)?, &parameters.beam(), &parameters.observer())
+    PulsarClock::new(motion(parameters, end)?, &parameters.beam(), &parameters.observer())
 }
 
 /// A pulse with its times counted from the double nearest to its midpoint. The closest approach is not computed.

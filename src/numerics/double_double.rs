@@ -1,7 +1,6 @@
 //! Sums of two doubles with some 32 digits, for phases over many turns; only the operations that these require are here.
 
 use core::f64::consts::TAU;
-use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use num_traits::{One, Zero};
 
@@ -20,6 +19,10 @@ pub(crate) struct DoubleDouble {
 
 impl DoubleDouble {
     pub(crate) const TAU: Self = Self { high: TAU, low: TAU_LOW };
+
+    fn of_pair([high, low]: [f64; 2]) -> Self {
+        Self { high, low }
+    }
 
     /// The sum of two doubles in any order.
     pub(crate) fn sum(a: f64, b: f64) -> Self {
@@ -56,23 +59,6 @@ impl From<f64> for DoubleDouble {
     }
 }
 
-impl Add for DoubleDouble {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        let [high, low] = add_pairs(self.into(), other.into());
-        Self { high, low }
-    }
-}
-
-impl Sub for DoubleDouble {
-    type Output = Self;
-
-    fn sub(self, other: Self) -> Self {
-        self + Self { high: -other.high, low: -other.low }
-    }
-}
-
 impl From<[f64; 2]> for DoubleDouble {
     /// From an unevaluated sum in any order.
     fn from([a, b]: [f64; 2]) -> Self {
@@ -86,84 +72,19 @@ impl From<DoubleDouble> for [f64; 2] {
     }
 }
 
-impl Mul for DoubleDouble {
-    type Output = Self;
-
-    fn mul(self, other: Self) -> Self {
-        let [high, low] = multiply_pairs(self.into(), other.into(), two_product(self.high, other.high));
-        Self { high, low }
-    }
-}
-
-impl Neg for DoubleDouble {
-    type Output = Self;
-
-    fn neg(self) -> Self {
-        Self { high: -self.high, low: -self.low }
-    }
-}
-
-impl Div for DoubleDouble {
-    type Output = Self;
-
-    /// By long division: two digits and a correction.
-    fn div(self, divisor: Self) -> Self {
-        let first = self.high / divisor.high;
-        let rest = self + divisor * Self::from(-first);
-        let second = rest.high / divisor.high;
-        let rest = rest + divisor * Self::from(-second);
-        Self::sum(first, second) + Self::from(rest.high / divisor.high)
-    }
-}
-
-impl Mul<f64> for DoubleDouble {
-    type Output = Self;
-
-    fn mul(self, other: f64) -> Self {
-        self * Self::from(other)
-    }
-}
-
-impl Div<f64> for DoubleDouble {
-    type Output = Self;
-
-    fn div(self, divisor: f64) -> Self {
-        self / Self::from(divisor)
-    }
-}
-
-/// The assigning form of an operation.
-macro_rules! assigning {
-    ($($name:ident, $function:ident, $operator:tt;)*) => {
-        $(impl $name for DoubleDouble {
-            fn $function(&mut self, other: Self) {
-                *self = *self $operator other;
-            }
-        })*
+crate::field_operators! {
+    DoubleDouble;
+    a + b = Self::of_pair(add_pairs(a.into(), b.into()));
+    -a = Self { high: -a.high, low: -a.low };
+    a * b = Self::of_pair(multiply_pairs(a.into(), b.into(), two_product(a.high, b.high)));
+    a / b = {
+        // By long division: two digits and a correction.
+        let first = a.high / b.high;
+        let rest = a + b * Self::from(-first);
+        let second = rest.high / b.high;
+        let rest = rest + b * Self::from(-second);
+        Self::sum(first, second) + Self::from(rest.high / b.high)
     };
-}
-
-assigning! {
-    AddAssign, add_assign, +;
-    SubAssign, sub_assign, -;
-    MulAssign, mul_assign, *;
-    DivAssign, div_assign, /;
-}
-
-impl Zero for DoubleDouble {
-    fn zero() -> Self {
-        Self::default()
-    }
-
-    fn is_zero(&self) -> bool {
-        self.high == 0.0
-    }
-}
-
-impl One for DoubleDouble {
-    fn one() -> Self {
-        Self::from(1.0)
-    }
 }
 
 /// Halvings of an argument before its series, and terms of the series: `(2 pi / 2^8)^20 / 20! = 1e-50`.

@@ -5,6 +5,7 @@ pub(crate) mod arithmetic;
 pub(crate) mod compensated;
 pub(crate) mod double_double;
 pub mod elliptic;
+mod field_operators;
 pub(crate) mod four_lanes;
 #[cfg_attr(not(target_arch = "x86_64"), path = "unfused.rs")]
 pub(crate) mod fused;

@@ -9,7 +9,6 @@ use crate::propagation::splitting::{Goal, MOST_STATES, SplittingForecast};
 use crate::propagation::{
     AveragedMotion, ROOM_FOR_STEPS, SymmetricMotion, TaylorForecast, TorusMotion, UniformMotion, largest_torque,
 };
-use crate::solutions::averaged::AveragingOrder;
 use crate::solutions::torus::error_of_derivatives;
 
 /// How the predicted error of a method relates to the true error, excluding rounding.
@@ -197,7 +196,7 @@ fn symmetric(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Res
 }
 
 fn averaged(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Result<Forecast, Error> {
-    let motion = AveragedMotion::new(problem, span, AveragingOrder::Second)?;
+    let motion = AveragedMotion::new(problem, span)?;
     let elapsed = span.1 - span.0;
     let (mut truncation, rounding) = (motion.mean.truncation(elapsed), motion.mean.rounding(elapsed));
     if !request.derivatives.is_empty() {
@@ -349,7 +348,7 @@ mod tests {
         for s in [[2e-7, 1e-7, -3e-7], [2e-7, 2e-7 - 1e-17, -4e-7]] {
             let [values, derivatives] = [vec![], vec![Parameter::SAxial]]
                 .map(|by| forecast(Method::Averaged, s, (0.0, 7.0), by).prediction.unwrap().truncation);
-            let motion = AveragedMotion::new(&problem(s), (0.0, 7.0), AveragingOrder::Second).unwrap();
+            let motion = AveragedMotion::new(&problem(s), (0.0, 7.0)).unwrap();
             let frame =
                 error_of_principal_frame_along(principal_frame(problem(s).coefficients()).unwrap().coefficients);
             assert_relative_eq!(derivatives, values / motion.mean.relative_strength + frame, max_relative = 1e-12);
@@ -358,7 +357,7 @@ mod tests {
         let request =
             |derivatives| Request { derivatives, ..Request::new(&[Output::SymmetryAxis], (0.0, 7.0), 5, 1e-9) };
         let truncation = |by| averaged(&stiff, &request(by), (0.0, 7.0)).unwrap().truncation;
-        let mean = AveragedMotion::new(&stiff, (0.0, 7.0), AveragingOrder::Second).unwrap().mean;
+        let mean = AveragedMotion::new(&stiff, (0.0, 7.0)).unwrap().mean;
         assert!(mean.bulge_strength() > 0.1 * mean.relative_strength, "{:e}", mean.bulge_strength());
         let expected = truncation(vec![]) / (mean.relative_strength + mean.bulge_strength());
         assert_relative_eq!(truncation(vec![Parameter::Spin]), expected, max_relative = 1e-6);

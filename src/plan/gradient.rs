@@ -14,7 +14,6 @@ use crate::propagation::check_time;
 use crate::propagation::splitting::derivatives::states_with_derivatives;
 use crate::propagation::splitting::require_tangent_maps;
 use crate::propagation::{AveragedMotion, Motion, SymmetricMotion, TorusMotion, UniformMotion};
-use crate::solutions::averaged::AveragingOrder;
 
 /// States at samples, and their derivatives. A state has nine components, those of `n`, `L` and `e_x`. Those of `e_x` mean something only if the plan
 /// carries it.
@@ -167,7 +166,7 @@ fn seeded_motion(plan: &Plan, problem: &Problem<Dual64>) -> Result<StateAt<'stat
         Some(Method::Symmetric) => states(SymmetricMotion::new(problem, span)?),
         Some(Method::Averaged) => {
             let frame = principal_frame_along(problem.coefficients())?;
-            states(AveragedMotion::in_frame(problem, span, AveragingOrder::Second, frame)?)
+            states(AveragedMotion::in_frame(problem, span, frame)?)
         }
         _ if plan.state == State::Orientation => states(problem.taylor(span, plan.tolerance)?),
         _ => states(problem.reduced().taylor(span, plan.tolerance)?),

@@ -10,7 +10,6 @@ use crate::propagation::taylor::TaylorErrorAtEnd;
 use crate::propagation::{
     AveragedMotion, Motion, SeriesProjection, SymmetricMotion, TaylorMotion, TorusMotion, Turning, UniformMotion,
 };
-use crate::solutions::averaged::AveragingOrder;
 
 /// A motion by any method, with the states of its problem.
 #[derive(Debug, Clone)]
@@ -72,7 +71,7 @@ impl<X: RotationState<f64>> Problem<f64, X> {
             Method::Free => PlannedMotion::Uniform(UniformMotion::free(&problem, span)),
             Method::Steady => PlannedMotion::Uniform(UniformMotion::steady(&problem, span)?),
             Method::Symmetric => PlannedMotion::Symmetric(SymmetricMotion::new(&problem, span)?),
-            Method::Averaged => PlannedMotion::Averaged(AveragedMotion::new(&problem, span, AveragingOrder::Second)?),
+            Method::Averaged => PlannedMotion::Averaged(AveragedMotion::new(&problem, span)?),
             Method::Torus => PlannedMotion::Torus(TorusMotion::new(&problem, span, tolerance)?),
             Method::Splitting => PlannedMotion::Splitting(self.splitting(span, tolerance)?),
             Method::Taylor => PlannedMotion::Taylor(self.taylor(span, tolerance)?),

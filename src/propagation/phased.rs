@@ -14,7 +14,7 @@
 //! // So strong a torque needs the torus. After 1e12 t_c:
 //! let motion = PhasedMotion::new(&problem, 1e12)?;
 //! assert!(motion.error_estimate(1e12) < 1e-13);
-//! let clock = PulsarClock::on(motion, &Beam::new(1.3, 0.0, 0.6), &Observer::at(1.4, 0.0))?;
+//! let clock = PulsarClock::new(motion, &Beam::new(1.3, 0.0, 0.6), &Observer::at(1.4, 0.0))?;
 //! let turns = 1e12 / clock.period();
 //! let pulse = (0..9).find_map(|k| clock.pulse_near([1e12, f64::from(k) * clock.period()]).transpose()).expect("a pulse")?;
 //! assert!((pulse.number as f64 - turns).abs() < 10.0);
@@ -29,7 +29,7 @@ use crate::dynamics::{BodyState, Problem};
 use crate::error::Error;
 use crate::numerics::double_double::DoubleDouble;
 use crate::propagation::{AveragedMotion, UniformMotion};
-use crate::solutions::averaged::{AveragingOrder, OfRotations, Turns};
+use crate::solutions::averaged::{OfRotations, Turns};
 use crate::solutions::torus::TorusSolution;
 
 /// A motion whose state is a periodic function of three phases that grow linearly in time: any time has the same cost. Two of the phases move `n` and
@@ -57,7 +57,7 @@ impl PhasedMotion {
     /// # Errors
     /// The errors of the torus, if the averaged motion is not possible either.
     pub fn new(problem: &Problem<f64>, longest: f64) -> Result<Self, Error> {
-        let averaged = Self::averaged(problem, AveragingOrder::Second);
+        let averaged = Self::averaged(problem);
         match averaged {
             averaged if problem.require_rigid().is_err() => averaged,
             Ok(motion) if motion.truncation(longest) <= motion.rounding(longest) => Ok(motion),
@@ -79,7 +79,7 @@ impl PhasedMotion {
         }
         let is_exact = |motion: &Self| motion.truncation(0.0) <= motion.rounding(0.0);
         Self::torus(problem, longest).or_else(|refused| {
-            let averaged = Self::averaged(problem, AveragingOrder::Second).ok().filter(is_exact);
+            let averaged = Self::averaged(problem).ok().filter(is_exact);
             let steady = || UniformMotion::steady(problem, everywhere).ok().map(uniform);
             averaged.or_else(steady).ok_or(refused)
         })
@@ -89,8 +89,8 @@ impl PhasedMotion {
     ///
     /// # Errors
     /// As for [`AveragedMotion::new`]; [`Error::Domain`] on the separatrix, where the slow precession has no period.
-    pub fn averaged(problem: &Problem<f64>, order: AveragingOrder) -> Result<Self, Error> {
-        let motion = AveragedMotion::new(problem, (0.0, f64::INFINITY), order)?;
+    pub fn averaged(problem: &Problem<f64>) -> Result<Self, Error> {
+        let motion = AveragedMotion::new(problem, (0.0, f64::INFINITY))?;
         let complement = motion.mean.top().complement();
         Error::ensure(
             complement > 0.0,

@@ -9,7 +9,7 @@ use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::Observer;
 use twofold::observables::pulsar::{Beam, PulsarClock, SpinFit, pulse_train};
-use twofold::solutions::averaged::AveragingOrder;
+use twofold::propagation::PhasedMotion;
 
 /// The phase `3.25 + 2 t + 0.05 t^2` at whole numbers from 30 on: far from the time zero, and far from a straight line.
 fn of_a_parabola() -> Vec<(i64, [f64; 2])> {
@@ -106,7 +106,7 @@ fn star() -> Result<Problem<f64>, Error> {
 #[test]
 fn the_error_of_a_clock_is_that_of_its_motion_over_the_rate_of_turns() -> Result<(), Error> {
     let (beam, observer) = (Beam::new(1.2, 0.0, 0.6), Observer::at(0.8, 0.0));
-    let clock = PulsarClock::new(&star()?, &beam, &observer, AveragingOrder::Second)?;
+    let clock = PulsarClock::new(PhasedMotion::averaged(&star()?)?, &beam, &observer)?;
     let truncation = clock.truncation(40.0);
     assert!(truncation > 0.0);
     assert_relative_eq!(truncation, clock.motion().truncation(40.0) * clock.period() / TAU, max_relative = 1e-14);

@@ -16,8 +16,7 @@ use twofold::observables::bound::{
 };
 use twofold::observables::pulsar::timing_model::{TimingModel, TimingParameter};
 use twofold::observables::pulsar::{Beam, PulsarClock, arrivals, pulse_train};
-use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion, UniformMotion};
-use twofold::solutions::averaged::AveragingOrder;
+use twofold::propagation::{ContinuousAngles, Motion, PhasedMotion, TaylorMotion, UniformMotion};
 use twofold::solutions::free::{free_precession_rates, free_rotation};
 use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession, shifted_rates};
 use twofold::solutions::steady::steady_precession_rate;
@@ -291,7 +290,8 @@ fn a_clock_takes_finite_times_of_two_parts() {
     let start = BodyState { axis: Vector3::z(), momentum: Vector3::z() * 2.2, equatorial_axis: Vector3::x() };
     let (beam, observer) = (Beam::new(0.5, 0.0, 0.3), Observer::at(0.6, 0.0));
     let problem = Problem::new(star(), Matrix3::zeros(), start).expect("a problem");
-    let clock = PulsarClock::new(&problem, &beam, &observer, AveragingOrder::Second).expect("a clock");
+    let motion = PhasedMotion::averaged(&problem).expect("a motion");
+    let clock = PulsarClock::new(motion, &beam, &observer).expect("a clock");
     let (endless, huge) = (f64::INFINITY, f64::MAX);
     for t in [[endless, 0.0], [0.0, endless], [huge, huge], [-huge, -huge], [1.0, f64::NAN], [endless, -endless]] {
         judged(clock.pulse_near(t), "time t");
@@ -442,7 +442,7 @@ fn a_clock_turns_about_its_momentum() {
         let axis = Vector3::new(0.6, 0.0, 0.8);
         let start = BodyState { axis, momentum: Vector3::z(), equatorial_axis: Vector3::y() };
         let problem = Problem::new(needle, Matrix3::zeros(), start).expect("a problem");
-        PulsarClock::new(&problem, &beam, &observer, AveragingOrder::Second)
+        PhasedMotion::averaged(&problem).and_then(|motion| PulsarClock::new(motion, &beam, &observer))
     };
     judged(clock(1e-4), "");
     judged(clock(1e-5), "rotation (rad) of the body");

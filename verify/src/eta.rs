@@ -20,16 +20,14 @@ pub struct EtaStatistics {
 
 impl EtaStatistics {
     /// The statistics of a distribution.
-    ///
-    /// # Errors
-    /// None.
-    pub fn of(distribution: &EtaDistribution) -> Result<Self, Error> {
-        Ok(Self {
+    pub fn of(distribution: &EtaDistribution) -> Self {
+        let quantile = |probability| distribution.quantile(probability).expect("a probability");
+        Self {
             root_mean_square: distribution.root_mean_square(),
-            median: distribution.quantile(0.5)?,
-            quantile_84: distribution.quantile(0.84)?,
-            quantile_975: distribution.quantile(0.975)?,
-        })
+            median: quantile(0.5),
+            quantile_84: quantile(0.84),
+            quantile_975: quantile(0.975),
+        }
     }
 }
 
@@ -60,14 +58,10 @@ pub fn eta_curve(asymmetry_ratio: f64, inclinations: &[f64]) -> Result<Vec<EtaPo
             beta_0,
             printed: eta_from_inclination(beta_0)?,
             along_motion: root_mean_square_along_motion(asymmetry_ratio, beta_0),
-            at_inclination: EtaStatistics::of(&EtaDistribution::new(
-                asymmetry_ratio,
-                SpinAxis::AtInclination(beta_0),
-            )?)?,
-            at_constant: match EtaDistribution::new(asymmetry_ratio, SpinAxis::AtConstant(beta_0)) {
-                Ok(distribution) => Some(EtaStatistics::of(&distribution)?),
-                Err(_) => None,
-            },
+            at_inclination: EtaStatistics::of(&EtaDistribution::new(asymmetry_ratio, SpinAxis::AtInclination(beta_0))?),
+            at_constant: EtaDistribution::new(asymmetry_ratio, SpinAxis::AtConstant(beta_0))
+                .ok()
+                .map(|distribution| EtaStatistics::of(&distribution)),
         })
     };
     inclinations.iter().map(point).collect()

@@ -12,7 +12,6 @@ pub mod dual;
 pub mod equation_table;
 pub mod error_scenes;
 pub mod eta;
-mod field_operators;
 pub mod given_states;
 pub mod golden;
 pub mod identity;

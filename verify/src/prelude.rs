@@ -9,7 +9,6 @@ pub(crate) use crate::derivation::spheroid_motion::fixed_spheroid;
 pub(crate) use crate::derivation::{Differentiable, components, moving_angles, moving_rates};
 pub(crate) use crate::double_double::DoubleDouble;
 pub(crate) use crate::error_scenes::ErrorScene;
-pub(crate) use crate::field_operators::field_operators;
 pub(crate) use crate::magnitudes::Conditioned;
 pub(crate) use crate::measured_order::{errors_at, largest_off_order, measured_order, order_of_error};
 pub(crate) use crate::paper_examples::{COEFFICIENTS, SPIN, paper_examples, spheroid};
@@ -48,6 +47,7 @@ pub(crate) use twofold::euler_angles::{
     EulerAngles, EulerRates, body_from_inertial, body_rates, permuted_from_inertial, symmetry_axis,
     tensor_in_body_frame,
 };
+pub(crate) use twofold::field_operators;
 pub(crate) use twofold::inference::{Fisher, InferenceError, Observable, Signal, data_of};
 pub(crate) use twofold::lorentz_violation::{
     PrincipalCoefficients, coefficients_from_preferred_frame, principal_frame,

@@ -12,7 +12,7 @@ use super::{Failure, note, tell};
 use crate::figures::{png, residuals};
 use twofold_scene::Refusal;
 use twofold_scene::pulsar_timing::{PulsarScene, Series, Timing, csv, decimal, par, strain_series, tim};
-use twofold_scene::scene_file::{Columns, Scene, like_julian_date};
+use twofold_scene::scene_file::{Columns, MOST_SAMPLES, Scene, like_julian_date};
 
 #[derive(Args)]
 pub(crate) struct TimingArgs {
@@ -55,9 +55,6 @@ pub(crate) struct TimingArgs {
     #[arg(long)]
     pub(crate) force: bool,
 }
-
-/// Largest number of arrival times, and of samples of strain.
-const MOST: usize = 10_000_000;
 
 pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
     let scene = read_with_spin_down(&args.scene, Columns::Unused)?;
@@ -202,8 +199,8 @@ fn epochs(args: &TimingArgs, scene: &Scene, epoch: &Epoch) -> Result<Vec<Epoch>,
             (count as f64, days / (count.max(2) - 1) as f64)
         }
     };
-    if !(2.0..=MOST as f64).contains(&count) {
-        return Err(Failure::BadInput(format!("{count} epochs are requested: allowed are from 2 to {MOST}")));
+    if !(2.0..=MOST_SAMPLES as f64).contains(&count) {
+        return Err(Failure::BadInput(format!("{count} epochs are requested: allowed are from 2 to {MOST_SAMPLES}")));
     }
     let epochs = (0..count as usize).map(|k| from.after([k as f64 * step * DAY, 0.0]));
     Ok(epochs.collect::<Result<_, _>>()?)
@@ -216,9 +213,9 @@ fn series(args: &TimingArgs, epochs: &[Epoch], period: f64) -> Result<Series, Fa
     positive("--strain-rate", rate)?;
     positive("--strain-span", span)?;
     let samples = (rate * span).ceil();
-    if !(2.0..=MOST as f64).contains(&samples) {
+    if !(2.0..=MOST_SAMPLES as f64).contains(&samples) {
         return Err(Failure::BadInput(format!(
-            "{samples} samples of strain are requested: allowed are from 2 to {MOST}"
+            "{samples} samples of strain are requested: allowed are from 2 to {MOST_SAMPLES}"
         )));
     }
     Ok(Series { start: epochs[0], rate, samples: samples as usize })

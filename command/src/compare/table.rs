@@ -1,14 +1,11 @@
 //! Reading a file of the authors: numbers in columns, separated by tabs or spaces, without a header.
 
 use std::fs::{self, File};
-use std::io::Read;
 use std::path::Path;
 
 use super::known::KnownFile;
 use twofold_scene::scene_file::shortened;
-
-/// Largest file that is read, in bytes; the published ones are below 3 MiB.
-const LARGEST_FILE: u64 = 64 << 20;
+use twofold_scene::text_file::read_text;
 
 /// Latest time in a file, in t_c; the published ones end at 1000.
 const LATEST_TIME: f64 = 1100.0;
@@ -41,19 +38,7 @@ pub(super) fn read(path: &Path, known: &KnownFile) -> Result<Table, String> {
         return Err(refuse("is not a regular file".into()));
     }
     let file = File::open(path).map_err(|error| refuse(format!("cannot be opened: {error}")))?;
-    let mut bytes = Vec::new();
-    file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(|error| refuse(format!("cannot be read: {error}")))?;
-    if bytes.len() as u64 > LARGEST_FILE {
-        return Err(refuse(format!("is longer than {} MiB, the most that is read", LARGEST_FILE >> 20)));
-    }
-    let text = String::from_utf8(bytes).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        let before = &error.as_bytes()[..at];
-        let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
-        let column = before.iter().rev().take_while(|&&byte| byte != b'\n').count() + 1;
-        format!("{name}:{line}:{column}: is not text: a byte that is not UTF-8")
-    })?;
-    parse(&name, &text, known)
+    parse(&name, &read_text(file).map_err(refuse)?, known)
 }
 
 pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, String> {

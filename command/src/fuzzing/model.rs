@@ -20,7 +20,8 @@ use twofold::observables::spectrum::QuasiPeriodicMotion;
 use twofold::plan::{Method, Output, Request};
 use twofold::propagation::splitting::SCHEMES;
 use twofold::propagation::{
-    AveragedMotion, ContinuousAngles, Motion, SampledProblem, SymmetricMotion, UniformMotion, states_of_many,
+    AveragedMotion, ContinuousAngles, Motion, PhasedMotion, SampledProblem, SymmetricMotion, UniformMotion,
+    states_of_many,
 };
 use twofold::solutions::averaged::slow_precession::slow_precession;
 use twofold::solutions::averaged::{AveragingOrder, middle_axis_growth};
@@ -185,10 +186,8 @@ fn closed(case: &Case) {
     if let Ok(motion) = SymmetricMotion::new(&problem, span) {
         look_within(&motion, case);
     }
-    for order in [AveragingOrder::First, AveragingOrder::Second] {
-        if let Ok(motion) = AveragedMotion::new(&problem, span, order) {
-            look_within(&motion, case);
-        }
+    if let Ok(motion) = AveragedMotion::new(&problem, span) {
+        look_within(&motion, case);
     }
 }
 
@@ -229,7 +228,7 @@ fn pulses(case: &Case) {
 
 fn clock(case: &Case, time: f64) {
     let (Some(problem), Case { beam, observer, .. }) = (case.problem(), case) else { return };
-    if let Ok(clock) = PulsarClock::new(&problem, beam, observer, AveragingOrder::Second) {
+    if let Ok(clock) = PhasedMotion::averaged(&problem).and_then(|motion| PulsarClock::new(motion, beam, observer)) {
         let _ = black_box((clock.period(), clock.truncation(time)));
         for time in [[0.0, 0.0], [time, 0.0], [time, time * 1e-17]] {
             let _ = black_box(clock.pulse_near(time));

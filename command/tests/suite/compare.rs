@@ -257,7 +257,11 @@ fn malformed_files_are_named_with_line_and_column() {
         ),
         ("gwtp1.dat", waves[..waves.len() - 30].into(), &["gwtp1.dat:10000:", "a truncated row: 2 of 3 numbers"]),
         ("gwtp1.dat", Vec::new(), &["gwtp1.dat: is empty"]),
-        ("gwtp1.dat", [waves.as_bytes(), b"\n\xff\xfe"].concat(), &["gwtp1.dat:10001:1: is not text"]),
+        (
+            "gwtp1.dat",
+            [waves.as_bytes(), b"\n\xff\xfe"].concat(),
+            &["gwtp1.dat: is not UTF-8 text (byte ", ", line 10001)"],
+        ),
         ("gwtp1.dat", vec![0; 1000], &["gwtp1.dat:1:1: `\u{fffd}"]),
         (
             "mntp1_pset.dat",

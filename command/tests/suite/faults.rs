@@ -237,7 +237,7 @@ fn tables_beyond_the_bounds_are_refused() {
         ("wide.csv", "no column `t [t_c]`: its columns are x, x, "),
         ("wide.csv", "and 199971 more"),
         ("long.csv", "long.csv:100002: one row too many: allowed are 100000 in a file"),
-        ("bytes.csv", "bytes.csv: is not UTF-8 text (byte 34)"),
+        ("bytes.csv", "bytes.csv: is not UTF-8 text (byte 34, line "),
         ("/dev/zero", "/dev/zero: is longer than 64 MiB, the most that is read"),
     ] {
         let fit = ["fit", "s.toml", name, "--observe", "strain:1e-3", "--parameters", "eps"];

@@ -63,7 +63,7 @@ fn a_window_may_be_late() {
     let scene = Scene::named("tp-2").expect("a scene");
     let (beam, observer) = (scene.pulsar.expect("a beam").beam(), scene.observer.expect("an observer").basis());
     let motion = PhasedMotion::torus(&scene.problem, 1e11).expect("a torus");
-    let clock = PulsarClock::on(motion, &beam, &observer).expect("a clock");
+    let clock = PulsarClock::new(motion, &beam, &observer).expect("a clock");
     for (midpoint, duration, _) in &late {
         let pulse = clock.pulse_near([*midpoint, 0.0]).expect("a time").expect("a pulse");
         // Doubles are 1.5e-5 apart there.

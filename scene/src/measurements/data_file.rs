@@ -2,11 +2,11 @@
 
 use std::collections::{HashMap, HashSet};
 use std::fs::File;
-use std::io::Read;
 
 use twofold::inference::{Datum, Noise, Observable, Place};
 
-use crate::scene_file::{LARGEST_FILE, Scene, shortened};
+use crate::scene_file::{Scene, shortened};
+use crate::text_file::{read_text, text_of};
 
 /// Largest number of rows of a file: a fit stores the derivative of each datum with respect to each unknown. A scene may
 /// have as many samples.
@@ -31,22 +31,14 @@ type Rows = Vec<(u64, Vec<String>)>;
 impl DataFile {
     /// Reads the file at `path`, up to 64 MiB.
     pub fn read(path: &str) -> Result<Self, String> {
-        let mut bytes = Vec::new();
         let file = File::open(path).map_err(|error| format!("{path}: {error}"))?;
-        // The size is bounded while reading, so that a device or pipe cannot fill the memory.
-        file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(|error| format!("{path}: {error}"))?;
-        if bytes.len() as u64 > LARGEST_FILE {
-            return Err(format!("{path}: is longer than {} MiB, the most that is read", LARGEST_FILE >> 20));
-        }
-        Self::of_bytes(path, bytes)
+        let text = read_text(file).map_err(|why| format!("{path}: {why}"))?;
+        Ok(Self { name: path.to_owned(), text })
     }
 
     /// A table with given bytes; messages call it `name`.
     pub fn of_bytes(name: &str, bytes: Vec<u8>) -> Result<Self, String> {
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let byte = error.utf8_error().valid_up_to() + 1;
-            format!("{name}: is not UTF-8 text (byte {byte}): a table of comma-separated values is")
-        })?;
+        let text = text_of(bytes).map_err(|why| format!("{name}: {why}"))?;
         Ok(Self { name: name.to_owned(), text })
     }
 

@@ -6,12 +6,10 @@ use twofold::Error;
 use twofold::inference::{Datum, Event, Noise, Place, Signal, Unknown, check_span, data_of};
 use twofold::parameters::{Parameter, Parameters};
 
+use super::data_file::MOST_ROWS;
 use super::{DataFile, missing_section, parameters_of, parse_noise};
 use crate::Refusal;
 use crate::scene_file::{Scene, nearest};
-
-/// Largest number of times of a scene at which data are taken.
-const MOST_SAMPLES: usize = 100_000;
 
 /// A scene, the kinds of data with their errors, and the unknown parameters.
 #[derive(Debug)]
@@ -108,8 +106,8 @@ impl Measurement {
     pub fn check_samples(&self, signal: &Signal) -> Result<(), String> {
         let used = signal.is_long() || self.noise.iter().any(|(observable, _)| !observable.is_of_pulses());
         let count = self.scene.times.count();
-        if used && count > MOST_SAMPLES {
-            return Err(format!("`time.samples` = {count}: allowed here are at most {MOST_SAMPLES}"));
+        if used && count > MOST_ROWS {
+            return Err(format!("`time.samples` = {count}: allowed here are at most {MOST_ROWS}"));
         }
         Ok(())
     }

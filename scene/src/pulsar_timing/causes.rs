@@ -35,7 +35,7 @@ impl PulsarScene {
     pub fn causes(&self, timing: &Timing) -> Result<Causes, String> {
         let time = self.clock.stretched_time();
         let free = Problem::new(*self.problem.spheroid(), Matrix3::zeros(), *self.problem.initial())?;
-        let free = PulsarClock::on(PhasedMotion::new(&free, 0.0)?, &self.beam, &self.observer)?;
+        let free = PulsarClock::new(PhasedMotion::new(&free, 0.0)?, &self.beam, &self.observer)?;
         let free = free.damped(time.precession().damping)?;
         let (period, braking) = (self.clock.period(), time.braking());
         let secular = StretchedTime::new(&Braking { torque_share: 0.0, ..*braking }, time.precession())?;

@@ -73,7 +73,7 @@ impl PulsarScene {
         let problem = Problem::new(spheroid, *scene.problem.coefficients(), initial)?;
         let problem = problem.with_bulge(scene.problem.bulge())?;
         let motion = PhasedMotion::new(&problem, scene.times.last() - scene.times.start())?;
-        let clock = PulsarClock::on(motion, &beam, &observer)?;
+        let clock = PulsarClock::new(motion, &beam, &observer)?;
         let clock = match &scene.spin_down {
             Some(spin_down) => {
                 let braking = spin_down.braking(1.0 / clock.period())?;

@@ -2,7 +2,6 @@
 //! allowed values.
 
 use std::fs::File;
-use std::io::Read;
 use std::ops::{Range, RangeInclusive};
 use std::path::Path;
 
@@ -10,9 +9,9 @@ use nalgebra::Vector3;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::LARGEST_FILE;
 use super::fault::{Fault, SceneError};
 use super::names::{did_you_mean, listed, nearest, shortened};
+use crate::text_file::read_text;
 
 type Names = fn() -> Vec<&'static str>;
 
@@ -44,17 +43,7 @@ impl FileFormat {
             };
             refuse(format!("neither a built-in {noun} nor a readable file ({error}); {guess}"))
         })?;
-        let mut bytes = Vec::new();
-        file.take(LARGEST_FILE + 1)
-            .read_to_end(&mut bytes)
-            .map_err(|error| refuse(format!("cannot be read: {error}")))?;
-        if bytes.len() as u64 > LARGEST_FILE {
-            return Err(refuse(format!("is longer than {} MiB, the most that is read", LARGEST_FILE >> 20)));
-        }
-        String::from_utf8(bytes).map_err(|error| {
-            let byte = error.utf8_error().valid_up_to() + 1;
-            refuse(format!("is not UTF-8 text (byte {byte}): {name} is a TOML file"))
-        })
+        read_text(file).map_err(|why| refuse(format!("{why}: {name} is a TOML file")))
     }
 
     /// The result of `read` for the document with the text of `file`.
@@ -409,18 +398,5 @@ mod tests {
         let text = "a = 1\nb = [2.0, [3, 4e1]]\nc = 0x10\nd = \"5\"\n";
         let keys = ["a", "b[0]", "b[1][0]", "b[1][1]"].map(String::from);
         assert_eq!(read(text, |document| Ok(document.numbers())), Ok(keys.to_vec()));
-    }
-
-    #[test]
-    fn files_are_read_up_to_the_longest() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("sheet.toml");
-        let path = path.to_str().expect("its name is text");
-        for (bytes, taken) in [(1 << 26, true), ((1 << 26) + 1, false)] {
-            File::create(path).expect("a file").set_len(bytes).expect("so long");
-            let read = SHEET.read(path).map(|text| text.len() as u64).map_err(String::from);
-            let refused = format!("{path}: is longer than 64 MiB, the most that is read");
-            assert_eq!(read, if taken { Ok(bytes) } else { Err(refused) });
-        }
     }
 }

@@ -26,12 +26,9 @@ pub(crate) use fault::Fault;
 pub use fault::SceneError;
 pub use motion::Units;
 pub use names::{did_you_mean, listed, nearest, shortened};
-pub use observation::{COLUMN_GROUPS, Catalogued, Pulsar, Times, Viewer, column_group, like_julian_date};
+pub use observation::{COLUMN_GROUPS, Catalogued, MOST_SAMPLES, Pulsar, Times, Viewer, column_group, like_julian_date};
 pub(crate) use observation::{NAMELESS, columns_in, read_end, read_times, read_tolerance_and_method};
 pub use spin_down::{IndexOrSecond, SpinDown};
-
-/// Largest scene file that is read, in bytes.
-pub const LARGEST_FILE: u64 = 64 << 20;
 
 /// A checked scene. Internally everything is in the paper's units, `I^xx = C = 1`, with time in `t_c`.
 #[derive(Debug, Clone)]

@@ -180,7 +180,8 @@ pub(super) fn read_catalogued(section: &Section<'_>) -> Result<Option<Catalogued
     Ok(is_catalogued.then(|| Catalogued { name: name.unwrap_or_else(|| NAMELESS.to_owned()), position }))
 }
 
-pub(crate) const MOST_SAMPLES: usize = 10_000_000;
+/// Largest number of samples of a scene, and of arrival times.
+pub const MOST_SAMPLES: usize = 10_000_000;
 
 /// Times of the output, strictly increasing or strictly decreasing, in units of the output.
 #[derive(Debug, Clone, PartialEq)]

@@ -27,13 +27,15 @@ pub(super) fn start_of_row(number: u64, parameters: &[f64]) -> impl Iterator<Ite
     [number.to_string()].into_iter().chain(parameters.iter().map(|x| format!("{x:?}")))
 }
 
+const MEMORY: &str = "a table in memory takes every row";
+
 /// Computes the scenes `numbers` and writes their rows. A scene that cannot be computed also gets a row.
-pub(super) fn chunk_text(sweep: &Sweep<'_>, numbers: Range<u64>) -> Result<ChunkText, csv::Error> {
+pub(super) fn chunk_text(sweep: &Sweep<'_>, numbers: Range<u64>) -> ChunkText {
     let columns = sweep.outputs.header(&sweep.units).len();
     let (mut rows, mut errors) = (csv::Writer::from_writer(Vec::new()), csv::Writer::from_writer(Vec::new()));
     let mut text = ChunkText::default();
     let parameters: Vec<_> = numbers.clone().map(|number| sweep.parameters.of_scene(number)).collect();
-    let made: Vec<_> = parameters.iter().map(|parameters| guarded(|| sweep.scene(parameters))).collect();
+    let made: Vec<_> = parameters.iter().map(|parameters| guarded(|| sweep.scene_with(parameters))).collect();
     let scenes: Vec<_> = made.iter().filter_map(|scene| scene.as_ref().ok()).collect();
     let mut values = sweep.outputs.values(&scenes).into_iter();
     for ((number, parameters), scene) in numbers.zip(&parameters).zip(&made) {
@@ -44,21 +46,19 @@ pub(super) fn chunk_text(sweep: &Sweep<'_>, numbers: Range<u64>) -> Result<Chunk
         };
         let start = || start_of_row(number, parameters);
         let status = if outcome.is_ok() { "ok" } else { "failed" };
-        start().chain([status.to_owned()]).try_for_each(|field| rows.write_field(field))?;
+        start().chain([status.to_owned()]).try_for_each(|field| rows.write_field(field)).expect(MEMORY);
         let missing = || vec![f64::NAN; columns];
         for value in outcome.as_ref().map_or_else(|_| missing(), Clone::clone) {
-            rows.write_field(if value.is_nan() { String::new() } else { format!("{value:?}") })?;
+            rows.write_field(if value.is_nan() { String::new() } else { format!("{value:?}") }).expect(MEMORY);
         }
-        rows.write_record(None::<&[u8]>)?;
+        rows.write_record(None::<&[u8]>).expect(MEMORY);
         if let Err(why) = outcome {
-            errors.write_record(start().chain([why]))?;
+            errors.write_record(start().chain([why])).expect(MEMORY);
             text.failed += 1;
         }
     }
-    let whole =
-        |writer: csv::Writer<Vec<u8>>| writer.into_inner().map_err(|error| csv::Error::from(error.into_error()));
-    (text.rows, text.errors) = (whole(rows)?, whole(errors)?);
-    Ok(text)
+    (text.rows, text.errors) = (rows.into_inner().expect(MEMORY), errors.into_inner().expect(MEMORY));
+    text
 }
 
 #[cfg(test)]

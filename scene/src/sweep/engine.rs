@@ -67,8 +67,7 @@ pub fn compute(
             in_work -= 1;
             waiting.extend(text.map(|text| (chunk.start, (chunk.end, text))));
             while let Some((next, text)) = waiting.remove(&written) {
-                let ChunkText { rows, errors, failed } =
-                    text.map_err(|error| SpoolError::File(spool.files().rows.clone(), error.into()))?;
+                let ChunkText { rows, errors, failed } = text;
                 spool.append(next, [&rows, &errors], failed)?;
                 bytes += rows.len() + errors.len();
                 written = next;

@@ -87,30 +87,24 @@ impl Sweep<'_> {
         names
     }
 
-    /// The scene with `parameters`.
-    fn scene(&self, parameters: &[f64]) -> Result<Scene, String> {
+    /// The scene with this number.
+    ///
+    /// # Errors
+    /// No star is like this: the reason that the table of errors gives.
+    pub fn scene(&self, number: u64) -> Result<Scene, String> {
+        self.scene_with(&self.parameters.of_scene(number))
+    }
+
+    fn scene_with(&self, parameters: &[f64]) -> Result<Scene, String> {
         let scene = self.base.scene(&self.parameters.keys, parameters, &self.outputs.times)?;
         Ok(Scene { tolerance: self.tolerance, method: self.method, ..scene })
     }
 
-    /// The lines of the table and of the table of errors for one scene, if it cannot be read or is `wanted`.
-    pub fn row_if(&self, number: u64, wanted: fn(&Scene) -> bool) -> Option<[Vec<u8>; 2]> {
-        let scene = self.scene(&self.parameters.of_scene(number));
-        if scene.is_ok_and(|scene| !wanted(&scene)) {
-            return None;
-        }
-        self.rows(number..number + 1).ok().map(|(texts, _)| texts)
-    }
-
     /// The lines of the table and of the table of errors for some scenes, computed by one thread, and how many of them
     /// failed.
-    ///
-    /// # Errors
-    /// None, except for lack of memory.
-    pub fn rows(&self, scenes: std::ops::Range<u64>) -> Result<([Vec<u8>; 2], u64), String> {
-        let chunk::ChunkText { rows, errors, failed } =
-            chunk::chunk_text(self, scenes).map_err(|error| error.to_string())?;
-        Ok(([rows, errors], failed))
+    pub fn rows(&self, scenes: std::ops::Range<u64>) -> ([Vec<u8>; 2], u64) {
+        let chunk::ChunkText { rows, errors, failed } = chunk::chunk_text(self, scenes);
+        ([rows, errors], failed)
     }
 
     /// Number of scenes that are computed together: about a quarter of a second's work and a few megabytes. Results do not

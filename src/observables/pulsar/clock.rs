@@ -15,14 +15,13 @@ use super::turns::phase;
 use super::{Beam, Pulse};
 use crate::dynamics::bulge::kinematic_momentum;
 use crate::dynamics::equations_of_motion::angular_velocity;
-use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
+use crate::dynamics::{BodyState, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::numerics::angle::{about, between, wrapped};
 use crate::numerics::double_double::DoubleDouble;
 use crate::observables::Observer;
 use crate::observables::spectrum::QuasiPeriodicMotion;
 use crate::propagation::{Motion, PhasedMotion, Turning, largest_torque};
-use crate::solutions::averaged::AveragingOrder;
 use crate::spin_down::{Braking, Precession, StretchedTime};
 
 /// Largest `x = C |s| I^xx / |L|^2` for a torque that depends on the magnetic axis: its two harmonics are those of free precession with the initial
@@ -39,7 +38,7 @@ const MOST_ROTATION: f64 = 1e5;
 /// use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 /// use twofold::observables::Observer;
 /// use twofold::observables::pulsar::{Beam, PulsarClock};
-/// use twofold::solutions::averaged::AveragingOrder;
+/// use twofold::propagation::PhasedMotion;
 ///
 /// // 641.9 turns in a second about Z, without Lorentz violation; the unit of time is the second.
 /// let spheroid = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.001, constant_c: 1.0e5 };
@@ -47,7 +46,7 @@ const MOST_ROTATION: f64 = 1e5;
 /// let start = BodyState { axis: Vector3::z(), momentum: Vector3::z() * (1.001 * spin), equatorial_axis: Vector3::x() };
 /// let (beam, observer) = (Beam::new(1.3, 0.0, 0.15), Observer::at(1.35, 0.0));
 /// let problem = Problem::new(spheroid, Matrix3::zeros(), start)?;
-/// let clock = PulsarClock::new(&problem, &beam, &observer, AveragingOrder::Second)?;
+/// let clock = PulsarClock::new(PhasedMotion::averaged(&problem)?, &beam, &observer)?;
 /// let pulse = clock.pulse_near([4.7e8, 0.0])?.expect("a pulse in every turn");
 /// assert_eq!(pulse.number, (4.7e8 * spin / core::f64::consts::TAU).round() as i64);
 /// # Ok::<(), twofold::Error>(())
@@ -125,26 +124,12 @@ impl Motion<f64> for Near<'_> {
 }
 
 impl PulsarClock {
-    /// A pulsar clock on the averaged motion of `problem`, starting from its initial state at the time zero. The `observer` is in the
-    /// same inertial frame.
-    ///
-    /// # Errors
-    /// As for [`PhasedMotion::averaged`] and [`on`](Self::on).
-    pub fn new(
-        problem: &Problem<f64>,
-        beam: &Beam<f64>,
-        observer: &Observer<f64>,
-        order: AveragingOrder,
-    ) -> Result<Self, Error> {
-        Self::on(PhasedMotion::averaged(problem, order)?, beam, observer)
-    }
-
     /// A pulsar clock on a motion. The `observer` is in the same inertial frame.
     ///
     /// # Errors
     /// [`Error::Domain`] as for [`pulse_train`](super::pulse_train), if the line of sight or the magnetic axis comes along L, about which turns are
     /// counted, and for a body that turns by more than 1e5 rad in one such turn.
-    pub fn on(motion: PhasedMotion, beam: &Beam<f64>, observer: &Observer<f64>) -> Result<Self, Error> {
+    pub fn new(motion: PhasedMotion, beam: &Beam<f64>, observer: &Observer<f64>) -> Result<Self, Error> {
         check_beam(beam, &observer.direction)?;
         let turns = TurnCount::new(&motion, beam, &observer.direction)?;
         let problem = &motion.problem;
@@ -460,6 +445,7 @@ fn about_nearer_end(precession: &Precession) -> Precession {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dynamics::Problem;
     use crate::observables::pulsar::margin::tests::search_of;
 
     #[test]
@@ -489,7 +475,7 @@ mod tests {
         let beam = Beam::new(0.3, 0.4, half_opening);
         let observer = Observer::at(0.01, 0.0);
         let problem = Problem::new(spheroid, Matrix3::zeros(), start).unwrap();
-        PulsarClock::new(&problem, &beam, &observer, AveragingOrder::Second).unwrap()
+        PulsarClock::new(PhasedMotion::averaged(&problem).unwrap(), &beam, &observer).unwrap()
     }
 
     #[test]
@@ -525,7 +511,7 @@ mod tests {
             let start = BodyState { axis, momentum: Vector3::z() * 0.8, equatorial_axis: Vector3::y() };
             let (beam, observer) = (Beam::new(1.2, 0.4, 0.3), Observer::at(1.1, 0.0));
             let problem = Problem::new(spheroid, Matrix3::zeros(), start).unwrap();
-            let clock = PulsarClock::new(&problem, &beam, &observer, AveragingOrder::Second);
+            let clock = PulsarClock::new(PhasedMotion::averaged(&problem).unwrap(), &beam, &observer);
             assert_eq!(clock.is_err(), is_refused, "{theta}: {:?}", clock.err());
             if let Err(Error::Domain { quantity, value, .. }) = clock {
                 let rotation = TAU / (theta / 2.0).tan();
@@ -547,7 +533,8 @@ mod tests {
         let size = strength * 1.7 * 1.7 / (0.8 * 1.3);
         let s = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, -2.0)) * (size / 12_f64.sqrt());
         let problem = Problem::new(spheroid, s, start).unwrap();
-        PulsarClock::new(&problem, &Beam::new(1.1, 0.4, 0.3), &Observer::at(1.2, -0.5), AveragingOrder::Second).unwrap()
+        let motion = PhasedMotion::averaged(&problem).unwrap();
+        PulsarClock::new(motion, &Beam::new(1.1, 0.4, 0.3), &Observer::at(1.2, -0.5)).unwrap()
     }
 
     /// The star emits the same pulses later and later: rates are smaller and pulses longer by the rate of the stretched time.
@@ -621,10 +608,10 @@ mod tests {
             let problem =
                 Problem::new(*base.spheroid(), base.coefficients() * sign, *base.initial()).unwrap().rotated(&turn);
             let rates = |motion: PhasedMotion| {
-                let clock = PulsarClock::on(motion, &Beam::new(1.1, 0.4, 0.3), &Observer::at(1.2, -0.5)).unwrap();
+                let clock = PulsarClock::new(motion, &Beam::new(1.1, 0.4, 0.3), &Observer::at(1.2, -0.5)).unwrap();
                 clock.precession_rates().unwrap()
             };
-            let averaged = rates(PhasedMotion::averaged(&problem, AveragingOrder::Second).unwrap());
+            let averaged = rates(PhasedMotion::averaged(&problem).unwrap());
             let exact = rates(PhasedMotion::torus(&problem, 1e3).unwrap());
             for (averaged, exact) in averaged.into_iter().zip(exact) {
                 assert!((averaged / exact - 1.0).abs() < 1e-5, "{sign}: {averaged:e} {exact:e}");

@@ -179,7 +179,6 @@ mod tests {
     use crate::lorentz_violation::PrincipalCoefficients;
     use crate::observables::pulsar::turns::Turns as Followed;
     use crate::propagation::{AveragedMotion, Motion, TorusMotion};
-    use crate::solutions::averaged::AveragingOrder;
 
     fn problem(scale: f64) -> Problem<f64> {
         let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
@@ -214,8 +213,8 @@ mod tests {
             }
         }
         let weak = problem(1e-3);
-        let averaged = AveragedMotion::new(&weak, (0.0, 1e3), AveragingOrder::Second).unwrap();
-        compare(&PhasedMotion::averaged(&weak, AveragingOrder::Second).unwrap(), &averaged);
+        let averaged = AveragedMotion::new(&weak, (0.0, 1e3)).unwrap();
+        compare(&PhasedMotion::averaged(&weak).unwrap(), &averaged);
         let strong = problem(1.0);
         let exact = TorusMotion::new(&strong, (0.0, 1e3), 1e-14).unwrap();
         compare(&PhasedMotion::torus(&strong, 1e3).unwrap(), &exact);
@@ -227,7 +226,7 @@ mod tests {
         let motions = [[0.3, 0.0], [-0.3, 0.0], [0.0, 0.7], [0.0, -0.7]].map(|[x, y]| {
             let weak = problem(0.1);
             let start = BodyState { momentum: Vector3::new(x, y, 2.0), ..*weak.initial() };
-            PhasedMotion::averaged(&weak.starting_from(start).unwrap(), AveragingOrder::Second).unwrap()
+            PhasedMotion::averaged(&weak.starting_from(start).unwrap()).unwrap()
         });
         for (motion, k) in motions.iter().flat_map(|motion| (0..12).map(move |k| (motion, k))) {
             let beam = Beam::new(0.9, 0.54 * f64::from(k), 0.3);

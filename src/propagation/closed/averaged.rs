@@ -11,7 +11,7 @@ use crate::propagation::input::check_time;
 use crate::propagation::{Motion, Turning};
 use crate::solutions::averaged::{AveragedSolution, AveragingOrder, OfRotations};
 
-/// A motion by [`AveragedSolution`] for a tensor given in any frame: for a body whose rotation is fast compared with the effect of the
+/// A motion by [`AveragedSolution`], of second order, for a tensor given in any frame: for a body whose rotation is fast compared with the effect of the
 /// torque, over any number of turns.
 #[derive(Debug, Clone, Copy)]
 pub struct AveragedMotion<S> {
@@ -27,8 +27,8 @@ impl<S: Real> AveragedMotion<S> {
     ///
     /// # Errors
     /// As for [`AveragedSolution::new`] and [`principal_frame_with_derivatives`].
-    pub fn new(problem: &Problem<S>, span: (f64, f64), order: AveragingOrder) -> Result<Self, Error> {
-        Self::in_frame(problem, span, order, principal_frame_with_derivatives(problem.coefficients())?)
+    pub fn new(problem: &Problem<S>, span: (f64, f64)) -> Result<Self, Error> {
+        Self::in_frame(problem, span, principal_frame_with_derivatives(problem.coefficients())?)
     }
 
     /// As [`new`](Self::new), with the eigenvalues of `s` and the proper rotation to its principal frame given. This is for derivatives, which
@@ -39,7 +39,6 @@ impl<S: Real> AveragedMotion<S> {
     pub fn in_frame(
         problem: &Problem<S>,
         span: (f64, f64),
-        order: AveragingOrder,
         (coefficients, principal_from_given): (PrincipalCoefficients<S>, Matrix3<S>),
     ) -> Result<Self, Error> {
         let initial = problem.initial();
@@ -49,7 +48,7 @@ impl<S: Real> AveragedMotion<S> {
         Ok(Self {
             problem: *problem,
             span,
-            mean: AveragedSolution::with_free_rotation_of(initial, &principal, order)?,
+            mean: AveragedSolution::with_free_rotation_of(initial, &principal, AveragingOrder::Second)?,
             given_from_principal: principal_from_given.transpose(),
         })
     }
@@ -117,8 +116,8 @@ mod tests {
     #[test]
     fn a_state_has_a_derivative_by_the_time() {
         let problem = problem([2e-6, 1e-6, -3e-6]);
-        let motion = AveragedMotion::new(&problem, (0.0, 100.0), AveragingOrder::Second).unwrap();
-        let lifted = AveragedMotion::new(&problem.map(Dual64::from_re), (0.0, 100.0), AveragingOrder::Second).unwrap();
+        let motion = AveragedMotion::new(&problem, (0.0, 100.0)).unwrap();
+        let lifted = AveragedMotion::new(&problem.map(Dual64::from_re), (0.0, 100.0)).unwrap();
         let (t, h) = (40.0, 1e-4);
         let found = lifted.state(Dual64::new(t, 1.0)).unwrap();
         let [before, after] = [t - h, t + h].map(|t| motion.state(t).unwrap());
@@ -143,7 +142,7 @@ mod tests {
             let state = BodyState { momentum: momentum.into(), ..*given.initial() };
             let given = given.starting_from(state).unwrap();
             for end in [1e3, 1e6, 1e8] {
-                let averaged = AveragedMotion::new(&given, (0.0, end), AveragingOrder::Second).unwrap();
+                let averaged = AveragedMotion::new(&given, (0.0, end)).unwrap();
                 let exact = SymmetricMotion::new(&given, (0.0, end)).unwrap();
                 let [found, expected] = [averaged.state(end), exact.state(end)].map(Result::unwrap);
                 let error = (found.axis - expected.axis).norm().max((found.momentum - expected.momentum).norm() / 2.0);

@@ -10,7 +10,7 @@ use twofold::observables::pulsar::period::{
 };
 use twofold::observables::pulsar::{Beam, ClockPulse, PulsarClock};
 use twofold::observables::spectrum::QuasiPeriodicMotion;
-use twofold::solutions::averaged::AveragingOrder;
+use twofold::propagation::PhasedMotion;
 
 use crate::values::scene::{PROLATE, STAR, general, problem, state};
 use crate::values::table::Table;
@@ -25,18 +25,17 @@ fn clocks() {
         ("near n", Beam::new(0.1, 0.0, 0.9), Observer::at(1.0, 0.5)),
         ("wide", Beam::new(1.2, 0.0, 1.0), Observer::at(1.0, 0.0)),
     ];
-    for (of, star, s, initial, order) in [
-        ("general", STAR, general() * 0.1, state(), AveragingOrder::Second),
-        ("first order", STAR, general() * 0.1, state(), AveragingOrder::First),
-        ("weak", STAR, general() * 1e-8, state(), AveragingOrder::Second),
-        ("none", STAR, general() * 0.0, state(), AveragingOrder::Second),
-        ("reversed", STAR, general() * 0.1, reversed, AveragingOrder::Second),
-        ("prolate", PROLATE, general() * 0.1, state(), AveragingOrder::Second),
+    for (of, star, s, initial) in [
+        ("general", STAR, general() * 0.1, state()),
+        ("weak", STAR, general() * 1e-8, state()),
+        ("none", STAR, general() * 0.0, state()),
+        ("reversed", STAR, general() * 0.1, reversed),
+        ("prolate", PROLATE, general() * 0.1, state()),
     ] {
         for (name, beam, observer) in &beams[..if of == "general" { 4 } else { 1 }] {
             let name = format!("{of}, {name}");
-            let clock =
-                Problem::new(star, s, initial).and_then(|problem| PulsarClock::new(&problem, beam, observer, order));
+            let problem = Problem::new(star, s, initial).expect("a problem");
+            let clock = PhasedMotion::averaged(&problem).and_then(|motion| PulsarClock::new(motion, beam, observer));
             table.found(&name, clock, |table, clock| {
                 table.row(&name, format_args!("period {:?}, truncation {:?}", clock.period(), clock.truncation(40.0)));
                 // In this order: the next pulse is looked for from the one before.

@@ -13,7 +13,6 @@ use twofold::Error;
 use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::plan::Method;
 use twofold::propagation::{AveragedMotion, Motion};
-use twofold::solutions::averaged::AveragingOrder;
 use twofold_tools::least_time;
 use twofold_verify::check::largest_difference;
 use twofold_verify::reference::reference_motion;
@@ -26,7 +25,7 @@ fn problem(size: f64) -> Result<Problem<f64>, Error> {
 
 /// The averaged motion of second order.
 fn averaged(problem: &Problem<f64>, end: f64) -> Result<AveragedMotion<f64>, Error> {
-    AveragedMotion::new(black_box(problem), (0.0, end), AveragingOrder::Second)
+    AveragedMotion::new(black_box(problem), (0.0, end))
 }
 
 fn states(motion: &impl Motion<f64, State = BodyState<f64>>, times: &[f64]) -> Result<Vec<BodyState<f64>>, Error> {

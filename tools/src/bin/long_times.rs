@@ -9,8 +9,8 @@ use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::{BodyState, Problem};
 use twofold::numerics::scalar::{Real, Scalar};
 use twofold::numerics::straight_line::{Slope, order};
-use twofold::propagation::{AveragedMotion, Motion, SymmetricMotion, TorusMotion, UniformMotion};
-use twofold::solutions::averaged::AveragingOrder;
+use twofold::propagation::{Motion, SymmetricMotion, TorusMotion, UniformMotion};
+use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
 use twofold_bench::growth::{self, references};
 use twofold_bench::scene::BenchScene;
 use twofold_bench::{Effort, growth::METHODS};
@@ -55,8 +55,8 @@ fn main() -> Result<(), Failure> {
         Ok(largest(difference.iter().map(|x: &DoubleDouble| x.high().abs())))
     };
     let averaged = |order| -> Result<ErrorAt, Failure> {
-        let motion = AveragedMotion::new(&problem, (0.0, longest), order)?;
-        Ok(Box::new(move |t| beside_reference(motion.state(t)?.axis, t)))
+        let motion = AveragedSolution::new(&problem, order)?;
+        Ok(Box::new(move |t| beside_reference(motion.state(t).axis, t)))
     };
     let torus = TorusMotion::new(&problem, (0.0, longest), 1e-15)?;
     let by_torus: ErrorAt = Box::new(move |t| beside_reference(torus.axis_state(t)?.axis, t));

@@ -140,7 +140,7 @@ fn edges() -> Result<Measured, String> {
     let start = BodyState { axis, momentum: Vector3::new(0.1, 0.5, 0.9), equatorial_axis: Vector3::y() };
     let problem = Problem::new(body, s, start)?.with_bulge(0.25)?;
     let (beam, observer) = (Beam::new(1.2, 0.4, 0.3), Observer::at(1.1, 0.2));
-    let clock = PulsarClock::on(PhasedMotion::new(&problem, 400.0)?, &beam, &observer)?;
+    let clock = PulsarClock::new(PhasedMotion::new(&problem, 400.0)?, &beam, &observer)?;
     let mut times = Vec::new();
     for k in 1..=60 {
         if let Some(pulse) = clock.pulse_near([6.5 * f64::from(k), 0.0])? {

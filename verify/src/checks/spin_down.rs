@@ -95,7 +95,7 @@ pub(super) fn sight() -> Observer<f64> {
 }
 
 fn clock(problem: &Problem<f64>, chi: f64, braking: &Braking) -> Result<PulsarClock, String> {
-    let clock = PulsarClock::on(PhasedMotion::new(problem, 1e5)?, &beam(chi), &sight())?;
+    let clock = PulsarClock::new(PhasedMotion::new(problem, 1e5)?, &beam(chi), &sight())?;
     Ok(clock.braked(braking)?)
 }
 

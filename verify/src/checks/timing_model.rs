@@ -53,7 +53,7 @@ fn clock(frequency: f64, wobble: f64, rate: f64, braking: &Braking) -> Result<Pu
     let motion = PhasedMotion::new(&problem.starting_from(start)?, 0.0)?;
     // Where L points away from n it is -n that is near it, and the beam pi - CHI from that.
     let theta_o = if wobble > FRAC_PI_2 { PI - 1.1 } else { 1.1 };
-    let clock = PulsarClock::on(motion, &Beam::new(CHI, 0.4, 0.9), &Observer::at(theta_o, 0.2))?;
+    let clock = PulsarClock::new(motion, &Beam::new(CHI, 0.4, 0.9), &Observer::at(theta_o, 0.2))?;
     Ok(clock.braked(braking)?)
 }
 

@@ -42,7 +42,7 @@ fn epochs() -> Result<Measured, String> {
     worst_of_draws(63, 200, |random| {
         let state = State::random(random);
         let problem = state.problem(10f64.powf(random.within(-15.0, -3.0)))?;
-        let motion = |span| AveragedMotion::new(&problem, span, AveragingOrder::Second);
+        let motion = |span| AveragedMotion::new(&problem, span);
         let earlier = 10f64.powf(random.within(0.0, 15.0));
         let time = random.within(0.0, 1e-3) * earlier.min(100.0);
         let near = motion((-earlier, 1.0))?.state(time)?;

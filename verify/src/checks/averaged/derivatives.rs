@@ -60,7 +60,7 @@ impl Family {
         }
         let principal = frame_of(&tensor)?;
         let span = (0.0, self.scene.end);
-        AveragedMotion::in_frame(&Problem::new(body, tensor, state)?, span, AveragingOrder::Second, principal)?.state(t)
+        AveragedMotion::in_frame(&Problem::new(body, tensor, state)?, span, principal)?.state(t)
     }
 
     fn components<S: Real>(&self, x: S, frame_of: Frame<S>) -> Result<[S; 9], Error> {

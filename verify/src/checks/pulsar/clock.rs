@@ -12,7 +12,7 @@ checks! {
     /// numbers and midpoints of single pulses, looked up in any order over 2000 t_c of an averaged motion, are those of the pulse train, whose
     /// turns are followed from one half radian to the next: chi less or more than the wobble and its supplement, spins of both signs, L that goes
     /// round the line of sight or not
-    Oracle "pulsar-clock-numbers" [44]: || numbers(averaged, |problem| PhasedMotion::averaged(problem, AveragingOrder::Second));
+    Oracle "pulsar-clock-numbers" [44]: || numbers(averaged, |problem| PhasedMotion::averaged(problem));
     AtMost(1e-6) "largest error of a midpoint [t_c]; infinite if a number is wrong, 40 random pulsars of 10 pulses or more";
     because "the last step to an edge, some 1e-4 rad, is by derivatives of the exact motion, off by (C |s| I^xx / |L|^2)^2, up to 7e-4; a margin is \
      slow at the edges of a short pulse";
@@ -74,7 +74,7 @@ fn any_star(random: &mut Random) -> Result<Problem<f64>, String> {
 }
 
 fn averaged(problem: &Problem<f64>) -> Result<AveragedMotion<f64>, Error> {
-    AveragedMotion::new(problem, (0.0, 2000.0), AveragingOrder::Second)
+    AveragedMotion::new(problem, (0.0, 2000.0))
 }
 
 fn taylor(problem: &Problem<f64>) -> Result<TaylorMotion<f64>, Error> {
@@ -92,7 +92,9 @@ fn numbers<M: Motion<f64, State = BodyState<f64>>>(
         let problem = any_star(&mut random)?;
         let beam = Beam::new(random.within(0.05, PI - 0.05), random.within(-PI, PI), random.within(0.1, 0.9));
         let observer = Observer::at(random.within(0.05, PI - 0.05), random.within(-PI, PI));
-        let Ok(clock) = phased(&problem).and_then(|phased| PulsarClock::on(phased, &beam, &observer)) else { continue };
+        let Ok(clock) = phased(&problem).and_then(|phased| PulsarClock::new(phased, &beam, &observer)) else {
+            continue;
+        };
         let motion = motion(&problem)?;
         let n = &observer.direction;
         let train = pulse_train(&motion, &beam, n, motion.span())?;
@@ -136,7 +138,7 @@ type Example = (&'static str, Problem<f64>, PulsarClock);
 fn examples() -> Result<Vec<Example>, String> {
     let of = |name: &'static str| {
         let problem = Scene::named(name)?.problem;
-        let clock = PulsarClock::on(PhasedMotion::torus(&problem, 1e12)?, &beam(), &observer())?;
+        let clock = PulsarClock::new(PhasedMotion::torus(&problem, 1e12)?, &beam(), &observer())?;
         Ok((name, problem, clock))
     };
     ["tp-1", "tp-2", "sp-1", "sp-2"].into_iter().map(of).collect()
@@ -206,8 +208,8 @@ fn against_averaged() -> Result<Measured, String> {
     let strong = Scene::named("tp-2")?.problem;
     for scale in [0.1, 0.01, 0.001] {
         let problem = Problem::new(*strong.spheroid(), strong.coefficients() * scale, *strong.initial())?;
-        let averaged = PulsarClock::new(&problem, &beam(), &observer(), AveragingOrder::Second)?;
-        let torus = PulsarClock::on(PhasedMotion::torus(&problem, 1e5)?, &beam(), &observer())?;
+        let averaged = PulsarClock::new(PhasedMotion::averaged(&problem)?, &beam(), &observer())?;
+        let torus = PulsarClock::new(PhasedMotion::torus(&problem, 1e5)?, &beam(), &observer())?;
         for k in -200..=200 {
             let t = 500.0 * f64::from(k);
             let (Some(a), Some(b)) = (averaged.pulse_near([t, 0.0])?, torus.pulse_near([t, 0.0])?) else { continue };

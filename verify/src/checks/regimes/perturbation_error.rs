@@ -43,7 +43,7 @@ impl Case {
 
     /// The averaged motion of second order with the same initial values, for small `s`.
     pub fn averaged_motion(&self, duration: f64) -> Result<AveragedMotion<f64>, String> {
-        Ok(AveragedMotion::new(&self.problem()?, (0.0, duration), AveragingOrder::Second)?)
+        Ok(AveragedMotion::new(&self.problem()?, (0.0, duration))?)
     }
 
     /// Largest distance of the heads of the axes over one forced period, against the averaged motion: for `s` so small that the

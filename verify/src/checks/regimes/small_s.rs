@@ -73,7 +73,7 @@ fn drift() -> Result<Measured, String> {
             equatorial_axis: Vector3::new(beta_0.cos(), 0.0, -beta_0.sin()),
         };
         let problem = Problem::new(spheroid, s.tensor(), initial)?;
-        let motion = AveragedMotion::new(&problem, (0.0, interval), AveragingOrder::Second)?;
+        let motion = AveragedMotion::new(&problem, (0.0, interval))?;
         let end = motion.axis_state(interval)?.axis;
         // Over all directions o of observers the mean square of o.d is |d|^2 / 3.
         let cos_lambda_change = (end - axis).norm() / 3.0_f64.sqrt();
