@@ -100,12 +100,11 @@ impl Comparison<TimingModel> for TimingData {
 
     fn residuals(&self, model: &TimingModel) -> Result<Vec<f64>, InferenceError> {
         let mut residuals = Vec::with_capacity(self.len());
-        let frequency = model.value(TimingParameter::F0);
         for arrival in &self.arrivals {
             let phase = model.phase(arrival.time)?;
             let turns = (phase.whole - arrival.number.unwrap_or(phase.whole)) as f64 + phase.fraction;
             // A pulse that arrives late has passed its turn.
-            residuals.push(-turns / frequency / arrival.sigma);
+            residuals.push(-turns / model.phase_rate(arrival.time)? / arrival.sigma);
         }
         for width in &self.widths {
             residuals.push((model.width(width.time)? - width.duration) / width.sigma);
@@ -121,7 +120,6 @@ impl Comparison<TimingModel> for TimingData {
         model: &TimingModel,
         unknowns: &[TimingParameter],
     ) -> Result<(Vec<f64>, Jacobian), InferenceError> {
-        let frequency = model.value(TimingParameter::F0);
         let mut matrix = DMatrix::zeros(self.len(), unknowns.len());
         let mut fill = |row: usize, of: &dyn Fn(TimingParameter) -> f64| {
             unknowns.iter().enumerate().for_each(|(column, unknown)| matrix[(row, column)] = of(*unknown));
@@ -129,7 +127,8 @@ impl Comparison<TimingModel> for TimingData {
         let (arrivals, widths) = (self.arrivals.len(), self.widths.len());
         for (row, arrival) in self.arrivals.iter().enumerate() {
             let (_, derivatives) = model.phase_and_derivatives(arrival.time)?;
-            fill(row, &|unknown| -derivatives[unknown as usize] / frequency / arrival.sigma);
+            let rate = model.phase_rate(arrival.time)?;
+            fill(row, &|unknown| -derivatives[unknown as usize] / rate / arrival.sigma);
         }
         for (row, width) in self.widths.iter().enumerate() {
             let (_, derivatives) = model.width_and_derivatives(width.time)?;
@@ -272,6 +271,25 @@ mod tests {
             assert!((found - expected).abs() < 1e-6, "{residuals:?}");
         }
         assert_eq!(residuals.len(), 6);
+    }
+
+    /// A star that slows down by a twentieth: its late pulses are late by the same time, in more of its turns at first and fewer at last.
+    #[test]
+    fn residuals_are_times_however_fast_the_star_turns() {
+        let model = TimingModel::new([30.0, 0.0], &[(F1, -3e-10), (F2, 9e-21)]).expect("a model");
+        let numbers = [-90_000_000_000, 1, 150_000_000_000];
+        let data = TimingData { arrivals: arrivals(&model, &numbers, 3e-4, 1e-4), ..TimingData::default() };
+        let (residuals, jacobian) = data.linearised(&model, &[Phase]).expect("data of the model");
+        for (arrival, (residual, derivative)) in
+            data.arrivals.iter().zip(residuals.iter().zip(jacobian.matrix.column(0).iter()))
+        {
+            assert!((residual + 3.0).abs() < 1e-6, "{residuals:?}");
+            // The next pulse is a turn later.
+            let number = arrival.number.expect("a number");
+            let [[t, rest], [next, more]] = [number, number + 1].map(|number| model.arrival(number).expect("a pulse"));
+            let turn = (next - t) + (more - rest);
+            assert!((-derivative * 1e-4 / turn - 1.0).abs() < 1e-9, "{derivative} {turn}");
+        }
     }
 
     /// Compared with central differences, for a change that moves the largest residual by a thousandth of a standard

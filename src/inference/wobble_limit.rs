@@ -31,7 +31,7 @@ const NO_WOBBLE: f64 = 1e-12;
 /// parameters and must not include those of the wobble or of the torque.
 ///
 /// Residuals of a small wobble are `theta (D_c cos psi_0 + D_s sin psi_0)`, with the derivatives of the phase with respect to the wobble at two
-/// phases: `theta cot chi sin psi / (2 pi F0)` from geometry, plus the timing delay due to the torque. The other unknowns are projected out. The
+/// phases: `theta cot chi sin psi / (2 pi f)` from geometry, with the rate `f` of the phase, plus the timing delay due to the torque. The other unknowns are projected out. The
 /// limit is the quantile of the posterior of `theta`, with a flat prior for `theta` and for `psi_0`. Where it is above 0.1 rad the data do not limit
 /// the wobble, and it is infinite.
 ///
