@@ -111,7 +111,10 @@ impl FromStr for Epoch {
 
     /// Reads `55321.25` or `55321`, the fraction rounded to the nearest double.
     fn from_str(text: &str) -> Result<Self, Error> {
-        let malformed = || Error::Unsupported { what: "epoch (MJD)", why: "it is a decimal number without exponent" };
+        let malformed = || Error::Unsupported {
+            what: "epoch (MJD)",
+            why: "it is a decimal number from 0 to 1e7, without sign and exponent",
+        };
         let (day, fraction) = text.split_once('.').unwrap_or((text, "0"));
         let digits = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
         if !digits(day) || !digits(fraction) {

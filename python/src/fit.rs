@@ -7,7 +7,7 @@ use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use twofold::inference::{self, Fisher, MeasuredArrival, MeasuredWidth, Model, Prior, Residuals, Unknown};
+use twofold::inference::{self, Fisher, MeasuredArrival, MeasuredWidth, Model, Observable, Prior, Residuals, Unknown};
 use twofold::nalgebra::{DMatrix, DVector};
 use twofold::observables::pulsar::timing_model::TimingParameter;
 use twofold_scene::measurements::{named, parse_noise, read_timing};
@@ -90,7 +90,9 @@ impl TimingData {
         observe: Option<&str>,
     ) -> PyResult<Self> {
         let epoch = read_epoch(epoch)?;
-        let noise = observe.map_or_else(|| Ok(Vec::new()), |text| parse_noise(text, 1.0)).map_err(raised)?;
+        let noise = observe
+            .map_or_else(|| Ok(Vec::new()), |text| parse_noise(text, &[Observable::Arrivals, Observable::Widths], 1.0))
+            .map_err(raised)?;
         let paths: Vec<_> = paths.iter().map(|path| path.to_string_lossy().into_owned()).collect();
         Ok(Self { data: read_timing(&paths, &epoch, &noise, model.map(|model| &model.model)).map_err(raised)? })
     }

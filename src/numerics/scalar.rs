@@ -43,6 +43,8 @@ use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssig
 use num_dual::DualNum;
 use num_traits::{One, Zero};
 
+use crate::numerics::double_double::DoubleDouble;
+
 /// A field with angles, as required by the equations of motion.
 ///
 /// Constants enter as `f64` on the right of a product (`x * 2.0`) or through [`from_f64`](Scalar::from_f64). An exact
@@ -88,6 +90,11 @@ pub trait Real: Scalar {
 
     /// Angle (rad) of the point with ordinate `self` and abscissa `x`, in (-pi, pi].
     fn atan2(self, x: Self) -> Self;
+
+    /// `sum a_i b_i`, whose terms may cancel: for doubles, also as real parts of dual numbers, as if it were rounded once.
+    fn inner_product(a: &Vector3<Self>, b: &Vector3<Self>) -> Self {
+        a.dot(b)
+    }
 
     /// Absolute value, by the sign of the real part.
     fn abs(self) -> Self {
@@ -148,6 +155,15 @@ where
         let across = self * cos - x * sin;
         let along = x * cos + self * sin;
         T::from(angle) + DualNum::atan(&(across / along))
+    }
+
+    #[inline]
+    fn inner_product(a: &Vector3<Self>, b: &Vector3<Self>) -> Self {
+        let rounded = a.dot(b);
+        let exact = DoubleDouble::dot(&a.map(Real::re).into(), &b.map(Real::re).into());
+        let lost = (exact + DoubleDouble::from(-Real::re(rounded))).high;
+        // What is not finite stays as it is.
+        if lost.is_finite() { rounded + T::from(lost) } else { rounded }
     }
 }
 

@@ -204,8 +204,14 @@ impl<X: RotationState<f64>> Motion<f64> for PlannedMotion<X> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::Matrix3;
+
+    use crate::dynamics::RigidSpheroid;
     use crate::dynamics::fixture::problem;
+    use crate::numerics::double_double::DoubleDouble;
+    use crate::numerics::scalar::Real;
     use crate::propagation::splitting::GRADIENT_8_8_6;
+    use crate::solutions::free::free_rotation;
 
     #[test]
     fn a_time_in_two_parts_is_their_sum() {
@@ -214,6 +220,34 @@ mod tests {
             let motion = problem.motion_by(method, (0.0, 10.0), 1e-9).unwrap();
             let (parts, sum) = (motion.state_in_parts([5.0, 0.375]).unwrap(), motion.state(5.375).unwrap());
             assert!((parts.axis - sum.axis).amax() < 1e-14, "{method:?}");
+        }
+    }
+
+    /// `L` is almost normal to `n`: the rounding of `L.n` would turn `e_x` by 1e-13 in each unit of time.
+    #[test]
+    fn the_third_angle_of_a_needle_is_within_its_estimate() {
+        let needle = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1e-3, constant_c: 1.0 };
+        let axis = Vector3::new(0.36, -0.48, 0.8);
+        let equatorial_axis = Vector3::new(0.8, 0.6, 0.0);
+        let momentum = axis.cross(&Vector3::new(0.7, 0.1, -0.9)) - axis * 1e-3;
+        let start = BodyState { axis, momentum, equatorial_axis };
+        let problem = |s: [f64; 3]| Problem::new(needle, Matrix3::from_diagonal(&s.into()), start).unwrap();
+        let (free, moved) = (problem([0.0; 3]), problem([0.2, 0.1, -0.3]));
+        let [axis, momentum, equatorial_axis] = start.vectors().map(|v| v.map(DoubleDouble::from));
+        let wide = BodyState { axis, momentum, equatorial_axis };
+        let exact = free_rotation(&needle.map(DoubleDouble::from), &wide, 60.0.into());
+        // For long spans the torus is computed with 32 digits.
+        let long = moved.motion_by(Method::Torus, (0.0, 1e9), 1e-13).unwrap();
+        for (problem, exact, methods) in [
+            (free, exact.equatorial_axis.map(Real::re), &[Method::Free][..]),
+            (moved, long.state(60.0).unwrap().equatorial_axis, &[Method::Torus, Method::Splitting, Method::Taylor]),
+        ] {
+            for method in methods {
+                let motion = problem.motion_by(*method, (0.0, 60.0), 1e-12).unwrap();
+                let off = (motion.state(60.0).unwrap().equatorial_axis - exact).amax();
+                let estimate = motion.error_estimate(60.0);
+                assert!(off < estimate && off < 2e-13, "{method:?}: {off:e} {estimate:e}");
+            }
         }
     }
 

@@ -52,7 +52,7 @@ pub fn free_precession_rates<S: Real>(spheroid: &RigidSpheroid<S>, spin: S, beta
 ///
 /// Error: a few ulp of one plus the rounding of the angle `|L| t / I^xx`.
 pub fn free_rotation<S: Real>(spheroid: &RigidSpheroid<S>, initial: &BodyState<S>, t: S) -> BodyState<S> {
-    let spin = initial.momentum.dot(&initial.axis) / spheroid.inertia_zz;
+    let spin = S::inner_product(&initial.momentum, &initial.axis) / spheroid.inertia_zz;
     let turned = {
         let (sin, cos) = (-(spheroid.oblateness() * spin * t)).sin_cos();
         initial.equatorial_axis * cos + initial.axis.cross(&initial.equatorial_axis) * sin

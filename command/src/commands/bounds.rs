@@ -35,6 +35,10 @@ const LEAVES_OUT: [&str; 2] = [
     "the gain from several pulses together and, for alpha_2, from the directions of w and of the pulsars",
 ];
 
+/// Told of a pulse whose limits are rough.
+const ROUGH: &str = "Note: within the uncertainties of the angles and the width Delta lambda changes by more than a third of itself. Limits are of first order \
+in them: here they may hold at less than 95 %";
+
 pub(super) fn bounds(args: &BoundsArgs) -> Result<(), Failure> {
     let pulsars: Vec<(Pulsar, Option<PrintedBounds>)> = match &args.file {
         None => printed_bounds().into_iter().map(|(pulsar, printed)| (pulsar, Some(printed))).collect(),
@@ -52,7 +56,7 @@ pub(super) fn bounds(args: &BoundsArgs) -> Result<(), Failure> {
     let (chosen, limit) = recommended(&table).map_err(Failure::Failed)?;
     let of_chosen = rows.iter().find(|(pulsar, _)| *pulsar == chosen);
     if args.json {
-        let pulses: Vec<Value> = rows.iter().map(|(pulsar, rows)| as_json(pulsar, rows)).collect();
+        let pulses: Vec<_> = rows.iter().map(|(pulsar, rows)| as_json(pulsar, rows)).collect::<Result<_, _>>()?;
         let recommended = json!({
             "pulse": chosen.name, "source": chosen.source, "quantity": COMBINATION, "limit": limit.all,
             "limit_without_error": of_chosen.and_then(|(_, rows)| value_of(rows, "limit_without_error")),
@@ -76,7 +80,11 @@ pub(super) fn bounds(args: &BoundsArgs) -> Result<(), Failure> {
         if pulsar.measured_change().is_none() {
             let _ = writeln!(text, "Delta W has no error: it is taken as a limit");
         }
-        let _ = writeln!(text, "{}\n", table_of(rows));
+        let _ = writeln!(text, "{}", table_of(rows));
+        if pulsar.is_rough().map_err(Failure::Failed)? {
+            let _ = writeln!(text, "{ROUGH}");
+        }
+        text.push('\n');
     }
     text.push_str(&recommendation(chosen, &limit, of_chosen.map_or(&[], |(_, rows)| rows)));
     let _ = writeln!(
@@ -258,7 +266,7 @@ fn two_digits(x: f64) -> String {
     if x.abs() < 9.95 { format!("{x:.*}", if x.abs() < 0.995 { 2 } else { 1 }) } else { format!("{x:.0}") }
 }
 
-fn as_json(pulsar: &Pulsar, rows: &[Row]) -> Value {
+fn as_json(pulsar: &Pulsar, rows: &[Row]) -> Result<Value, Failure> {
     let figure = |row: &Row| {
         json!({
             "figure": row.key,
@@ -270,12 +278,13 @@ fn as_json(pulsar: &Pulsar, rows: &[Row]) -> Value {
             "over_printed": row.over_printed(),
         })
     };
-    json!({
+    Ok(json!({
         "name": pulsar.name,
         "source": pulsar.source,
         "change_is": if pulsar.measured_change().is_some() { "measured" } else { "a limit" },
+        "is_rough": pulsar.is_rough().map_err(Failure::Failed)?,
         "figures": rows.iter().map(figure).collect::<Vec<_>>(),
-    })
+    }))
 }
 
 #[cfg(test)]

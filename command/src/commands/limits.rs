@@ -65,12 +65,15 @@ impl Periods {
 }
 
 fn periods(text: &str) -> Result<Periods, String> {
-    let wrong =
-        || "allowed are two periods in days above zero and their number from 1 to 10000, as 50:5000:40".to_owned();
+    let wrong = || {
+        "allowed are two periods from 1e-6 to 1e9 days and their number from 1 to 10000, as 50:5000:40; one period once"
+            .to_owned()
+    };
     let [first, last, number] = text.split(':').collect::<Vec<_>>()[..] else { return Err(wrong()) };
     let day = |text: &str| text.parse().ok().filter(|day: &f64| (1e-6..=1e9).contains(day)).ok_or_else(wrong);
     let number = number.parse().ok().filter(|number| (1..=10_000).contains(number)).ok_or_else(wrong)?;
-    Ok(Periods { first: day(first)?, last: day(last)?, number })
+    let (first, last) = (day(first)?, day(last)?);
+    if first == last && number > 1 { Err(wrong()) } else { Ok(Periods { first, last, number }) }
 }
 
 fn prior(text: &str) -> Result<Prior, String> {
@@ -104,12 +107,22 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
     }
     let refused = |error: InferenceError| match error {
         InferenceError::Model(error) => error.into(),
+        error @ InferenceError::TooFew { .. } => Failure::BadInput(format!("{}: {error}", args.data.join(", "))),
         error => Failure::Failed(format!("{}: {error}", args.scene)),
     };
     if let Some(periods) = args.periods {
+        if data.arrivals.is_empty() {
+            let files = args.data.join(", ");
+            return Err(Failure::BadInput(format!(
+                "--periods: there is no arrival time in {files}: allowed are data with arrival times"
+            )));
+        }
         check_periods(periods, &start, &data)?;
-        // What is refused of the scene and the unknowns is refused before the fit.
-        wobble_limits(&start, &data, &unknowns, &[], CONFIDENCE).map_err(|error| refuse(error.to_string()))?;
+        // What is refused of the scene, the unknowns and the data is refused before the fit.
+        wobble_limits(&start, &data, &unknowns, &[], CONFIDENCE).map_err(|error| match error {
+            InferenceError::TooFew { .. } => refused(error),
+            error => refuse(error.to_string()),
+        })?;
     }
     let found = fit_timing(&start, &data, &unknowns).map_err(refused)?;
     let model = &found.fisher.parameters;
@@ -175,13 +188,9 @@ fn check_periods(periods: Periods, model: &TimingModel, data: &TimingData) -> Re
 fn read(args: &LimitsArgs, pulsar: &PulsarScene, start: &TimingModel) -> Result<TimingData, Failure> {
     let noise = match &args.observe {
         None => Vec::new(),
-        Some(text) => parse_noise(text, 1.0).map_err(|why| Failure::BadInput(format!("--observe: {why}")))?,
+        Some(text) => parse_noise(text, &[Observable::Arrivals, Observable::Widths], 1.0)
+            .map_err(|why| Failure::BadInput(format!("--observe: {why}")))?,
     };
-    let allowed = [Observable::Arrivals, Observable::Widths];
-    if let Some((observable, _)) = noise.iter().find(|(observable, _)| !allowed.contains(observable)) {
-        let key = observable.key();
-        return Err(Failure::BadInput(format!("--observe {key}: allowed here are arrivals and widths")));
-    }
     let data = read_timing(&args.data, &pulsar.epoch, &noise, Some(start)).map_err(Failure::BadInput)?;
     for (observable, none) in
         [(Observable::Arrivals, data.arrivals.is_empty()), (Observable::Widths, data.widths.is_empty())]
@@ -197,12 +206,17 @@ fn read(args: &LimitsArgs, pulsar: &PulsarScene, start: &TimingModel) -> Result<
     Ok(TimingData { priors: args.prior.clone(), ..data })
 }
 
+/// A number of things, as `1 prior` or `2 priors`.
+fn counted(number: usize, noun: &str) -> String {
+    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
+}
+
 fn tell_fit(found: &Fit<TimingModel>, data: &TimingData, pulsar: &PulsarScene) {
     note(&format!(
-        "{} arrivals, {} widths, {} priors, {} steps; chi^2 = {} of {} degrees of freedom",
-        data.arrivals.len(),
-        data.widths.len(),
-        data.priors.len(),
+        "{}, {}, {}, {} steps; chi^2 = {} of {} degrees of freedom",
+        counted(data.arrivals.len(), "arrival"),
+        counted(data.widths.len(), "width"),
+        counted(data.priors.len(), "prior"),
         found.iterations,
         significant(found.chi_squared, 4),
         found.degrees

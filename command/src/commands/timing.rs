@@ -105,7 +105,7 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
             let _ = std::fs::remove_file(args.out.join(file(old)));
         }
     }
-    note_dark(&timing, epochs.len());
+    note_left_out(&timing, epochs.len());
     let farthest = epochs.iter().map(|at| at.seconds_since(&pulsar.epoch)[0].abs()).fold(0.0, f64::max);
     note(&format!(
         "estimated error of the residuals: {:.1e} s; an arrival time is rounded to 1e-16 d, 8.6e-12 s",
@@ -161,7 +161,11 @@ pub(super) fn days_apart(times: impl ExactSizeIterator<Item = f64>) -> f64 {
     if intervals > 0.0 { (ends[1] - ends[0]) / intervals / DAY } else { f64::NAN }
 }
 
-fn note_dark(timing: &Timing, asked: usize) {
+fn note_left_out(timing: &Timing, asked: usize) {
+    let shared = asked - timing.pulses.len() - timing.dark;
+    if shared > 0 {
+        note(&format!("{shared} of {asked} epochs are in the same turn as an earlier one: each pulse is written once"));
+    }
     if timing.dark > 0 {
         note(&format!(
             "{} of {asked} epochs have no pulse: in that turn the line of sight stays outside the beam, or inside it for longer than the \

@@ -63,7 +63,9 @@ pub(super) fn by_stamps(
             ours.iter().filter(|ours| (first..=last).contains(&ours.time) && !in_file(ours)).collect();
         if !left_out.is_empty() {
             let shortest = left_out.iter().map(|stamped| stamped.value).fold(f64::INFINITY, f64::min);
-            notes.push(format!("{} of ours are not in the file, the shortest {shortest:.3} t_c long", left_out.len()));
+            let are = if left_out.len() == 1 { "is" } else { "are" };
+            notes
+                .push(format!("{} of ours {are} not in the file, the shortest {shortest:.3} t_c long", left_out.len()));
         }
         files.push(ComparedFile { file: known.name, start: name.into(), rows: table.rows.len(), columns, notes });
     }

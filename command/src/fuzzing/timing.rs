@@ -82,7 +82,7 @@ fn is_read_again(data: &TimingData, epoch: &Epoch) {
         let number = arrival.number.map_or(String::new(), |number| format!(" -pn {number}"));
         format!("a 0 {} {:?} @{number}\n", date(arrival), arrival.sigma * 1e6)
     };
-    let text: String = data.arrivals.iter().map(line).collect();
+    let text: String = ["FORMAT 1\n".to_owned()].into_iter().chain(data.arrivals.iter().map(line)).collect();
     let mut again = TimingData::default();
     let file = DataFile::of_bytes("again.tim", text.into_bytes()).expect("text");
     file.add_timing(epoch, &[], &mut again).expect("what was read is written as it may be read");

@@ -175,7 +175,7 @@ fn what_is_wrong_is_named() {
         (&["old.tim"], &["old.tim:1: `FORMAT 2`", "FORMAT 1"]),
         (&["no.csv", "--observe", "arrivals:1e-6"], &["no.csv: no column `arrival_day [MJD]`"]),
         (&["b1937+21.csv"], &["a table has no standard deviations", "--observe"]),
-        (&["b1937+21.csv", "--observe", "periods:1"], &["--observe periods", "arrivals and widths"]),
+        (&["b1937+21.csv", "--observe", "periods:1"], &["--observe: `periods`", "arrivals, widths"]),
         (&["b1937+21.tim", "--parameters", "fO"], &["--parameters: `fO` is not a parameter", "f0"]),
         (&["b1937+21.tim", "--prior", "chi:1.2:0.1"], &["--prior chi", "--parameters has no chi"]),
         (&["b1937+21.tim", "--prior", "chi:1.2:0"], &["chi:1.2:0", "at least 1e-100"]),

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use twofold::Error;
-use twofold::inference::{Datum, Event, Noise, Place, Signal, Unknown, check_span, data_of};
+use twofold::inference::{Datum, Event, Noise, Observable, Place, Signal, Unknown, check_span, data_of};
 use twofold::parameters::{Parameter, Parameters};
 
 use super::data_file::MOST_ROWS;
@@ -43,7 +43,8 @@ impl Measurement {
     /// [`Refusal::Input`] for unknown names, sections that the scene lacks, or a backward span; [`Refusal::Model`] for a scene without parameters.
     pub fn new(scene: Scene, observe: &str, parameters: Option<&str>) -> Result<Self, Refusal> {
         let refused = Refusal::Input;
-        let noise = parse_noise(observe, scene.units.time).map_err(|why| refused(format!("--observe: {why}")))?;
+        let noise = parse_noise(observe, &Observable::ALL, scene.units.time)
+            .map_err(|why| refused(format!("--observe: {why}")))?;
         for (observable, _) in &noise {
             if let Some(section) = missing_section(&scene, *observable) {
                 return Err(refused(format!(
@@ -227,6 +228,9 @@ pub fn named<U: Unknown>(list: &str, all: &[U]) -> Result<Vec<U>, String> {
     }
     let mut found = Vec::new();
     for name in list.split(',').map(str::trim) {
+        if name == "all" {
+            return Err("`all`: allowed is all alone, or the names of parameters".to_owned());
+        }
         let unknown = all.iter().copied().find(|unknown| unknown.key() == name).ok_or_else(|| {
             let names: Vec<_> = all.iter().map(|unknown| unknown.key()).collect();
             let hint = nearest(name, &names).map_or(String::new(), |near| format!(" (did you mean `{near}`?)"));

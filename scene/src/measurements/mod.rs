@@ -57,7 +57,7 @@ const SIGMAS: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 ///
 /// # Errors
 /// An unknown or repeated name, or a standard deviation that is not from 1e-100 to 1e100; the error names the value and the allowed range.
-pub fn parse_noise(text: &str, time_unit: f64) -> Result<Vec<Noise>, String> {
+pub fn parse_noise(text: &str, allowed: &[Observable], time_unit: f64) -> Result<Vec<Noise>, String> {
     let mut found: Vec<Noise> = Vec::new();
     for part in text.split(',') {
         let (name, sigma) = part.trim().split_once(':').ok_or_else(|| {
@@ -67,9 +67,10 @@ pub fn parse_noise(text: &str, time_unit: f64) -> Result<Vec<Noise>, String> {
             "strain" => vec![Observable::StrainPlus, Observable::StrainCross],
             name => Observable::ALL.into_iter().filter(|kind| kind.key() == name).collect(),
         };
-        if kinds.is_empty() {
-            let names: Vec<_> = Observable::ALL.iter().map(|kind| kind.key()).collect();
-            return Err(format!("`{name}` is not an observable: allowed are {}, strain", names.join(", ")));
+        if kinds.is_empty() || !kinds.iter().all(|kind| allowed.contains(kind)) {
+            let mut names: Vec<_> = allowed.iter().map(|kind| kind.key()).collect();
+            names.extend(allowed.contains(&Observable::StrainPlus).then_some("strain"));
+            return Err(format!("`{name}`: allowed are {}", names.join(", ")));
         }
         let sigma: f64 = match sigma.parse() {
             Ok(sigma) if SIGMAS.contains(&sigma) => sigma,

@@ -16,6 +16,9 @@ const BARYCENTRE: [&str; 4] = ["@", "bat", "ssb", "bary"];
 /// Allowed standard deviations (s) of an arrival time.
 const SIGMAS: std::ops::RangeInclusive<f64> = 1e-15..=1e6;
 
+/// Longest width of a pulse (s).
+const LONGEST_WIDTH: f64 = 1e9;
+
 /// Flags of a `.tim` file that change a time or its phase.
 const CHANGING: [&str; 4] = ["-to", "-padd", "-addsat", "-jump"];
 
@@ -84,14 +87,24 @@ impl DataFile {
     }
 
     fn tim(&self, epoch: &Epoch, data: &mut TimingData) -> Result<(), String> {
+        let mut has_format = false;
         for (place, line) in self.text.lines().enumerate() {
             let refuse = |what: String| format!("{}:{}: {what}", self.name, place + 1);
+            if line.trim_end().contains('\r') {
+                return Err(refuse(
+                    "a carriage return within the line: allowed are lines that end with a line feed".to_owned(),
+                ));
+            }
             let fields: Vec<_> = line.split_whitespace().collect();
             match fields[..] {
-                [] | ["FORMAT", "1"] | ["MODE", "1"] => continue,
+                [] | ["MODE", "1"] => continue,
+                ["FORMAT", "1"] => has_format = true,
                 [first, ..] if first.starts_with('#') || first == "C" => continue,
                 ["FORMAT", other, ..] => {
                     return Err(refuse(format!("`FORMAT {}`: allowed is FORMAT 1", shortened(other))));
+                }
+                [..] if !has_format => {
+                    return Err(refuse(format!("`{}`: allowed before it is the line FORMAT 1", shortened(line))));
                 }
                 [_, frequency, date, error, site, ref flags @ ..] => {
                     if !BARYCENTRE.contains(&site.to_lowercase().as_str()) {
@@ -161,15 +174,25 @@ impl DataFile {
         for (line, fields) in self.rows(&wanted)? {
             let field = |column: usize| self.number(line, &wanted[column], &fields[column]);
             let day = self.whole(line, &wanted[0], &fields[0])?;
-            let at = Epoch::new(day, field(1)?).map_err(|error| format!("{}:{line}: {error}", self.name))?;
+            let fraction = field(1)?;
+            if !(0.0..1.0).contains(&fraction) {
+                let (name, column) = (&self.name, &wanted[1]);
+                return Err(format!(
+                    "{name}:{line}: `{column}` is `{fraction}`: allowed is a number from 0 to below 1"
+                ));
+            }
+            let at = Epoch::new(day, fraction).map_err(|error| format!("{}:{line}: {error}", self.name))?;
             let time = at.seconds_since(epoch);
             let number = has_numbers.then(|| self.whole(line, "pulse", &fields[wanted.len() - 1])).transpose()?;
             data.arrivals.extend(of_arrival.map(|sigma| MeasuredArrival { time, sigma, number }));
             if let Some(sigma) = of_width {
                 let duration = field(2)?;
-                if duration <= 0.0 {
+                if !(0.0..=LONGEST_WIDTH).contains(&duration) || duration == 0.0 {
                     let (name, column) = (&self.name, &wanted[2]);
-                    return Err(format!("{name}:{line}: `{column}` is `{duration}`: allowed is a number above zero"));
+                    return Err(format!(
+                        "{name}:{line}: `{column}` is `{}`: allowed is a number above zero, at most {LONGEST_WIDTH:e}",
+                        shortened(&fields[2])
+                    ));
                 }
                 data.widths.push(MeasuredWidth { time: time[0], duration, sigma });
             }
@@ -196,14 +219,14 @@ mod tests {
         let arrival = |number| vec![MeasuredArrival { time: [43_200.0, 0.0], sigma: 2e-6, number }];
         let line = "x 0.0 55000.5 2.0 @";
         assert_eq!(read("data", &format!("\n# a\nC b\nFORMAT 1\n{line} -pn 3\n")).unwrap().arrivals, arrival(Some(3)));
-        assert_eq!(read("data.tim", &format!("{line}\n")).unwrap().arrivals, arrival(None));
+        assert_eq!(read("data.tim", &format!("FORMAT 1\n{line}\n")).unwrap().arrivals, arrival(None));
         // `C` alone begins a comment; a name may begin with it.
-        let named = format!("C {line}\nCHIME_0812{}\n", &line[1..]);
+        let named = format!("C {line}\nFORMAT 1\nCHIME_0812{}\n", &line[1..]);
         assert_eq!(read("data.tim", &named).unwrap().arrivals, arrival(None));
         // A flag that changes the time is refused wherever it stands.
         for flags in ["-to 1e-3", "-pn 3 -to 1e-3", "-fe L -pn 3 -padd 0.5"] {
-            let why = read("data.tim", &format!("{line} {flags}\n")).unwrap_err();
-            assert!(why.starts_with("data.tim:1: `-") && why.contains("changes the time or its phase"), "{why}");
+            let why = read("data.tim", &format!("FORMAT 1\n{line} {flags}\n")).unwrap_err();
+            assert!(why.starts_with("data.tim:2: `-") && why.contains("changes the time or its phase"), "{why}");
         }
         let header = "arrival_day [MJD],arrival_fraction [d],duration [s]\n";
         let data = read("data", &format!("{header}55000,0.5,3\n")).unwrap();

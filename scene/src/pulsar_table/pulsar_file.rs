@@ -43,7 +43,7 @@ fn pulsar(section: &Section<'_>) -> Result<Pulsar, Fault> {
         )?)?,
         lambda: lambda(section)?,
         chi: angle(&section.required("chi", "angle between spin axis and beam [deg]")?)?,
-        years: quantity(&section.required("years", "Delta t")?, "above 0 and at most 1000", |t| t > 0.0 && t <= 1e3)?,
+        years: quantity(&section.required("years", "Delta t")?, "from 1e-6 to 1000", |t| (1e-6..=1e3).contains(&t))?,
         inertia: inertia(section)?,
         eta: eta(section)?,
         speed: section

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix3;
 use twofold::dynamics::Problem;
-use twofold::observables::pulsar::{PulsarClock, SpinFit};
+use twofold::observables::pulsar::PulsarClock;
 use twofold::propagation::PhasedMotion;
 use twofold::spin_down::{Braking, StretchedTime};
 
@@ -62,11 +62,9 @@ impl PulsarScene {
             spin_down_rate.push(rate);
         }
         let times: Vec<_> = timing.pulses.iter().map(|timed| timed.arrival.seconds_since(&timing.epoch)[0]).collect();
-        // In turns, and by the fitted frequency in seconds.
-        let seconds = 1.0 / (period * timing.fit.frequency[0]);
         let [geometry, torque, violation] = delays.map(|delays| {
-            let delays = delays.iter().map(|delay| delay * seconds).collect();
-            SpinFit::residuals_of_delays(&times, delays, timing.derivatives)
+            let turns = delays.iter().map(|delay| delay / period).collect();
+            timing.fit.residuals_of_turns(&times, turns, timing.derivatives)
         });
         Ok(Causes { geometry, torque, violation, spin_down_rate })
     }

@@ -46,7 +46,7 @@ impl<S: Real> UniformMotion<S> {
         let s = problem.coefficients().map(S::re);
         let anisotropic = traceless(&s);
         let turn = initial.momentum / spheroid.inertia_xx;
-        let spin = initial.momentum.dot(&initial.axis) / spheroid.inertia_zz;
+        let spin = S::inner_product(&initial.momentum, &initial.axis) / spheroid.inertia_zz;
         Self {
             problem: *problem,
             span,

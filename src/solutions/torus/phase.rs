@@ -1,6 +1,5 @@
 //! The angles of a torus as functions of time.
 
-use super::flow::Axes;
 use super::ways::{ClosedWays, HalfWay};
 use crate::dynamics::RigidSpheroid;
 use crate::numerics::arithmetic::Componentwise;
@@ -39,10 +38,10 @@ impl Phase {
     }
 }
 
-/// Both angles of the torus, from the state in the plane, and the angle by which `e_x` is behind the vector of the torus.
+/// Both angles of the torus, from the state in the plane, and the angle by which `e_x` is behind the vector of the torus. `along` is `L.n`.
 pub(super) fn phases<S: Real + Into<DoubleDouble>>(
     spheroid: &RigidSpheroid<S>,
-    [n, momentum, _]: &Axes<S>,
+    along: S,
     ways: &ClosedWays<S>,
 ) -> [Phase; 3] {
     let whole = |half: &HalfWay<S>| (half.times.map(|time| time * 2.0), half.turn * 2.0);
@@ -53,7 +52,7 @@ pub(super) fn phases<S: Real + Into<DoubleDouble>>(
     let [a, b] = turns(ways.to_plane.times).map(|turns| -turns);
     // 2 pi, to the precision of the number type.
     let tau = S::zero().atan2(-S::one()) * 2.0;
-    let spin = spheroid.oblateness() * momentum.dot(n) / spheroid.inertia_zz;
+    let spin = spheroid.oblateness() * along / spheroid.inertia_zz;
     let phase = |rate: S, offset: S| {
         let offset: DoubleDouble = offset.into();
         // Whole turns, which the path to the plane of a thin torus may contain, would cost digits of a sum of doubles.

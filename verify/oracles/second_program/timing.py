@@ -64,7 +64,8 @@ def timing_files(scene, epochs, rows, described, strain_rate, h, with_rate, unce
     t = middle - scene.start - float((pepoch - date) * 86400)
     centre = t.mean()
     fit = np.polynomial.Polynomial.fit(t - centre, numbers, 2 if with_rate else 1)
-    late = fit(t - centre) - numbers
+    # By the rate of the fit at each time.
+    late = (fit(t - centre) - numbers) / fit.deriv()(t - centre)
     series = fit.convert().coef
     at_pepoch = [sum(c * (-centre) ** k for k, c in enumerate(np.polynomial.polynomial.polyder(series, d) if d else series)) for d in range(3)]
     phase, f0, f1 = at_pepoch[0], at_pepoch[1], at_pepoch[2] if with_rate else 0.0
@@ -72,7 +73,7 @@ def timing_files(scene, epochs, rows, described, strain_rate, h, with_rate, unce
     table = [HEADER]
     for k, (number, *_) in enumerate(rows):
         mjd = date + Fraction(middle[k] - scene.start) / 86400
-        table.append([int(number), int(mjd), float(mjd - int(mjd)), late[k] / f0, *described[k]])
+        table.append([int(number), int(mjd), float(mjd - int(mjd)), late[k], *described[k]])
 
     reference = round(phase)
     # The time at which the fit has this phase.
