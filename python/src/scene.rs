@@ -257,13 +257,14 @@ impl Scene {
     #[pyo3(signature = (end=None, *, method=None, tolerance=None))]
     fn motion(
         slf: Bound<'_, Self>,
+        py: Python<'_>,
         end: Option<f64>,
         method: Option<String>,
         tolerance: Option<f64>,
     ) -> PyResult<Motion> {
         let scene = slf.get().with(None, method.as_deref(), tolerance)?;
         let end = end.unwrap_or(scene.times.last());
-        Motion::new(slf.unbind(), scene, end, method)
+        Motion::new(py, slf.unbind(), scene, end, method)
     }
 
     /// How well measurements of the scene would determine its parameters. `observe` has the standard deviation of each kind of data in the units of the scene, as

@@ -1,9 +1,12 @@
 """The package's arrays against each other, against formulas in numpy, and at its interface to Python."""
 
+import functools
 import pickle
 import signal
 import subprocess
 import sys
+import threading
+import time
 import types
 
 import numpy as np
@@ -234,6 +237,16 @@ class TestMotion:
             assert np.allclose(getattr(later, name)(100.0 + times), getattr(motion, name)(times), rtol=1e-9, atol=1e-12)
         assert np.allclose(later.state(100.0 + times), motion.state(times), rtol=1e-9, atol=1e-12)
 
+    @pytest.mark.parametrize("call", ["axis", "state", "angles", "error"])
+    @pytest.mark.parametrize(("given", "first", "last"), [(50.0, 100.0, 150.0), (-50.0, 50.0, 100.0)])
+    def test_the_time_that_is_refused_is_the_one_given(self, call, given, first, last):
+        motion = twofold.Scene("tp-2", time={"start": 100.0, "span": given}).motion()
+        for t in (first - 40.0, last + 1.0):
+            with pytest.raises(twofold.Error) as caught:
+                getattr(motion, call)([first, t])
+            assert str(caught.value) == f"t = {t} t_c: allowed is the span of the motion, from {first} to {last} t_c"
+        getattr(motion, call)([first, last])
+
     def test_pickled(self, motion):
         again = pickle.loads(pickle.dumps(motion))
         assert np.array_equal(again.axis([1.0, 399.0]), motion.axis([1.0, 399.0]))
@@ -313,6 +326,56 @@ class TestTable:
             run.send_signal(signal.SIGINT)
             _, errors = run.communicate()
         assert run.returncode != 0 and b"KeyboardInterrupt" in errors
+
+
+class TestInterrupts:
+    def test_arrays_of_numpy_are_known_from_the_import_on(self):
+        """A Ctrl-C that waits to be handled must not meet the import of numpy's functions in the first result."""
+        program = (
+            "import sys, numpy, twofold\n"
+            "motion = twofold.Scene('tp-2').motion()\n"
+            "for name in ('numpy.core.multiarray', 'numpy._core.multiarray'):\n"
+            "    sys.modules[name] = None\n"
+            "print(motion.axis(1.0).shape)"
+        )
+        assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False).stdout == "(3,)\n"
+
+    def test_signals_are_handled_between_costly_values(self, scene, interrupted):
+        # Turns are followed from the start: a second in all.
+        motion = scene.motion(end=2e5)
+        interrupted(lambda: motion.angles(np.linspace(0.0, 2e5, 8000)))
+
+    def test_signals_are_handled_in_tables_of_few_rows(self, interrupted):
+        """Pulses of a beam that never meets the line of sight."""
+        dark = twofold.Scene("tp-2", time={"span": 2e5}, pulsar={"rho": 1e-3}, output={"method": "taylor"})
+        interrupted(dark.pulses)
+
+    @pytest.mark.parametrize(
+        "call",
+        [
+            lambda scene: lambda: scene.motion(end=3e4, method="taylor"),
+            lambda scene: functools.partial(scene.motion(end=1e5).angles, 1e5),
+            lambda scene: functools.partial(scene.motion(end=3e4, method="taylor").error, 3e4),
+        ],
+    )
+    def test_other_threads_go_on_while_a_value_is_computed(self, scene, call):
+        call = call(scene)
+        begun, over, times = threading.Event(), threading.Event(), []
+
+        def go_on():
+            begun.set()
+            while not over.is_set():
+                times.append(time.perf_counter())
+
+        thread = threading.Thread(target=go_on)
+        thread.start()
+        begun.wait()
+        first = time.perf_counter()
+        call()
+        last = time.perf_counter()
+        over.set()
+        thread.join()
+        assert any(0.25 < (t - first) / (last - first) < 0.75 for t in times)
 
 
 class TestPulsar:

@@ -447,6 +447,11 @@ def test_a_path_that_is_no_table_is_refused_before_the_work(path, tmp_path, monk
     assert not list(tmp_path.iterdir())
 
 
+def test_signals_are_handled_between_costly_scenes(interrupted):
+    costly = 'scene = "tp-2"\n[[vary]]\nparameter = "star.inertia_ratio"\ngrid = { from = 1.1, to = 1.2, points = 200 }\n[time]\ntimes = [1000.0]\n[output]\nmethod = "taylor"\ncolumns = ["e_z"]\n'
+    interrupted(twofold.Sweep(toml=costly).run)
+
+
 def test_any_built_in_scene_is_a_base():
     """A template can be varied; one with spin-down or a bulge is refused for that, not as unknown."""
     text = """
