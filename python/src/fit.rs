@@ -10,13 +10,13 @@ use pyo3::types::PyDict;
 use twofold::inference::{self, Fisher, MeasuredArrival, MeasuredWidth, Model, Prior, Residuals, Unknown};
 use twofold::nalgebra::{DMatrix, DVector};
 use twofold::observables::pulsar::timing_model::TimingParameter;
-use twofold_scene::measurements::{named, parse_noise, read_timing};
+use twofold_scene::measurements::{measured_twice, named, parse_noise, read_timing};
 
 use crate::arrays::{Array, Numbers, array};
 use crate::error::raised;
 use crate::pickle::{Reduced, called_with};
 use crate::pulsar::epoch;
-use crate::timing_model::{TimingModel, timing_parameter};
+use crate::timing_model::{TimingModel, WHOLE, is_whole, timing_parameter};
 
 /// Arrival times and pulse widths with independent errors. Times and standard deviations are in seconds, times since the epoch of the model.
 ///
@@ -47,16 +47,10 @@ impl TimingData {
         if sigmas.len() != count {
             return Err(raised("times without sigmas: allowed are arrival times with a standard deviation each"));
         }
-        for sigma in sigmas.iter() {
-            let allowed = "a finite number above zero";
-            twofold::Error::ensure(*sigma > 0.0 && sigma.is_finite(), "standard deviation", *sigma, allowed)
-                .map_err(raised)?;
-        }
         let rest = of("rest", rest)?.unwrap_or(vec![0.0; count]);
         let numbers = of("numbers", numbers)?;
         for number in numbers.iter().flatten().filter(|number| !number.is_nan()) {
-            let allowed = "a whole number, or NaN where it is not known";
-            twofold::Error::ensure(number.fract() == 0.0, "number", *number, allowed).map_err(raised)?;
+            twofold::Error::ensure(is_whole(*number), "numbers", *number, WHOLE).map_err(raised)?;
         }
         let arrival = |k: usize| MeasuredArrival {
             time: [times[k], rest[k]],
@@ -73,9 +67,19 @@ impl TimingData {
                 errors.len()
             )));
         }
+        for (name, values) in [("times (s)", &times), ("rest (s)", &rest), ("width_times (s)", &at)] {
+            each(values, name, |value| value.is_finite(), "a finite number")?;
+        }
+        for (name, values) in [("sigmas (s)", &sigmas), ("widths (s)", &wide), ("width_sigmas (s)", &errors)] {
+            each(values, name, |value| value > 0.0 && value.is_finite(), "a finite number above zero")?;
+        }
         let width = |k: usize| MeasuredWidth { time: at[k], duration: wide[k], sigma: errors[k] };
         let (arrivals, widths) = ((0..count).map(arrival).collect(), (0..at.len()).map(width).collect());
-        Ok(Self { data: inference::TimingData { arrivals, widths, priors: Vec::new() } })
+        let data = inference::TimingData { arrivals, widths, priors: Vec::new() };
+        if let Some([time, _]) = measured_twice(&data) {
+            return Err(raised(format!("the datum at t = {time:?} s is there twice: allowed are data measured once")));
+        }
+        Ok(Self { data })
     }
 
     /// The data of files: a `.tim` (FORMAT 1, barycentred), or tables as `Pulsar.arrivals` gives them, with the standard deviations in `observe`, as `"arrivals:1e-6,widths:1e-5"` (s). Times
@@ -149,6 +153,13 @@ fn read_epoch(given: &Bound<'_, PyAny>) -> PyResult<twofold::epoch::Epoch> {
         Ok(text) => text.parse().map_err(raised),
         Err(_) => epoch(given.extract().map_err(|_| raised("epoch: allowed is a modified Julian date"))?),
     }
+}
+
+/// Refuses values of an argument.
+fn each(values: &[f64], name: &'static str, is_allowed: fn(f64) -> bool, allowed: &'static str) -> PyResult<()> {
+    values
+        .iter()
+        .try_for_each(|value| twofold::Error::ensure(is_allowed(*value), name, *value, allowed).map_err(raised))
 }
 
 /// A list that may be left out.
@@ -317,10 +328,7 @@ pub fn wobble_limits<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let unknowns = named(&unknowns.join(","), &TimingParameter::ALL).map_err(raised)?;
     let periods = periods.list("periods")?;
-    for period in &periods {
-        twofold::Error::ensure(*period > 0.0 && period.is_finite(), "period (s)", *period, "above zero")
-            .map_err(raised)?;
-    }
+    each(&periods, "period (s)", |period| period > 0.0 && period.is_finite(), "a finite number above zero")?;
     let rates: Vec<f64> = periods.iter().map(|period| TAU / period).collect();
     let limits = py
         .detach(|| inference::wobble_limits(&model.model, &data.data, &unknowns, &rates, confidence))

@@ -128,6 +128,7 @@ impl Pulsar {
 
 impl Pulsar {
     fn state(&self, t: f64) -> Result<AxisState<f64>, twofold::Error> {
+        twofold::Error::ensure(t.is_finite(), "t (s)", t, "a finite number")?;
         Ok(AxisState::from(&self.pulsar.clock.near([t, 0.0])(0.0)?))
     }
 }

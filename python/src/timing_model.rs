@@ -20,6 +20,14 @@ pub struct TimingModel {
     pub(crate) model: timing_model::TimingModel,
 }
 
+/// Numbers of pulses that are allowed.
+pub const WHOLE: &str = "a whole number, up to 2^53 in size";
+
+/// Whether a number is one of these.
+pub fn is_whole(number: f64) -> bool {
+    number.fract() == 0.0 && number.abs() <= (1_u64 << 53) as f64
+}
+
 /// The small parts of times, where the times are finite.
 fn small_parts(t: &Numbers, rest: Option<Numbers>) -> PyResult<Vec<f64>> {
     let rest = rest.map_or_else(|| Ok(vec![0.0; t.values.len()]), |rest| t.beside("rest", rest))?;
@@ -103,7 +111,7 @@ impl TimingModel {
     /// The arrival times of the pulses with given numbers: two arrays whose sum is the time.
     fn arrival<'py>(&self, py: Python<'py>, number: Numbers) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         for value in &number.values {
-            twofold::Error::ensure(value.fract() == 0.0, "number", *value, "a whole number").map_err(raised)?;
+            twofold::Error::ensure(is_whole(*value), "number", *value, WHOLE).map_err(raised)?;
         }
         let found = number.map(py, |_, number| self.model.arrival(number as i64))?;
         let [t, rest] = [0, 1].map(|part| number.shaped(py, found.iter().map(|time| time[part]).collect(), &[]));
@@ -112,6 +120,7 @@ impl TimingModel {
 
     /// The widths of pulses (s) near times.
     fn width<'py>(&self, py: Python<'py>, t: Numbers) -> PyResult<Bound<'py, PyAny>> {
+        small_parts(&t, None)?;
         let found = t.map(py, |_, t| self.model.width(t))?;
         t.shaped(py, found, &[])
     }

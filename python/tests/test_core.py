@@ -540,9 +540,23 @@ class TestTimingModel:
             (lambda: twofold.TimingModel(1.0, chi="x"), ["chi", "number"]),
             (lambda: twofold.TimingModel(1.0).phase([1.0, 2.0], [1.0]), ["rest", "shape"]),
             (lambda: twofold.TimingModel(1.0).arrival(0.5), ["number", "whole"]),
+            (lambda: twofold.TimingModel(1.0).arrival(1e300), ["number = 1e300", "2^53"]),
+            (lambda: twofold.TimingModel(1.0, rho=0.3, inclination=1.5).width([1.0, np.nan]), ["t (s) = NaN", "finite"]),
+            (lambda: twofold.Scene("wave-source", time={"epoch": "58000.0"}, pulsar={"chi": 1.0, "rho": 0.3}).pulsar().wave(np.nan), ["t (s) = NaN", "finite"]),
+            (lambda: twofold.Scene("b1828-11").pulsar().wave_harmonics([0.0, np.inf]), ["t (s) = inf", "finite"]),
+            (lambda: twofold.TimingData([np.nan], 1.0), ["times (s) = NaN", "finite"]),
+            (lambda: twofold.TimingData([1.0], 1.0, rest=np.inf), ["rest (s) = inf", "finite"]),
+            (lambda: twofold.TimingData([1.0], 1.0, numbers=[1e300]), ["numbers = 1e300", "2^53"]),
+            (lambda: twofold.TimingData([1.0], 1.0, numbers=[-np.inf]), ["numbers = -inf", "whole"]),
+            (lambda: twofold.TimingData(width_times=[np.inf], widths=[1.0], width_sigmas=[1.0]), ["width_times (s) = inf", "finite"]),
+            (lambda: twofold.TimingData(width_times=[1.0], widths=[0.0], width_sigmas=[1.0]), ["widths (s) = 0", "above zero"]),
+            (lambda: twofold.TimingData(width_times=[1.0], widths=[np.nan], width_sigmas=[1.0]), ["widths (s) = NaN", "finite"]),
+            (lambda: twofold.TimingData(width_times=[1.0], widths=[1.0], width_sigmas=[0.0]), ["width_sigmas (s) = 0", "above zero"]),
+            (lambda: twofold.TimingData([1.0, 2.0, 1.0], 1.0, rest=[1e-9, 0.0, 1e-9]), ["t = 1.0 s", "twice", "measured once"]),
+            (lambda: twofold.TimingData(width_times=[3.0, 3.0], widths=[0.5, 0.5], width_sigmas=[1.0, 2.0]), ["t = 3.0 s", "twice"]),
             (lambda: twofold.TimingData([1.0, 2.0], [1.0]), ["sigmas", "1", "2"]),
             (lambda: twofold.TimingData([1.0]), ["sigmas"]),
-            (lambda: twofold.TimingData([1.0], [np.inf]), ["standard deviation", "inf"]),
+            (lambda: twofold.TimingData([1.0], [np.inf]), ["sigmas", "inf", "finite number above zero"]),
             (lambda: twofold.TimingData([[1.0]], 1.0), ["times", "one dimension"]),
             (lambda: twofold.TimingData(1.0, 1.0), ["times", "one dimension"]),
             (lambda: twofold.TimingData([1.0], 1.0, numbers=[0.5]), ["number", "0.5", "whole"]),
@@ -559,7 +573,7 @@ class TestTimingModel:
             (lambda: twofold.wobble_posterior([1.0, 2.0], [1.0], [1.0, 2.0]), ["across", "1 numbers", "2"]),
             (lambda: twofold.fit_timing(twofold.TimingModel(1.0), twofold.TimingData([1.0], 1.0), ["phase"], priors={"phase": 1.0}), ["priors", "phase", "pair"]),
             (lambda: twofold.fit_timing(twofold.TimingModel(1.0), twofold.TimingData([1.0], 1.0), ["phase"], priors={"phase": (np.nan, 1.0)}), ["mean of a prior"]),
-            (lambda: twofold.TimingData([1.0], [-1.0]), ["standard deviation", "-1"]),
+            (lambda: twofold.TimingData([1.0], [-1.0]), ["sigmas", "-1"]),
             (lambda: twofold.TimingModel(1.0).phase(1e19), ["phase", "9e15"]),
             (lambda: twofold.TimingModel(1.0).phase([0.0, np.nan]), ["t (s)", "finite"]),
             (lambda: twofold.wobble_limits(twofold.TimingModel(2.5, chi=1.4), twofold.TimingData(), ["phase"], [4e7]), ["0 data"]),
@@ -568,7 +582,7 @@ class TestTimingModel:
             (lambda: twofold.Scene("b1828-11").pulsar().arrivals([]), ["epochs", "none"]),
             (lambda: twofold.TimingModel(2.5, all=1.0), ["`all`", "one parameter"]),
             (lambda: twofold.Scene("tp-1", about={"a": 1}), ["about", "section"]),
-            (lambda: twofold.fit_timing(twofold.TimingModel(1.0), twofold.TimingData([1.0], 0.0), ["phase"]), ["deviation", "0"]),
+            (lambda: twofold.fit_timing(twofold.TimingModel(1.0), twofold.TimingData([1.0], 0.0), ["phase"]), ["sigmas", "0"]),
         ],
     )
     def test_bad_input_is_named(self, make, words):
@@ -620,7 +634,7 @@ class TestFits:
         assert again == data and data != twofold.TimingData([1.0, 2.0], 1e-6)
         assert np.array_equal(again.numbers, [7.0, np.nan], equal_nan=True)
         assert np.array_equal(again.times, [[1.0, 1e-9], [2.0, 0.0]]) and np.array_equal(again.widths, [[1.0, 0.1, 0.01]])
-        with pytest.raises(twofold.Error, match="number = 0.5"):
+        with pytest.raises(twofold.Error, match="numbers = 0.5"):
             twofold.TimingData([1.0], 1e-6, numbers=[0.5])
 
     def test_data_from_files(self, tmp_path):
