@@ -56,6 +56,11 @@ impl<'py> FromPyObject<'_, 'py> for Numbers {
 }
 
 impl Numbers {
+    /// The number, if it is one without a shape.
+    pub fn scalar(&self) -> Option<f64> {
+        self.shape.is_none().then(|| self.values[0])
+    }
+
     /// The numbers of `other`, called `name`, beside these: as many, or one for all.
     pub fn beside(&self, name: &str, other: Self) -> PyResult<Vec<f64>> {
         match other.shape {

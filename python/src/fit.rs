@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use numpy::{PyArray1, PyArrayMethods};
-use pyo3::exceptions::PyKeyError;
+use pyo3::exceptions::{PyKeyError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use twofold::inference::{self, Fisher, MeasuredArrival, MeasuredWidth, Model, Prior, Residuals, Unknown};
@@ -12,6 +12,7 @@ use twofold::nalgebra::{DMatrix, DVector};
 use twofold::observables::pulsar::timing_model::TimingParameter;
 use twofold_scene::measurements::{measured_twice, named, parse_noise, read_timing};
 
+use crate::arguments::{Names, Number, by_arguments, number};
 use crate::arrays::{Array, Numbers, array};
 use crate::error::raised;
 use crate::pickle::{Reduced, called_with};
@@ -94,9 +95,10 @@ impl TimingData {
         observe: Option<&str>,
     ) -> PyResult<Self> {
         let epoch = read_epoch(epoch)?;
-        let noise = observe.map_or_else(|| Ok(Vec::new()), |text| parse_noise(text, 1.0)).map_err(raised)?;
+        let noise = observe.map_or_else(|| Ok(Vec::new()), |text| parse_noise(text, 1.0));
+        let noise = noise.map_err(|why| raised(format!("observe: {why}")))?;
         let paths: Vec<_> = paths.iter().map(|path| path.to_string_lossy().into_owned()).collect();
-        Ok(Self { data: read_timing(&paths, &epoch, &noise, model.map(|model| &model.model)).map_err(raised)? })
+        Ok(Self { data: read_timing(&paths, &epoch, &noise, model.map(|model| &model.model)).map_err(by_arguments)? })
     }
 
     /// Times of the arrivals (s): an array of shape (n, 2), two parts each.
@@ -151,7 +153,7 @@ impl TimingData {
 fn read_epoch(given: &Bound<'_, PyAny>) -> PyResult<twofold::epoch::Epoch> {
     match given.extract::<String>() {
         Ok(text) => text.parse().map_err(raised),
-        Err(_) => epoch(given.extract().map_err(|_| raised("epoch: allowed is a modified Julian date"))?),
+        Err(_) => epoch(number(given).map_err(|_| PyTypeError::new_err("epoch: allowed is a modified Julian date"))?),
     }
 }
 
@@ -160,6 +162,11 @@ fn each(values: &[f64], name: &'static str, is_allowed: fn(f64) -> bool, allowed
     values
         .iter()
         .try_for_each(|value| twofold::Error::ensure(is_allowed(*value), name, *value, allowed).map_err(raised))
+}
+
+/// Unknowns of a timing model by their names.
+fn unknowns_of(names: &Names) -> PyResult<Vec<TimingParameter>> {
+    named(&names.listed("unknowns")?, &TimingParameter::ALL).map_err(|why| raised(format!("unknowns: {why}")))
 }
 
 /// A list that may be left out.
@@ -173,6 +180,7 @@ pub struct Fit {
     /// The names of the unknowns.
     #[pyo3(get)]
     unknowns: Vec<String>,
+    units: Vec<String>,
     values: Vec<f64>,
     sigmas: Vec<f64>,
     covariance: Vec<f64>,
@@ -198,14 +206,16 @@ pub struct Fit {
 }
 
 impl Fit {
-    pub fn of_fisher<M: Model>(fisher: &Fisher<M>, factor: impl Fn(M::Unknown) -> f64) -> Self {
-        let factors: Vec<f64> = fisher.unknowns.iter().map(|unknown| factor(*unknown)).collect();
+    /// `unit` is the factor to the unit of an unknown, and this unit.
+    pub fn of_fisher<M: Model>(fisher: &Fisher<M>, unit: impl Fn(M::Unknown) -> (f64, String)) -> Self {
+        let (factors, units): (Vec<f64>, Vec<_>) = fisher.unknowns.iter().map(|unknown| unit(*unknown)).unzip();
         let scaled = |values: Vec<f64>| values.iter().zip(&factors).map(|(value, factor)| value * factor).collect();
         let count = factors.len();
         let entry = |k: usize| fisher.covariance[(k / count, k % count)] * factors[k / count] * factors[k % count];
         let weak = fisher.degenerate.iter().chain(&fisher.weak);
         Self {
             unknowns: fisher.unknowns.iter().map(|unknown| unknown.key().to_owned()).collect(),
+            units,
             values: scaled(fisher.values()),
             sigmas: scaled(fisher.sigmas()),
             covariance: (0..count * count).map(entry).collect(),
@@ -219,7 +229,11 @@ impl Fit {
         }
     }
 
-    pub fn of_fit<M: Model>(found: inference::Fit<M>, factor: impl Fn(M::Unknown) -> f64, nonlinearity: f64) -> Self {
+    pub fn of_fit<M: Model>(
+        found: inference::Fit<M>,
+        unit: impl Fn(M::Unknown) -> (f64, String),
+        nonlinearity: f64,
+    ) -> Self {
         let judged = match found.judged() {
             Residuals::AsStated => "as stated",
             Residuals::Larger => "larger",
@@ -230,13 +244,21 @@ impl Fit {
             degrees: Some(found.degrees),
             judged: Some(judged),
             nonlinearity: Some(nonlinearity),
-            ..Self { residuals: Some(found.residuals), ..Self::of_fisher(&found.fisher, factor) }
+            ..Self { residuals: Some(found.residuals), ..Self::of_fisher(&found.fisher, unit) }
         }
     }
 }
 
 #[pymethods]
 impl Fit {
+    /// The unit of each unknown, of its value and its standard deviation; `1` of a number without one.
+    #[getter]
+    fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let units = PyDict::new(py);
+        self.unknowns.iter().zip(&self.units).try_for_each(|(unknown, unit)| units.set_item(unknown, unit))?;
+        Ok(units)
+    }
+
     /// The values of the unknowns.
     #[getter]
     fn values<'py>(&self, py: Python<'py>) -> Array<'py> {
@@ -287,15 +309,15 @@ pub fn fit_timing(
     py: Python<'_>,
     model: &TimingModel,
     data: &TimingData,
-    unknowns: Vec<String>,
+    unknowns: Names,
     priors: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Fit> {
-    let unknowns = named(&unknowns.join(","), &TimingParameter::ALL).map_err(raised)?;
+    let unknowns = unknowns_of(&unknowns)?;
     let mut data = data.data.clone();
     for (name, prior) in priors.iter().flat_map(|priors| priors.iter()) {
         let name: String = name.extract()?;
         let parameter = timing_parameter(&name)?;
-        let [mean, sigma]: [f64; 2] = prior.extract().map_err(|_| {
+        let [Number(mean), Number(sigma)] = prior.extract().map_err(|_| {
             raised(format!("priors[{name:?}]: allowed is a pair of numbers, the mean and the standard deviation"))
         })?;
         twofold::Error::ensure(mean.is_finite(), "mean of a prior", mean, "a finite number").map_err(raised)?;
@@ -312,21 +334,21 @@ pub fn fit_timing(
         })
         .map_err(raised)?;
     let model = TimingModel { model: found.fisher.parameters.clone() };
-    Ok(Fit { model: Some(model), ..Fit::of_fit(found, |_| 1.0, nonlinearity) })
+    Ok(Fit { model: Some(model), ..Fit::of_fit(found, |unknown| (1.0, unknown.unit().to_owned()), nonlinearity) })
 }
 
 /// Upper limits on the wobble at some precession periods (s), for a model that was fitted to the arrival times without a wobble by the `unknowns`. A dict of arrays: `period` (s), the `best` wobble (rad), the `gain` (the decrease of chi^2 by it), and the `limit` (rad) that is not exceeded with the probability `confidence`; infinite where the data do not limit it. chi and the torque share are those of the model.
 #[pyfunction]
-#[pyo3(signature = (model, data, unknowns, periods, *, confidence=0.95))]
+#[pyo3(signature = (model, data, unknowns, periods, *, confidence: "SupportsFloat | SupportsIndex"=0.95))]
 pub fn wobble_limits<'py>(
     py: Python<'py>,
     model: &TimingModel,
     data: &TimingData,
-    unknowns: Vec<String>,
+    unknowns: Names,
     periods: Numbers,
-    confidence: f64,
+    #[pyo3(from_py_with = number)] confidence: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let unknowns = named(&unknowns.join(","), &TimingParameter::ALL).map_err(raised)?;
+    let unknowns = unknowns_of(&unknowns)?;
     let periods = periods.list("periods")?;
     each(&periods, "period (s)", |period| period > 0.0 && period.is_finite(), "a finite number above zero")?;
     let rates: Vec<f64> = periods.iter().map(|period| TAU / period).collect();
@@ -344,13 +366,13 @@ pub fn wobble_limits<'py>(
 
 /// The posterior of a small wobble `x = theta (cos psi_0, sin psi_0)` (rad) in which the residuals are linear: `residuals + along x[0] + across x[1]`, in standard deviations and with the other unknowns projected out. A dict: the `best` x, the `gain` (the decrease of chi^2 by it), and the `limit` on theta that is not exceeded with the probability `confidence`, with a flat prior for theta and psi_0; infinite above 0.1 rad.
 #[pyfunction]
-#[pyo3(signature = (along, across, residuals, *, confidence=0.95))]
+#[pyo3(signature = (along, across, residuals, *, confidence: "SupportsFloat | SupportsIndex"=0.95))]
 pub fn wobble_posterior<'py>(
     py: Python<'py>,
     along: Numbers,
     across: Numbers,
     residuals: Numbers,
-    confidence: f64,
+    #[pyo3(from_py_with = number)] confidence: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
     let residuals = residuals.list("residuals")?;
     let columns = [along.list("along")?, across.list("across")?];

@@ -1,5 +1,6 @@
 //! The Python module `twofold`: scenes, motions, pulsars, fits, sweeps and kernels, on arrays of numpy.
 
+mod arguments;
 mod arrays;
 mod error;
 mod fit;

@@ -7,6 +7,7 @@ use twofold::epoch::Epoch;
 use twofold::observables::wave_harmonics::WaveHarmonics;
 use twofold_scene::pulsar_timing::{self, PulsarScene, csv, par, tim};
 
+use crate::arguments::number;
 use crate::arrays::Numbers;
 use crate::error::raised;
 use crate::pickle::Reduced;
@@ -148,8 +149,8 @@ pub struct Timing {
 #[pymethods]
 impl Timing {
     /// The `.tim` (FORMAT 1, barycentre), with an uncertainty (s) for all.
-    #[pyo3(signature = (uncertainty=1e-6))]
-    fn tim(&self, uncertainty: f64) -> PyResult<String> {
+    #[pyo3(signature = (uncertainty: "SupportsFloat | SupportsIndex"=1e-6))]
+    fn tim(&self, #[pyo3(from_py_with = number)] uncertainty: f64) -> PyResult<String> {
         twofold::Error::ensure(
             uncertainty > 0.0 && uncertainty.is_finite(),
             "uncertainty (s)",

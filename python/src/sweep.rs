@@ -53,7 +53,7 @@ impl Sweep {
         }
         let text = match (path, toml) {
             (Some(path), None) => {
-                let path: String = py.import("os")?.call_method1("fspath", (path,))?.extract()?;
+                let path: String = py.import("os")?.call_method1("fsdecode", (path,))?.extract()?;
                 SweepText::read(&path)
             }
             (None, Some(text)) => SweepText::of("sweep", text),

@@ -1,9 +1,11 @@
 //! The phase of a wobbling pulsar that slows down, for timing programs.
 
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{PyDict, PyMappingProxy, PyTuple};
 use twofold::observables::pulsar::timing_model::{self, TimingParameter};
 
+use crate::arguments::{Number, number};
 use crate::arrays::Numbers;
 use twofold_scene::measurements::named;
 
@@ -40,10 +42,14 @@ fn small_parts(t: &Numbers, rest: Option<Numbers>) -> PyResult<Vec<f64>> {
 #[pymethods]
 impl TimingModel {
     #[new]
-    #[pyo3(signature = (f0, f0_rest=0.0, **parameters: "float"))]
-    fn new(f0: f64, f0_rest: f64, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+    #[pyo3(signature = (f0, f0_rest: "SupportsFloat | SupportsIndex"=0.0, **parameters: "float"))]
+    fn new(
+        f0: Number,
+        #[pyo3(from_py_with = number)] f0_rest: f64,
+        parameters: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
         let given = parameters.map_or_else(|| Ok(Vec::new()), values)?;
-        Ok(Self { model: timing_model::TimingModel::new([f0, f0_rest], &given).map_err(raised)? })
+        Ok(Self { model: timing_model::TimingModel::new([f0.0, f0_rest], &given).map_err(raised)? })
     }
 
     /// The names of the parameters, in the order of derivatives.
@@ -52,12 +58,12 @@ impl TimingModel {
         PyTuple::new(py, TimingParameter::ALL.map(TimingParameter::key))
     }
 
-    /// The unit of each parameter.
+    /// The unit of each parameter. It cannot be changed.
     #[classattr]
-    fn units(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    fn units(py: Python<'_>) -> PyResult<Bound<'_, PyMappingProxy>> {
         let units = PyDict::new(py);
         TimingParameter::ALL.iter().try_for_each(|parameter| units.set_item(parameter.key(), parameter.unit()))?;
-        Ok(units)
+        Ok(PyMappingProxy::new(py, units.as_mapping()))
     }
 
     /// The value of a parameter.
@@ -156,8 +162,15 @@ impl TimingModel {
 fn values(given: &Bound<'_, PyDict>) -> PyResult<Vec<(TimingParameter, f64)>> {
     let read = |(name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
         let name: String = name.extract()?;
-        let number = value.extract().map_err(|_| raised(format!("{name}: allowed is a number")))?;
-        Ok((timing_parameter(&name)?, number))
+        let parameter = timing_parameter(&name)?;
+        let number = number(&value).map_err(|error| {
+            if error.is_instance_of::<PyTypeError>(value.py()) {
+                PyTypeError::new_err(format!("{name}: {}", error.value(value.py())))
+            } else {
+                error
+            }
+        })?;
+        Ok((parameter, number))
     };
     given.iter().map(read).collect()
 }

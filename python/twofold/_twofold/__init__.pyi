@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from numpy import float64
 from numpy.typing import ArrayLike, NDArray
 from os import PathLike
+from types import MappingProxyType
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
 from typing_extensions import disjoint_base
 
@@ -70,6 +71,11 @@ class Fit:
     def undetermined(self, /) -> list[str]:
         """
         The combinations that the data do not determine, in words.
+        """
+    @property
+    def units(self, /) -> dict:
+        """
+        The unit of each unknown, of its value and its standard deviation; `1` of a number without one.
         """
     @property
     def unknowns(self, /) -> list[str]:
@@ -214,7 +220,7 @@ class Scene:
         """
         Fits parameters of the scene to data: tables of `pulses()` and of `table(["h"])`, or paths of such files. `observe` and `parameters` are as for `fisher`; the fit starts from the values of the scene.
         """
-    def lines(self, /, column: str, *, least: SupportsFloat | SupportsIndex = 1e-6, most: SupportsIndex = 50) -> Table:
+    def lines(self, /, column: str, *, least: "SupportsFloat | SupportsIndex" = 1e-6, most: SupportsIndex = 50) -> Table:
         """
         The spectral lines of a column (`"m.n"`, `"h_plus"`), strongest first, down to the fraction `least` of the largest amplitude. Frequencies are in rad per
         `time_unit`, phases those at the start.
@@ -396,7 +402,7 @@ class Timing:
         """
         Number, arrival time, residual, width, position angle and wave of each pulse.
         """
-    def tim(self, /, uncertainty: SupportsFloat | SupportsIndex = 1e-6) -> str:
+    def tim(self, /, uncertainty: "SupportsFloat | SupportsIndex" = 1e-6) -> str:
         """
         The `.tim` (FORMAT 1, barycentre), with an uncertainty (s) for all.
         """
@@ -453,16 +459,16 @@ class TimingModel:
     """
     The names of the parameters, in the order of derivatives.
     """
-    units: Final[dict]
+    units: Final[MappingProxyType]
     """
-    The unit of each parameter.
+    The unit of each parameter. It cannot be changed.
     """
     def __eq__(self, other: object, /) -> bool: ...
     def __getitem__(self, name: str, /) -> float:
         """
         The value of a parameter.
         """
-    def __new__(cls, /, f0: SupportsFloat | SupportsIndex, f0_rest: SupportsFloat | SupportsIndex = 0.0, **parameters: "float") -> TimingModel: ...
+    def __new__(cls, /, f0: SupportsFloat | SupportsIndex, f0_rest: "SupportsFloat | SupportsIndex" = 0.0, **parameters: "float") -> TimingModel: ...
     def __reduce__(self, /) -> tuple[Any, tuple]: ...
     def __repr__(self, /) -> str: ...
     def arrival(self, /, number: ArrayLike) -> tuple[Any, Any]:
@@ -496,12 +502,12 @@ def fit_timing(model: TimingModel, data: TimingData, unknowns: SupportsGetItem[i
     Fits a timing model to data. `unknowns` are names from `TimingModel.names`; `priors` gives a mean and a standard deviation of some, as `{"chi": (1.2, 0.05)}`.
     """
 
-def wobble_limits(model: TimingModel, data: TimingData, unknowns: SupportsGetItem[int, str], periods: ArrayLike, *, confidence: SupportsFloat | SupportsIndex = 0.95) -> dict:
+def wobble_limits(model: TimingModel, data: TimingData, unknowns: SupportsGetItem[int, str], periods: ArrayLike, *, confidence: "SupportsFloat | SupportsIndex" = 0.95) -> dict:
     """
     Upper limits on the wobble at some precession periods (s), for a model that was fitted to the arrival times without a wobble by the `unknowns`. A dict of arrays: `period` (s), the `best` wobble (rad), the `gain` (the decrease of chi^2 by it), and the `limit` (rad) that is not exceeded with the probability `confidence`; infinite where the data do not limit it. chi and the torque share are those of the model.
     """
 
-def wobble_posterior(along: ArrayLike, across: ArrayLike, residuals: ArrayLike, *, confidence: SupportsFloat | SupportsIndex = 0.95) -> dict:
+def wobble_posterior(along: ArrayLike, across: ArrayLike, residuals: ArrayLike, *, confidence: "SupportsFloat | SupportsIndex" = 0.95) -> dict:
     """
     The posterior of a small wobble `x = theta (cos psi_0, sin psi_0)` (rad) in which the residuals are linear: `residuals + along x[0] + across x[1]`, in standard deviations and with the other unknowns projected out. A dict: the `best` x, the `gain` (the decrease of chi^2 by it), and the `limit` on theta that is not exceeded with the probability `confidence`, with a flat prior for theta and psi_0; infinite above 0.1 rad.
     """
