@@ -826,8 +826,36 @@ class TestKernels:
         assert found.shape == (2, 3) and np.allclose(found, expected, rtol=1e-15)
         with pytest.raises(twofold.Error, match="broadcast"):
             kernels.pulse_width([0.1, 0.2], [0.1, 0.2, 0.3], 0.1)
-        with pytest.raises(twofold.Error, match="interval"):
-            kernels.combination_bound(1.0, 1.0, 0.0, 1.0, 1.0)
+
+    @pytest.mark.parametrize(
+        ("kernel", "inside", "outside"),
+        [
+            (kernels.pulse_width, (0.3, 1.0, 1.0), {"rho": (-0.3, 0.0, np.pi, 4.0), "theta": (-0.1, 3.2, 7.0), "theta_o": (-0.1, 3.2)}),
+            (kernels.anisotropic_potential, (0.02, 0.01, -0.03, 0.1, 0.2), dict.fromkeys(["s_xx", "s_yy", "s_zz", "alpha", "beta"], (np.inf,))),
+            (kernels.constant_c, (1e30, 1e4, 0.1), {"mass": (0.0, -1.0, np.inf), "radius": (0.0, -1.0), "oblateness": (-1.0, 1.0)}),
+            (kernels.inertia_over_c, (1e18, 1e-3), {"density": (-1e18, 0.0, np.inf), "oblateness": (-1e-3, 0.0, 1.0)}),
+            (kernels.fluid_inertia_over_c, (-2.0,), {"spin": (0.0, np.inf)}),
+            (kernels.lambda_change, (0.5, 1.0, 0.3, -1e-3), {"lambda_": (-0.1, 3.2), "chi": (-0.1, 3.2), "width": (-0.1, 7.0), "width_change": (np.inf,)}),
+            (
+                kernels.combination_bound,
+                (1e-7, -4e3, 4e8, -1e-4, 1.0),
+                {"inertia_over_c": (-1.0, 0.0), "spin": (np.inf,), "interval": (-1.0, 0.0), "cos_lambda_change": (-3.0, 3.0), "eta": (-1.0, 0.0)},
+            ),
+            (kernels.root_mean_square_eta, (0.3, 0.7), {"asymmetry_ratio": (np.inf,), "beta": (-0.1, 3.2)}),
+        ],
+    )
+    def test_arguments_outside_their_domains(self, kernel, inside, outside):
+        assert np.isfinite(kernel(*inside))
+        for place, (name, refused) in enumerate(outside.items()):
+            for value in (*refused, np.nan):
+                given = [*inside[:place], [inside[place], value], *inside[place + 1 :]]
+                with pytest.raises(twofold.Error, match=rf"^{name}( .*)? = \S+: allowed is"):
+                    kernel(*given)
+
+    def test_results_are_finite(self):
+        for call in (lambda: kernels.constant_c(1e300, 1e4, 0.1), lambda: kernels.fluid_inertia_over_c(1e-200), lambda: kernels.inertia_over_c(1e-300, 1e-15)):
+            with pytest.raises(twofold.Error, match="C .* = inf: allowed is a finite number"):
+                call()
 
     def test_potential(self):
         alpha, beta = 0.3, 0.7
