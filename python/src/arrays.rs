@@ -8,9 +8,7 @@ use pyo3::types::{PyFloat, PyInt, PyTuple};
 use pyo3::{Borrowed, type_hint_identifier, type_hint_subscript};
 
 use crate::error::raised;
-
-/// Numbers computed between two looks for Ctrl-C.
-const AT_ONCE: usize = 1 << 14;
+use crate::interrupt::in_parts;
 
 /// A scalar or an array, as Python gives it.
 pub struct Numbers {
@@ -58,6 +56,11 @@ impl<'py> FromPyObject<'_, 'py> for Numbers {
 }
 
 impl Numbers {
+    /// The number, if it is one without a shape.
+    pub fn scalar(&self) -> Option<f64> {
+        self.shape.is_none().then(|| self.values[0])
+    }
+
     /// The numbers of `other`, called `name`, beside these: as many, or one for all.
     pub fn beside(&self, name: &str, other: Self) -> PyResult<Vec<f64>> {
         match other.shape {
@@ -93,27 +96,31 @@ impl Numbers {
         )))
     }
 
-    /// What a function is at each of the numbers, without Python's lock where they are many.
+    /// What a function is at each of the numbers, without Python's lock where they are many. One value takes microseconds.
     pub fn map<T: Send, E: std::fmt::Display + Send>(
         &self,
         py: Python<'_>,
-        function: impl Fn(usize, f64) -> Result<T, E> + Sync,
+        mut function: impl FnMut(usize, f64) -> Result<T, E> + Send,
     ) -> PyResult<Vec<T>> {
-        if let [value] = self.values[..] {
-            return Ok(vec![function(0, value).map_err(raised)?]);
+        match self.values[..] {
+            [value] => Ok(vec![function(0, value).map_err(raised)?]),
+            _ => self.map_long(py, function),
         }
+    }
+
+    /// As `map`, where even one value can take long.
+    pub fn map_long<T: Send, E: std::fmt::Display + Send>(
+        &self,
+        py: Python<'_>,
+        mut function: impl FnMut(usize, f64) -> Result<T, E> + Send,
+    ) -> PyResult<Vec<T>> {
         let mut found = Vec::with_capacity(self.values.len());
-        for (block, values) in self.values.chunks(AT_ONCE).enumerate() {
-            py.check_signals()?;
-            let first = block * AT_ONCE;
-            let fill = |found: &mut Vec<T>| {
-                for (k, value) in values.iter().enumerate() {
-                    found.push(function(first + k, *value)?);
-                }
-                Ok(())
-            };
-            py.detach(|| fill(&mut found)).map_err(raised::<E>)?;
-        }
+        in_parts(py, self.values.len(), |part| {
+            for k in part {
+                found.push(function(k, self.values[k])?);
+            }
+            Ok::<_, E>(())
+        })?;
         Ok(found)
     }
 

@@ -4,19 +4,20 @@ use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use numpy::{PyArray1, PyArrayMethods};
-use pyo3::exceptions::PyKeyError;
+use pyo3::exceptions::{PyKeyError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use twofold::inference::{self, Fisher, MeasuredArrival, MeasuredWidth, Model, Observable, Prior, Residuals, Unknown};
 use twofold::nalgebra::{DMatrix, DVector};
 use twofold::observables::pulsar::timing_model::TimingParameter;
-use twofold_scene::measurements::{named, parse_noise, read_timing};
+use twofold_scene::measurements::{measured_twice, named, parse_noise, read_timing};
 
+use crate::arguments::{Names, Number, by_arguments, number};
 use crate::arrays::{Array, Numbers, array};
 use crate::error::raised;
 use crate::pickle::{Reduced, called_with};
 use crate::pulsar::epoch;
-use crate::timing_model::{TimingModel, timing_parameter};
+use crate::timing_model::{TimingModel, WHOLE, is_whole, timing_parameter};
 
 /// Arrival times and pulse widths with independent errors. Times and standard deviations are in seconds, times since the epoch of the model.
 ///
@@ -47,16 +48,10 @@ impl TimingData {
         if sigmas.len() != count {
             return Err(raised("times without sigmas: allowed are arrival times with a standard deviation each"));
         }
-        for sigma in sigmas.iter() {
-            let allowed = "a finite number above zero";
-            twofold::Error::ensure(*sigma > 0.0 && sigma.is_finite(), "standard deviation", *sigma, allowed)
-                .map_err(raised)?;
-        }
         let rest = of("rest", rest)?.unwrap_or(vec![0.0; count]);
         let numbers = of("numbers", numbers)?;
         for number in numbers.iter().flatten().filter(|number| !number.is_nan()) {
-            let allowed = "a whole number, or NaN where it is not known";
-            twofold::Error::ensure(number.fract() == 0.0, "number", *number, allowed).map_err(raised)?;
+            twofold::Error::ensure(is_whole(*number), "numbers", *number, WHOLE).map_err(raised)?;
         }
         let arrival = |k: usize| MeasuredArrival {
             time: [times[k], rest[k]],
@@ -73,9 +68,19 @@ impl TimingData {
                 errors.len()
             )));
         }
+        for (name, values) in [("times (s)", &times), ("rest (s)", &rest), ("width_times (s)", &at)] {
+            each(values, name, |value| value.is_finite(), "a finite number")?;
+        }
+        for (name, values) in [("sigmas (s)", &sigmas), ("widths (s)", &wide), ("width_sigmas (s)", &errors)] {
+            each(values, name, |value| value > 0.0 && value.is_finite(), "a finite number above zero")?;
+        }
         let width = |k: usize| MeasuredWidth { time: at[k], duration: wide[k], sigma: errors[k] };
         let (arrivals, widths) = ((0..count).map(arrival).collect(), (0..at.len()).map(width).collect());
-        Ok(Self { data: inference::TimingData { arrivals, widths, priors: Vec::new() } })
+        let data = inference::TimingData { arrivals, widths, priors: Vec::new() };
+        if let Some([time, _]) = measured_twice(&data) {
+            return Err(raised(format!("the datum at t = {time:?} s is there twice: allowed are data measured once")));
+        }
+        Ok(Self { data })
     }
 
     /// The data of files: a `.tim` (FORMAT 1, barycentred), or tables as `Pulsar.arrivals` gives them, with the standard deviations in `observe`, as `"arrivals:1e-6,widths:1e-5"` (s). Times
@@ -90,11 +95,11 @@ impl TimingData {
         observe: Option<&str>,
     ) -> PyResult<Self> {
         let epoch = read_epoch(epoch)?;
-        let noise = observe
-            .map_or_else(|| Ok(Vec::new()), |text| parse_noise(text, &[Observable::Arrivals, Observable::Widths], 1.0))
-            .map_err(raised)?;
+        let allowed = [Observable::Arrivals, Observable::Widths];
+        let noise = observe.map_or_else(|| Ok(Vec::new()), |text| parse_noise(text, &allowed, 1.0));
+        let noise = noise.map_err(|why| raised(format!("observe: {why}")))?;
         let paths: Vec<_> = paths.iter().map(|path| path.to_string_lossy().into_owned()).collect();
-        Ok(Self { data: read_timing(&paths, &epoch, &noise, model.map(|model| &model.model)).map_err(raised)? })
+        Ok(Self { data: read_timing(&paths, &epoch, &noise, model.map(|model| &model.model)).map_err(by_arguments)? })
     }
 
     /// Times of the arrivals (s): an array of shape (n, 2), two parts each.
@@ -149,8 +154,20 @@ impl TimingData {
 fn read_epoch(given: &Bound<'_, PyAny>) -> PyResult<twofold::epoch::Epoch> {
     match given.extract::<String>() {
         Ok(text) => text.parse().map_err(raised),
-        Err(_) => epoch(given.extract().map_err(|_| raised("epoch: allowed is a modified Julian date"))?),
+        Err(_) => epoch(number(given).map_err(|_| PyTypeError::new_err("epoch: allowed is a modified Julian date"))?),
     }
+}
+
+/// Refuses values of an argument.
+fn each(values: &[f64], name: &'static str, is_allowed: fn(f64) -> bool, allowed: &'static str) -> PyResult<()> {
+    values
+        .iter()
+        .try_for_each(|value| twofold::Error::ensure(is_allowed(*value), name, *value, allowed).map_err(raised))
+}
+
+/// Unknowns of a timing model by their names.
+fn unknowns_of(names: &Names) -> PyResult<Vec<TimingParameter>> {
+    named(&names.listed("unknowns")?, &TimingParameter::ALL).map_err(|why| raised(format!("unknowns: {why}")))
 }
 
 /// A list that may be left out.
@@ -164,6 +181,7 @@ pub struct Fit {
     /// The names of the unknowns.
     #[pyo3(get)]
     unknowns: Vec<String>,
+    units: Vec<String>,
     values: Vec<f64>,
     sigmas: Vec<f64>,
     covariance: Vec<f64>,
@@ -189,14 +207,16 @@ pub struct Fit {
 }
 
 impl Fit {
-    pub fn of_fisher<M: Model>(fisher: &Fisher<M>, factor: impl Fn(M::Unknown) -> f64) -> Self {
-        let factors: Vec<f64> = fisher.unknowns.iter().map(|unknown| factor(*unknown)).collect();
+    /// `unit` is the factor to the unit of an unknown, and this unit.
+    pub fn of_fisher<M: Model>(fisher: &Fisher<M>, unit: impl Fn(M::Unknown) -> (f64, String)) -> Self {
+        let (factors, units): (Vec<f64>, Vec<_>) = fisher.unknowns.iter().map(|unknown| unit(*unknown)).unzip();
         let scaled = |values: Vec<f64>| values.iter().zip(&factors).map(|(value, factor)| value * factor).collect();
         let count = factors.len();
         let entry = |k: usize| fisher.covariance[(k / count, k % count)] * factors[k / count] * factors[k % count];
         let weak = fisher.degenerate.iter().chain(&fisher.weak);
         Self {
             unknowns: fisher.unknowns.iter().map(|unknown| unknown.key().to_owned()).collect(),
+            units,
             values: scaled(fisher.values()),
             sigmas: scaled(fisher.sigmas()),
             covariance: (0..count * count).map(entry).collect(),
@@ -210,7 +230,11 @@ impl Fit {
         }
     }
 
-    pub fn of_fit<M: Model>(found: inference::Fit<M>, factor: impl Fn(M::Unknown) -> f64, nonlinearity: f64) -> Self {
+    pub fn of_fit<M: Model>(
+        found: inference::Fit<M>,
+        unit: impl Fn(M::Unknown) -> (f64, String),
+        nonlinearity: f64,
+    ) -> Self {
         let judged = match found.judged() {
             Residuals::AsStated => "as stated",
             Residuals::Larger => "larger",
@@ -221,13 +245,21 @@ impl Fit {
             degrees: Some(found.degrees),
             judged: Some(judged),
             nonlinearity: Some(nonlinearity),
-            ..Self { residuals: Some(found.residuals), ..Self::of_fisher(&found.fisher, factor) }
+            ..Self { residuals: Some(found.residuals), ..Self::of_fisher(&found.fisher, unit) }
         }
     }
 }
 
 #[pymethods]
 impl Fit {
+    /// The unit of each unknown, of its value and its standard deviation; `1` of a number without one.
+    #[getter]
+    fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let units = PyDict::new(py);
+        self.unknowns.iter().zip(&self.units).try_for_each(|(unknown, unit)| units.set_item(unknown, unit))?;
+        Ok(units)
+    }
+
     /// The values of the unknowns.
     #[getter]
     fn values<'py>(&self, py: Python<'py>) -> Array<'py> {
@@ -278,15 +310,15 @@ pub fn fit_timing(
     py: Python<'_>,
     model: &TimingModel,
     data: &TimingData,
-    unknowns: Vec<String>,
+    unknowns: Names,
     priors: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Fit> {
-    let unknowns = named(&unknowns.join(","), &TimingParameter::ALL).map_err(raised)?;
+    let unknowns = unknowns_of(&unknowns)?;
     let mut data = data.data.clone();
     for (name, prior) in priors.iter().flat_map(|priors| priors.iter()) {
         let name: String = name.extract()?;
         let parameter = timing_parameter(&name)?;
-        let [mean, sigma]: [f64; 2] = prior.extract().map_err(|_| {
+        let [Number(mean), Number(sigma)] = prior.extract().map_err(|_| {
             raised(format!("priors[{name:?}]: allowed is a pair of numbers, the mean and the standard deviation"))
         })?;
         twofold::Error::ensure(mean.is_finite(), "mean of a prior", mean, "a finite number").map_err(raised)?;
@@ -303,26 +335,23 @@ pub fn fit_timing(
         })
         .map_err(raised)?;
     let model = TimingModel { model: found.fisher.parameters.clone() };
-    Ok(Fit { model: Some(model), ..Fit::of_fit(found, |_| 1.0, nonlinearity) })
+    Ok(Fit { model: Some(model), ..Fit::of_fit(found, |unknown| (1.0, unknown.unit().to_owned()), nonlinearity) })
 }
 
 /// Upper limits on the wobble at some precession periods (s), for a model that was fitted to the arrival times without a wobble by the `unknowns`. A dict of arrays: `period` (s), the `best` wobble (rad), the `gain` (the decrease of chi^2 by it), and the `limit` (rad) that is not exceeded with the probability `confidence`; infinite where the data do not limit it. chi and the torque share are those of the model.
 #[pyfunction]
-#[pyo3(signature = (model, data, unknowns, periods, *, confidence=0.95))]
+#[pyo3(signature = (model, data, unknowns, periods, *, confidence: "SupportsFloat | SupportsIndex"=0.95))]
 pub fn wobble_limits<'py>(
     py: Python<'py>,
     model: &TimingModel,
     data: &TimingData,
-    unknowns: Vec<String>,
+    unknowns: Names,
     periods: Numbers,
-    confidence: f64,
+    #[pyo3(from_py_with = number)] confidence: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let unknowns = named(&unknowns.join(","), &TimingParameter::ALL).map_err(raised)?;
+    let unknowns = unknowns_of(&unknowns)?;
     let periods = periods.list("periods")?;
-    for period in &periods {
-        twofold::Error::ensure(*period > 0.0 && period.is_finite(), "period (s)", *period, "above zero")
-            .map_err(raised)?;
-    }
+    each(&periods, "period (s)", |period| period > 0.0 && period.is_finite(), "a finite number above zero")?;
     let rates: Vec<f64> = periods.iter().map(|period| TAU / period).collect();
     let limits = py
         .detach(|| inference::wobble_limits(&model.model, &data.data, &unknowns, &rates, confidence))
@@ -338,13 +367,13 @@ pub fn wobble_limits<'py>(
 
 /// The posterior of a small wobble `x = theta (cos psi_0, sin psi_0)` (rad) in which the residuals are linear: `residuals + along x[0] + across x[1]`, in standard deviations and with the other unknowns projected out. A dict: the `best` x, the `gain` (the decrease of chi^2 by it), and the `limit` on theta that is not exceeded with the probability `confidence`, with a flat prior for theta and psi_0; infinite above 0.1 rad.
 #[pyfunction]
-#[pyo3(signature = (along, across, residuals, *, confidence=0.95))]
+#[pyo3(signature = (along, across, residuals, *, confidence: "SupportsFloat | SupportsIndex"=0.95))]
 pub fn wobble_posterior<'py>(
     py: Python<'py>,
     along: Numbers,
     across: Numbers,
     residuals: Numbers,
-    confidence: f64,
+    #[pyo3(from_py_with = number)] confidence: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
     let residuals = residuals.list("residuals")?;
     let columns = [along.list("along")?, across.list("across")?];

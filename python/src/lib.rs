@@ -1,8 +1,10 @@
 //! The Python module `twofold`: scenes, motions, pulsars, fits, sweeps and kernels, on arrays of numpy.
 
+mod arguments;
 mod arrays;
 mod error;
 mod fit;
+mod interrupt;
 mod kernels;
 mod motion;
 mod pickle;
@@ -26,6 +28,16 @@ const _: () = {
 /// The compiled part of the package.
 #[pyo3::pymodule(name = "_twofold")]
 mod module {
+    use numpy::PyArray1;
+    use pyo3::prelude::*;
+
+    /// Takes numpy's functions for arrays, at import: later a Ctrl-C that waits to be handled could make this fail.
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        PyArray1::<f64>::zeros(module.py(), 0, false);
+        Ok(())
+    }
+
     /// Version of the package.
     #[pymodule_export]
     #[allow(non_upper_case_globals)]

@@ -15,6 +15,7 @@ use twofold_scene::pulsar_timing::PulsarScene;
 use twofold_scene::scene_file::{self, Columns};
 use twofold_scene::trajectory::{LinesWanted, write_csv, write_lines, write_pulses};
 
+use crate::arguments::{Names, Number, by_arguments, number};
 use crate::error::raised;
 use crate::fit::Fit;
 use crate::motion::Motion;
@@ -32,41 +33,58 @@ pub struct Scene {
     name: String,
     toml: String,
     pub(crate) scene: Arc<scene_file::Scene>,
+    /// The reason why the columns of the file cannot be written, where the scene lacks what they need.
+    without_columns: Option<String>,
 }
 
 impl Scene {
     fn of_text(name: String, toml: String) -> PyResult<Self> {
-        let scene = Arc::new(scene_file::Scene::from_toml_with(&name, &toml, Columns::OfTheFileLater).map_err(raised)?);
-        Ok(Self { name, toml, scene })
+        let read = |columns| scene_file::Scene::from_toml_with(&name, &toml, columns);
+        let (scene, without_columns) = match read(Columns::OfTheFileLater) {
+            Ok(scene) => (scene, None),
+            Err(error) => (read(Columns::Unused).map_err(raised)?, Some(error.to_string())),
+        };
+        Ok(Self { name, toml, scene: Arc::new(scene), without_columns })
     }
 
     /// What is measured of the scene, and the signal of it.
     fn measured(
         &self,
-        observe: &BTreeMap<String, f64>,
-        parameters: Option<Vec<String>>,
+        observe: &BTreeMap<String, Number>,
+        parameters: Option<Names>,
     ) -> PyResult<(Measurement, Signal)> {
-        let observe: Vec<_> = observe.iter().map(|(name, sigma)| format!("{name}:{sigma:e}")).collect();
-        let parameters = parameters.map(|names| names.join(","));
+        Names(observe.keys().cloned().collect()).listed("observe")?;
+        let observe: Vec<_> = observe.iter().map(|(name, Number(sigma))| format!("{name}:{sigma:e}")).collect();
+        let parameters = parameters.map(|names| names.listed("parameters")).transpose()?;
         let measurement = Measurement::new((*self.scene).clone(), &observe.join(","), parameters.as_deref());
-        let measurement = measurement.map_err(raised)?;
+        let measurement = measurement.map_err(by_arguments)?;
         let signal = Signal::new(&measurement.parameters, measurement.end).map_err(raised)?;
         measurement.check_samples(&signal).map_err(raised)?;
         Ok((measurement, signal))
     }
 
-    /// The scene for other columns, or by another method or tolerance.
-    fn with(
+    /// The scene for some columns or those of the file, and by another method or tolerance.
+    fn of_columns(
         &self,
-        columns: Option<Vec<String>>,
+        columns: Option<Names>,
         method: Option<&str>,
-        tolerance: Option<f64>,
+        tolerance: Option<Number>,
     ) -> PyResult<scene_file::Scene> {
-        let mut scene = (*self.scene).clone();
-        if let Some(names) = columns {
-            scene.choose_columns(&names.iter().map(String::as_str).collect::<Vec<_>>()).map_err(raised)?;
+        let mut scene = self.with(method, tolerance)?;
+        match (columns, &self.without_columns) {
+            (Some(Names(names)), _) => {
+                scene.choose_columns(&names.iter().map(String::as_str).collect::<Vec<_>>()).map_err(raised)?;
+            }
+            (None, Some(why)) => return Err(raised(why)),
+            (None, None) => (),
         }
-        if let Some(tolerance) = tolerance {
+        Ok(scene)
+    }
+
+    /// The scene by another method or tolerance.
+    fn with(&self, method: Option<&str>, tolerance: Option<Number>) -> PyResult<scene_file::Scene> {
+        let mut scene = (*self.scene).clone();
+        if let Some(Number(tolerance)) = tolerance {
             twofold::Error::ensure((1e-14..=1e-2).contains(&tolerance), "tolerance", tolerance, "from 1e-14 to 1e-2")
                 .map_err(raised)?;
             scene.tolerance = tolerance;
@@ -141,7 +159,7 @@ impl Scene {
             }
             (None, text) => ("scene".to_owned(), text.unwrap_or_default()),
             (Some(source), None) => {
-                let name: String = py.import("os")?.call_method1("fspath", (source,))?.extract()?;
+                let name: String = py.import("os")?.call_method1("fsdecode", (source,))?.extract()?;
                 let text = scene_file::text_of(&name).map_err(raised)?;
                 (name, text)
             }
@@ -212,12 +230,12 @@ impl Scene {
     fn table(
         &self,
         py: Python<'_>,
-        columns: Option<Vec<String>>,
+        columns: Option<Names>,
         method: Option<&str>,
-        tolerance: Option<f64>,
+        tolerance: Option<Number>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Table> {
-        let scene = self.with(columns, method, tolerance)?;
+        let scene = self.of_columns(columns, method, tolerance)?;
         scene.check_rotation(&scene.columns).map_err(raised)?;
         written(py, progress, |writer, tell| write_csv(&scene, writer, tell))
     }
@@ -228,18 +246,25 @@ impl Scene {
         &self,
         py: Python<'_>,
         method: Option<&str>,
-        tolerance: Option<f64>,
+        tolerance: Option<Number>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Table> {
-        let scene = self.with(None, method, tolerance)?;
+        let scene = self.with(method, tolerance)?;
         scene.check_rotation(&[Output::Pulses]).map_err(raised)?;
         written(py, progress, |writer, tell| write_pulses(&scene, writer, tell))
     }
 
     /// The spectral lines of a column (`"m.n"`, `"h_plus"`), strongest first, down to the fraction `least` of the largest amplitude. Frequencies are in rad per
     /// `time_unit`, phases those at the start.
-    #[pyo3(signature = (column, *, least=1e-6, most=50))]
-    fn lines(&self, py: Python<'_>, column: &str, least: f64, most: usize) -> PyResult<Table> {
+    #[pyo3(signature = (column, *, least: "SupportsFloat | SupportsIndex"=1e-6, most=50))]
+    fn lines(
+        &self,
+        py: Python<'_>,
+        column: &str,
+        #[pyo3(from_py_with = number)] least: f64,
+        most: usize,
+    ) -> PyResult<Table> {
+        twofold::Error::ensure(most > 0, "most", most as f64, "1 and above").map_err(raised)?;
         twofold::Error::ensure((1e-12..=1.0).contains(&least), "least", least, "from 1e-12 to 1").map_err(raised)?;
         let column = Column::oscillating(column, &self.scene).map_err(raised)?;
         let wanted = LinesWanted { least, most, in_turns: false };
@@ -248,8 +273,8 @@ impl Scene {
 
     /// The plan for groups of columns, or for those of the scene, in words: the method, its cost and error, and what is left out.
     #[pyo3(signature = (columns=None, *, method=None, tolerance=None))]
-    fn plan(&self, columns: Option<Vec<String>>, method: Option<&str>, tolerance: Option<f64>) -> PyResult<String> {
-        let scene = self.with(columns, method, tolerance)?;
+    fn plan(&self, columns: Option<Names>, method: Option<&str>, tolerance: Option<Number>) -> PyResult<String> {
+        let scene = self.of_columns(columns, method, tolerance)?;
         Ok(explained(&scene, &scene.plan(&scene.columns).map_err(raised)?))
     }
 
@@ -257,26 +282,27 @@ impl Scene {
     #[pyo3(signature = (end=None, *, method=None, tolerance=None))]
     fn motion(
         slf: Bound<'_, Self>,
-        end: Option<f64>,
+        py: Python<'_>,
+        end: Option<Number>,
         method: Option<String>,
-        tolerance: Option<f64>,
+        tolerance: Option<Number>,
     ) -> PyResult<Motion> {
-        let scene = slf.get().with(None, method.as_deref(), tolerance)?;
-        let end = end.unwrap_or(scene.times.last());
-        Motion::new(slf.unbind(), scene, end, method)
+        let scene = slf.get().with(method.as_deref(), tolerance)?;
+        let end = end.map_or(scene.times.last(), |Number(end)| end);
+        Motion::new(py, slf.unbind(), scene, end, method)
     }
 
     /// How well measurements of the scene would determine its parameters. `observe` has the standard deviation of each kind of data in the units of the scene, as
     /// `{"arrivals": 1e-4, "widths": 1e-4}`; kinds are arrivals, closest_approaches, widths, periods, h_plus, h_cross and strain. `parameters` are names (docs/inference.md); if none are given, those that such data can determine.
     #[pyo3(signature = (observe, parameters=None))]
-    fn fisher(&self, py: Python<'_>, observe: BTreeMap<String, f64>, parameters: Option<Vec<String>>) -> PyResult<Fit> {
+    fn fisher(&self, py: Python<'_>, observe: BTreeMap<String, Number>, parameters: Option<Names>) -> PyResult<Fit> {
         let (measurement, signal) = self.measured(&observe, parameters)?;
         let fisher = py.detach(|| {
             let events = measurement.events(&signal)?;
             let data = data_of(&signal, &events, &measurement.samples(), &measurement.noise)?;
             Fisher::of(&measurement.parameters, &events, &data, &measurement.unknowns)
         });
-        Ok(Fit::of_fisher(&fisher.map_err(raised)?, |unknown| measurement.unit(unknown).0))
+        Ok(Fit::of_fisher(&fisher.map_err(raised)?, |unknown| measurement.unit(unknown)))
     }
 
     /// Fits parameters of the scene to data: tables of `pulses()` and of `table(["h"])`, or paths of such files. `observe` and `parameters` are as for `fisher`; the fit starts from the values of the scene.
@@ -285,8 +311,8 @@ impl Scene {
         &self,
         py: Python<'_>,
         data: Vec<Bound<'_, PyAny>>,
-        observe: BTreeMap<String, f64>,
-        parameters: Option<Vec<String>>,
+        observe: BTreeMap<String, Number>,
+        parameters: Option<Names>,
     ) -> PyResult<Fit> {
         let (measurement, signal) = self.measured(&observe, parameters)?;
         let read = |(k, one): (usize, &Bound<'_, PyAny>)| match one.cast::<Table>() {
@@ -294,14 +320,14 @@ impl Scene {
             Err(_) => DataFile::read(&one.extract::<PathBuf>()?.to_string_lossy()).map_err(raised),
         };
         let tables = data.iter().enumerate().map(read).collect::<PyResult<Vec<_>>>()?;
-        let (data, _) = measurement.data_in(&tables, &signal).map_err(raised)?;
+        let (data, _) = measurement.data_in(&tables, &signal).map_err(by_arguments)?;
         let found = py.detach(|| {
             let found = fit(&measurement.parameters, &data, &measurement.unknowns, measurement.end)?;
             let nonlinearity = nonlinearity(&found.fisher, &data, measurement.end).unwrap_or(f64::INFINITY);
             Ok::<_, InferenceError>((found, nonlinearity))
         });
         let (found, nonlinearity) = found.map_err(raised)?;
-        Ok(Fit::of_fit(found, |unknown| measurement.unit(unknown).0, nonlinearity))
+        Ok(Fit::of_fit(found, |unknown| measurement.unit(unknown), nonlinearity))
     }
 
     /// The pulsar over decades: arrival times, its timing model, its wave. The scene needs `time.epoch`, `[observer]` and `[pulsar]`.

@@ -8,14 +8,15 @@ use pyo3::types::{PyBytes, PyDict};
 use twofold_scene::sweep::{Identity, Spool, SpoolFiles, Sweep as Checked, SweepText, csv_line, errors_beside};
 
 use crate::error::raised;
+use crate::interrupt::in_parts;
 use crate::pickle::{Reduced, called_with};
 use crate::table::Table;
 
 /// Name and text of a sweep file, and name and text of its scene if that is another file.
 type Texts = (String, String, Option<(String, String)>);
 
-/// Scenes computed between two looks for Ctrl-C.
-const AT_ONCE: u64 = 256;
+/// Scenes computed together at least, in the lanes of vector registers.
+const TOGETHER: u64 = 8;
 
 /// Many scenes: grids, lists and random draws over the parameters of one (docs/sweep.md). `Sweep("grid.toml")` reads a file, `Sweep(toml=text)` a text.
 ///
@@ -52,7 +53,7 @@ impl Sweep {
         }
         let text = match (path, toml) {
             (Some(path), None) => {
-                let path: String = py.import("os")?.call_method1("fspath", (path,))?.extract()?;
+                let path: String = py.import("os")?.call_method1("fsdecode", (path,))?.extract()?;
                 SweepText::read(&path)
             }
             (None, Some(text)) => SweepText::of("sweep", text),
@@ -86,16 +87,15 @@ impl Sweep {
         }
         let sweep = Checked::new(&self.text).map_err(raised)?;
         let [mut rows, mut errors] = [Vec::new(), Vec::new()];
-        let (mut next, mut failed) = (start, 0);
-        while next < stop {
-            py.check_signals()?;
-            let end = stop.min(next + AT_ONCE);
-            let ([more, more_errors], more_failed) = py.detach(|| sweep.rows(next..end));
+        let mut failed = 0;
+        in_parts(py, (stop - start).div_ceil(TOGETHER) as usize, |part| {
+            let [first, end] = [part.start, part.end].map(|group| stop.min(start + TOGETHER * group as u64));
+            let ([more, more_errors], more_failed) = sweep.rows(first..end);
             rows.extend(more);
             errors.extend(more_errors);
             failed += more_failed;
-            next = end;
-        }
+            Ok::<_, twofold::Error>(())
+        })?;
         Ok((PyBytes::new(py, &rows), PyBytes::new(py, &errors), failed))
     }
 

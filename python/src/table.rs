@@ -1,6 +1,6 @@
 //! Tables: columns by name, as the command writes them.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
@@ -29,6 +29,10 @@ impl Table {
     /// A table that is written as CSV.
     pub fn of_csv(csv: Vec<u8>) -> Result<Self, String> {
         let (columns, rows) = columns_of(&csv)?;
+        let mut names = HashSet::new();
+        if let Some(twice) = columns.iter().find(|column| !names.insert(&column.name)) {
+            return Err(format!("two columns have the name `{}`: allowed is one", twice.name));
+        }
         Ok(Self { csv, columns, rows })
     }
 }

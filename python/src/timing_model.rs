@@ -1,9 +1,11 @@
 //! The phase of a wobbling pulsar that slows down, for timing programs.
 
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{PyDict, PyMappingProxy, PyTuple};
 use twofold::observables::pulsar::timing_model::{self, TimingParameter};
 
+use crate::arguments::{Number, number};
 use crate::arrays::Numbers;
 use twofold_scene::measurements::named;
 
@@ -20,6 +22,14 @@ pub struct TimingModel {
     pub(crate) model: timing_model::TimingModel,
 }
 
+/// Numbers of pulses that are allowed.
+pub const WHOLE: &str = "a whole number, up to 2^53 in size";
+
+/// Whether a number is one of these.
+pub fn is_whole(number: f64) -> bool {
+    number.fract() == 0.0 && number.abs() <= (1_u64 << 53) as f64
+}
+
 /// The small parts of times, where the times are finite.
 fn small_parts(t: &Numbers, rest: Option<Numbers>) -> PyResult<Vec<f64>> {
     let rest = rest.map_or_else(|| Ok(vec![0.0; t.values.len()]), |rest| t.beside("rest", rest))?;
@@ -32,10 +42,14 @@ fn small_parts(t: &Numbers, rest: Option<Numbers>) -> PyResult<Vec<f64>> {
 #[pymethods]
 impl TimingModel {
     #[new]
-    #[pyo3(signature = (f0, f0_rest=0.0, **parameters: "float"))]
-    fn new(f0: f64, f0_rest: f64, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+    #[pyo3(signature = (f0, f0_rest: "SupportsFloat | SupportsIndex"=0.0, **parameters: "float"))]
+    fn new(
+        f0: Number,
+        #[pyo3(from_py_with = number)] f0_rest: f64,
+        parameters: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
         let given = parameters.map_or_else(|| Ok(Vec::new()), values)?;
-        Ok(Self { model: timing_model::TimingModel::new([f0, f0_rest], &given).map_err(raised)? })
+        Ok(Self { model: timing_model::TimingModel::new([f0.0, f0_rest], &given).map_err(raised)? })
     }
 
     /// The names of the parameters, in the order of derivatives.
@@ -44,12 +58,12 @@ impl TimingModel {
         PyTuple::new(py, TimingParameter::ALL.map(TimingParameter::key))
     }
 
-    /// The unit of each parameter.
+    /// The unit of each parameter. It cannot be changed.
     #[classattr]
-    fn units(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    fn units(py: Python<'_>) -> PyResult<Bound<'_, PyMappingProxy>> {
         let units = PyDict::new(py);
         TimingParameter::ALL.iter().try_for_each(|parameter| units.set_item(parameter.key(), parameter.unit()))?;
-        Ok(units)
+        Ok(PyMappingProxy::new(py, units.as_mapping()))
     }
 
     /// The value of a parameter.
@@ -84,6 +98,14 @@ impl TimingModel {
         Ok((whole, t.shaped(py, found.iter().map(|turns| turns.fraction).collect(), &[])?))
     }
 
+    /// The rate of the phase at times (Hz): of a phase off by `x` turns the pulse is late by `x` over this rate.
+    #[pyo3(signature = (t, rest=None))]
+    fn phase_rate<'py>(&self, py: Python<'py>, t: Numbers, rest: Option<Numbers>) -> PyResult<Bound<'py, PyAny>> {
+        let rest = small_parts(&t, rest)?;
+        let found = t.map(py, |k, t| self.model.phase_rate([t, rest[k]]))?;
+        t.shaped(py, found, &[])
+    }
+
     /// The phase as from `phase`, and its derivatives (turns per unit of each parameter): an array of shape (..., 13).
     #[pyo3(signature = (t, rest=None))]
     fn phase_and_derivatives<'py>(
@@ -103,7 +125,7 @@ impl TimingModel {
     /// The arrival times of the pulses with given numbers: two arrays whose sum is the time.
     fn arrival<'py>(&self, py: Python<'py>, number: Numbers) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         for value in &number.values {
-            twofold::Error::ensure(value.fract() == 0.0, "number", *value, "a whole number").map_err(raised)?;
+            twofold::Error::ensure(is_whole(*value), "number", *value, WHOLE).map_err(raised)?;
         }
         let found = number.map(py, |_, number| self.model.arrival(number as i64))?;
         let [t, rest] = [0, 1].map(|part| number.shaped(py, found.iter().map(|time| time[part]).collect(), &[]));
@@ -112,6 +134,7 @@ impl TimingModel {
 
     /// The widths of pulses (s) near times.
     fn width<'py>(&self, py: Python<'py>, t: Numbers) -> PyResult<Bound<'py, PyAny>> {
+        small_parts(&t, None)?;
         let found = t.map(py, |_, t| self.model.width(t))?;
         t.shaped(py, found, &[])
     }
@@ -147,8 +170,15 @@ impl TimingModel {
 fn values(given: &Bound<'_, PyDict>) -> PyResult<Vec<(TimingParameter, f64)>> {
     let read = |(name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
         let name: String = name.extract()?;
-        let number = value.extract().map_err(|_| raised(format!("{name}: allowed is a number")))?;
-        Ok((timing_parameter(&name)?, number))
+        let parameter = timing_parameter(&name)?;
+        let number = number(&value).map_err(|error| {
+            if error.is_instance_of::<PyTypeError>(value.py()) {
+                PyTypeError::new_err(format!("{name}: {}", error.value(value.py())))
+            } else {
+                error
+            }
+        })?;
+        Ok((parameter, number))
     };
     given.iter().map(read).collect()
 }

@@ -2,35 +2,27 @@
 
 use std::io::{self, Write};
 use std::sync::OnceLock;
+use std::time::Instant;
 
 use pyo3::prelude::*;
 use twofold_scene::trajectory::TrajectoryError;
 
 use crate::error::raised;
+use crate::interrupt::LOOKED_EVERY;
 use crate::table::Table;
-
-/// Bytes written between two looks for Ctrl-C.
-const BYTES_AT_ONCE: usize = 1 << 16;
 
 /// Parts of the work between two calls of `progress`.
 const STEP: f64 = 0.01;
 
-/// What is written, and why to stop.
+/// What is written, unless there is a reason to stop.
 struct Writing<'s> {
     bytes: Vec<u8>,
-    looked: usize,
     stopped: &'s OnceLock<PyErr>,
 }
 
 impl Write for Writing<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.bytes.extend_from_slice(bytes);
-        if self.bytes.len() - self.looked > BYTES_AT_ONCE {
-            self.looked = self.bytes.len();
-            if let Err(signal) = Python::attach(|py| py.check_signals()) {
-                let _ = self.stopped.set(signal);
-            }
-        }
         if self.stopped.get().is_some() { Err(io::ErrorKind::Other.into()) } else { Ok(bytes.len()) }
     }
 
@@ -46,10 +38,16 @@ pub fn written<T: Send>(
     write: impl FnOnce(&mut dyn Write, &mut dyn FnMut(f64)) -> Result<T, TrajectoryError> + Send,
 ) -> PyResult<Table> {
     let stopped = OnceLock::new();
-    let mut writing = Writing { bytes: Vec::new(), looked: 0, stopped: &stopped };
-    let mut told = -STEP;
+    let mut writing = Writing { bytes: Vec::new(), stopped: &stopped };
+    let (mut told, mut looked) = (-STEP, Instant::now());
     let result = py.detach(|| {
         let mut tell = |part: f64| {
+            if looked.elapsed() >= LOOKED_EVERY {
+                looked = Instant::now();
+                if let Err(signal) = Python::attach(|py| py.check_signals()) {
+                    let _ = stopped.set(signal);
+                }
+            }
             let Some(progress) = progress.as_ref().filter(|_| part >= told + STEP && stopped.get().is_none()) else {
                 return;
             };

@@ -57,6 +57,7 @@ FUNCTIONS = [
     (MOTION.error, ()),
     (lambda t: MODEL.phase(t)[1], ()),
     (lambda t: MODEL.phase_and_derivatives(t)[2], (13,)),
+    (MODEL.phase_rate, ()),
     (lambda t: MODEL.arrival(t)[0], ()),
     (MODEL.width, ()),
     (kernels.fluid_inertia_over_c, ()),

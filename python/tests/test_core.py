@@ -1,9 +1,12 @@
 """The package's arrays against each other, against formulas in numpy, and at its interface to Python."""
 
+import functools
 import pickle
 import signal
 import subprocess
 import sys
+import threading
+import time
 import types
 
 import numpy as np
@@ -131,7 +134,14 @@ class TestScene:
             (lambda: twofold.Scene("tp-1").lines("alpha"), ["alpha", "without bound"]),
             (lambda: twofold.Scene("tp-1").pulsar(), ["physical"]),
             (lambda: twofold.Scene("tp-1").motion(method="euler"), ["euler", "taylor"]),
-            (lambda: twofold.Scene("tp-1").fisher({"arrival": 1.0}), ["arrival", "arrivals"]),
+            (lambda: twofold.Scene("tp-1").fisher({"arrival": 1.0}), ["observe: `arrival`", "arrivals"]),
+            (lambda: twofold.Scene("tp-1").fisher({"arrivals:1e-4,widths": 1e-3}, ["eps"]), ["observe: `arrivals:1e-4,widths`", "one name"]),
+            (lambda: twofold.Scene("tp-1").fisher({}), ["observe: none"]),
+            (lambda: twofold.Scene("tp-1").fisher({"arrivals": 1e-4}, ["eps,spin"]), ["parameters: `eps,spin`", "one name"]),
+            (lambda: twofold.Scene("tp-1").fisher({"arrivals": 1e-4}, ["epss"]), ["parameters: `epss`", "`eps`"]),
+            (lambda: twofold.Scene("free", observer=None).fisher({"h_plus": 1e-4}), ["observe h_plus: the scene lacks"]),
+            (lambda: twofold.Scene("tp-2").lines("m.n", most=0), ["most = 0", "1 and above"]),
+            (lambda: twofold.Table(b"a [s],b,a [d]\n1,2,3\n"), ["two columns", "`a`"]),
         ],
     )
     def test_bad_input_is_named(self, make, words):
@@ -139,7 +149,56 @@ class TestScene:
             make()
         for word in words:
             assert word in str(caught.value)
-        assert isinstance(caught.value, ValueError)
+        assert isinstance(caught.value, ValueError) and "--" not in str(caught.value)
+
+    @pytest.mark.parametrize("bare", [{}, {"method": "averaged"}])
+    def test_a_scene_whose_columns_cannot_be_written(self, bare):
+        """As with the command, only a table of the columns of the file needs what these need."""
+        scene = twofold.Scene("b1828-11", observer={"distance": None}, output=bare)
+        assert "\"h\"" in scene.toml and pickle.loads(pickle.dumps(scene)) == scene
+        whole = twofold.Scene("b1828-11")
+        assert scene.pulsar().arrivals([49621.0, 50000.0], derivatives=0).table["pulse"][0] == 0.0
+        assert np.allclose(scene.motion(end=1.0).axis(1.0), whole.motion(end=1.0).axis(1.0), atol=1e-12)
+        assert "method" in scene.plan(["e_z"]) and scene.epoch == whole.epoch and scene.pulsar().period == whole.pulsar().period
+        for refused in (scene.table, scene.plan):
+            with pytest.raises(twofold.Error, match=r'"h": the scene lacks `observer.distance` \[kpc\]'):
+                refused()
+        # What else is wrong is still refused at once.
+        with pytest.raises(twofold.Error, match="star.spn"):
+            twofold.Scene("b1828-11", observer={"distance": None}, star={"spn": 1.0})
+
+    @pytest.mark.parametrize(
+        ("call", "words"),
+        [
+            (lambda: twofold.TimingModel(True), "real number"),
+            (lambda: twofold.TimingModel("3"), "real number"),
+            (lambda: twofold.TimingModel(2.0, np.True_), "real number"),
+            (lambda: twofold.TimingModel(2.0, f1="3"), "f1: allowed is a real number"),
+            (lambda: twofold.TimingModel(2.0, chi=True), "chi: allowed is a real number"),
+            (lambda: twofold.TimingModel([2.0]), "real number"),
+            (lambda: twofold.TimingModel(2.0).moved(f1=None), "f1: allowed is a real number"),
+            (lambda: twofold.TimingData.read([], None), "epoch: allowed is a modified Julian date"),
+            (lambda: twofold.TimingData.read([], True), "epoch: allowed is a modified Julian date"),
+            (lambda: twofold.Scene("tp-2").motion(True), "real number"),
+            (lambda: twofold.Scene("tp-2").table(["e_z"], tolerance="1"), "real number"),
+            (lambda: twofold.Scene("tp-2").lines("m.n", least=True), "real number"),
+            (lambda: twofold.Scene("tp-2").fisher({"arrivals": True}), "real number"),
+            (lambda: twofold.Scene("tp-2").table("h"), "the text 'h': allowed is a list of names"),
+            (lambda: twofold.Scene("tp-2").fisher({"arrivals": 1.0}, "eps"), "the text 'eps'"),
+            (lambda: twofold.fit_timing(twofold.TimingModel(1.0), twofold.TimingData([1.0], 1.0), "phase"), "the text 'phase'"),
+        ],
+    )
+    def test_an_argument_of_another_type(self, call, words):
+        with pytest.raises(TypeError) as caught:
+            call()
+        assert words in str(caught.value)
+
+    def test_numbers_of_all_types(self):
+        models = [twofold.TimingModel(number, f1=number) for number in (2, 2.0, np.float64(2), np.float32(2), np.int8(2), np.array(2))]
+        assert all(model == models[0] for model in models)
+
+    def test_a_name_in_bytes(self, tmp_path):
+        assert twofold.Scene(b"tp-2") == twofold.Scene("tp-2")
 
 
 class TestMotion:
@@ -234,6 +293,16 @@ class TestMotion:
             assert np.allclose(getattr(later, name)(100.0 + times), getattr(motion, name)(times), rtol=1e-9, atol=1e-12)
         assert np.allclose(later.state(100.0 + times), motion.state(times), rtol=1e-9, atol=1e-12)
 
+    @pytest.mark.parametrize("call", ["axis", "state", "angles", "error"])
+    @pytest.mark.parametrize(("given", "first", "last"), [(50.0, 100.0, 150.0), (-50.0, 50.0, 100.0)])
+    def test_the_time_that_is_refused_is_the_one_given(self, call, given, first, last):
+        motion = twofold.Scene("tp-2", time={"start": 100.0, "span": given}).motion()
+        for t in (first - 40.0, last + 1.0):
+            with pytest.raises(twofold.Error) as caught:
+                getattr(motion, call)([first, t])
+            assert str(caught.value) == f"t = {t} t_c: allowed is the span of the motion, from {first} to {last} t_c"
+        getattr(motion, call)([first, last])
+
     def test_pickled(self, motion):
         again = pickle.loads(pickle.dumps(motion))
         assert np.array_equal(again.axis([1.0, 399.0]), motion.axis([1.0, 399.0]))
@@ -313,6 +382,56 @@ class TestTable:
             run.send_signal(signal.SIGINT)
             _, errors = run.communicate()
         assert run.returncode != 0 and b"KeyboardInterrupt" in errors
+
+
+class TestInterrupts:
+    def test_arrays_of_numpy_are_known_from_the_import_on(self):
+        """A Ctrl-C that waits to be handled must not meet the import of numpy's functions in the first result."""
+        program = (
+            "import sys, numpy, twofold\n"
+            "motion = twofold.Scene('tp-2').motion()\n"
+            "for name in ('numpy.core.multiarray', 'numpy._core.multiarray'):\n"
+            "    sys.modules[name] = None\n"
+            "print(motion.axis(1.0).shape)"
+        )
+        assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False).stdout == "(3,)\n"
+
+    def test_signals_are_handled_between_costly_values(self, scene, interrupted):
+        # Turns are followed from the start: a second in all.
+        motion = scene.motion(end=2e5)
+        interrupted(lambda: motion.angles(np.linspace(0.0, 2e5, 8000)))
+
+    def test_signals_are_handled_in_tables_of_few_rows(self, interrupted):
+        """Pulses of a beam that never meets the line of sight."""
+        dark = twofold.Scene("tp-2", time={"span": 2e5}, pulsar={"rho": 1e-3}, output={"method": "taylor"})
+        interrupted(dark.pulses)
+
+    @pytest.mark.parametrize(
+        "call",
+        [
+            lambda scene: lambda: scene.motion(end=3e4, method="taylor"),
+            lambda scene: functools.partial(scene.motion(end=1e5).angles, 1e5),
+            lambda scene: functools.partial(scene.motion(end=3e4, method="taylor").error, 3e4),
+        ],
+    )
+    def test_other_threads_go_on_while_a_value_is_computed(self, scene, call):
+        call = call(scene)
+        begun, over, times = threading.Event(), threading.Event(), []
+
+        def go_on():
+            begun.set()
+            while not over.is_set():
+                times.append(time.perf_counter())
+
+        thread = threading.Thread(target=go_on)
+        thread.start()
+        begun.wait()
+        first = time.perf_counter()
+        call()
+        last = time.perf_counter()
+        over.set()
+        thread.join()
+        assert any(0.25 < (t - first) / (last - first) < 0.75 for t in times)
 
 
 class TestPulsar:
@@ -429,6 +548,20 @@ class TestTimingModel:
             # Rounding of 1e-13 turn over the step, and the third derivative.
             assert np.allclose(column, difference, rtol=1e-5, atol=1e-12 / step), name
 
+    def test_times_off_by_three_standard_deviations(self):
+        """Residuals and error bars of a star that loses a twentieth of its rotation, by the rate of its phase at each arrival."""
+        model = twofold.TimingModel(30.0, f1=-3e-10, f2=9e-21)
+        numbers = np.round(np.linspace(2e9, 1.4e11, 40))
+        t, rest = model.arrival(numbers)
+        rates = model.phase_rate(t, rest)
+        after = model.phase(t, rest + 0.5 / rates)
+        assert np.abs((after[0] - numbers) + after[1] - 0.5).max() < 1e-9
+        late = np.where(np.arange(40) % 2, 3.0, -3.0)
+        data = twofold.TimingData(t, 1e-4, rest=rest + 1e-4 * late, numbers=numbers)
+        found = twofold.fit_timing(model, data, ["phase"])
+        assert found.sigmas[0] == pytest.approx(1e-4 / np.sqrt(np.sum(rates**-2.0)), rel=1e-9)
+        assert np.allclose(np.abs(found.residuals), 3.0, atol=0.02) and found.chi_squared == pytest.approx(360.0, rel=1e-3)
+
     def test_widths_without_a_wobble_are_those_of_a_cone(self):
         model = twofold.TimingModel(2.5, chi=1.2, inclination=1.0, rho=0.4)
         expected = kernels.pulse_width(0.4, 1.2, 1.0) / (2 * np.pi * 2.5)
@@ -458,6 +591,8 @@ class TestTimingModel:
 
     def test_units_are_those_of_derivatives_of_turns(self):
         units = twofold.TimingModel.units
+        with pytest.raises(TypeError):
+            units["f0"] = "mHz"
         assert tuple(units) == twofold.TimingModel.names
         assert [units[name] for name in ("phase", "f0", "f1", "f2", "chi", "precession_rate", "damping")] == ["1", "Hz", "Hz/s", "Hz/s^2", "rad", "rad/s", "1/s"]
 
@@ -474,19 +609,34 @@ class TestTimingModel:
             (lambda: twofold.TimingModel(-1.0), ["f0", "-1", "above zero"]),
             (lambda: twofold.TimingModel(1.0, wobbel=0.1), ["wobbel", "wobble"]),
             (lambda: twofold.TimingModel(1.0, wobble=2.0), ["wobble", "2"]),
-            (lambda: twofold.TimingModel(1.0, chi="x"), ["chi", "number"]),
             (lambda: twofold.TimingModel(1.0).phase([1.0, 2.0], [1.0]), ["rest", "shape"]),
             (lambda: twofold.TimingModel(1.0).arrival(0.5), ["number", "whole"]),
+            (lambda: twofold.TimingModel(1.0).arrival(1e300), ["number = 1e300", "2^53"]),
+            (lambda: twofold.TimingModel(1.0, rho=0.3, inclination=1.5).width([1.0, np.nan]), ["t (s) = NaN", "finite"]),
+            (lambda: twofold.Scene("wave-source", time={"epoch": "58000.0"}, pulsar={"chi": 1.0, "rho": 0.3}).pulsar().wave(np.nan), ["t (s) = NaN", "finite"]),
+            (lambda: twofold.Scene("b1828-11").pulsar().wave_harmonics([0.0, np.inf]), ["t (s) = inf", "finite"]),
+            (lambda: twofold.TimingData([np.nan], 1.0), ["times (s) = NaN", "finite"]),
+            (lambda: twofold.TimingData([1.0], 1.0, rest=np.inf), ["rest (s) = inf", "finite"]),
+            (lambda: twofold.TimingData([1.0], 1.0, numbers=[1e300]), ["numbers = 1e300", "2^53"]),
+            (lambda: twofold.TimingData([1.0], 1.0, numbers=[-np.inf]), ["numbers = -inf", "whole"]),
+            (lambda: twofold.TimingData(width_times=[np.inf], widths=[1.0], width_sigmas=[1.0]), ["width_times (s) = inf", "finite"]),
+            (lambda: twofold.TimingData(width_times=[1.0], widths=[0.0], width_sigmas=[1.0]), ["widths (s) = 0", "above zero"]),
+            (lambda: twofold.TimingData(width_times=[1.0], widths=[np.nan], width_sigmas=[1.0]), ["widths (s) = NaN", "finite"]),
+            (lambda: twofold.TimingData(width_times=[1.0], widths=[1.0], width_sigmas=[0.0]), ["width_sigmas (s) = 0", "above zero"]),
+            (lambda: twofold.TimingData([1.0, 2.0, 1.0], 1.0, rest=[1e-9, 0.0, 1e-9]), ["t = 1.0 s", "twice", "measured once"]),
+            (lambda: twofold.TimingData(width_times=[3.0, 3.0], widths=[0.5, 0.5], width_sigmas=[1.0, 2.0]), ["t = 3.0 s", "twice"]),
+            (lambda: twofold.fit_timing(twofold.TimingModel(1.0), twofold.TimingData([1.0], 1.0), ["phase,f0"]), ["unknowns", "`phase,f0`", "one name"]),
+            (lambda: twofold.fit_timing(twofold.TimingModel(1.0), twofold.TimingData([1.0], 1.0), []), ["unknowns", "none"]),
+            (lambda: twofold.wobble_limits(twofold.TimingModel(1.0), twofold.TimingData([1.0], 1.0), ["phse"], [1.0]), ["unknowns: `phse`", "`phase`"]),
             (lambda: twofold.TimingData([1.0, 2.0], [1.0]), ["sigmas", "1", "2"]),
             (lambda: twofold.TimingData([1.0]), ["sigmas"]),
-            (lambda: twofold.TimingData([1.0], [np.inf]), ["standard deviation", "inf"]),
+            (lambda: twofold.TimingData([1.0], [np.inf]), ["sigmas", "inf", "finite number above zero"]),
             (lambda: twofold.TimingData([[1.0]], 1.0), ["times", "one dimension"]),
             (lambda: twofold.TimingData(1.0, 1.0), ["times", "one dimension"]),
             (lambda: twofold.TimingData([1.0], 1.0, numbers=[0.5]), ["number", "0.5", "whole"]),
             (lambda: twofold.TimingData(width_times=[1.0], widths=[1.0, 2.0], width_sigmas=[1.0]), ["1 width_times, 2 widths and 1 width_sigmas"]),
             (lambda: twofold.TimingData(width_times=[1.0], widths=[1.0], width_sigmas=[]), ["1 width_times, 1 widths and 0 width_sigmas"]),
             (lambda: twofold.TimingData(width_times=[1.0], widths=[1.0], width_sigmas=[1.0, 2.0]), ["1 width_times, 1 widths and 2 width_sigmas"]),
-            (lambda: twofold.TimingData.read([], None), ["epoch", "modified Julian date"]),
             (lambda: twofold.TimingData.read([], -1.0), ["epoch", "-1", "0 to 1e7"]),
             (lambda: twofold.TimingData.read([], 1e7 + 1.0), ["epoch", "10000001", "0 to 1e7"]),
             (lambda: twofold.Scene("b1828-11").pulsar().arrivals().tim(0.0), ["uncertainty", "0", "above zero"]),
@@ -496,7 +646,7 @@ class TestTimingModel:
             (lambda: twofold.wobble_posterior([1.0, 2.0], [1.0], [1.0, 2.0]), ["across", "1 numbers", "2"]),
             (lambda: twofold.fit_timing(twofold.TimingModel(1.0), twofold.TimingData([1.0], 1.0), ["phase"], priors={"phase": 1.0}), ["priors", "phase", "pair"]),
             (lambda: twofold.fit_timing(twofold.TimingModel(1.0), twofold.TimingData([1.0], 1.0), ["phase"], priors={"phase": (np.nan, 1.0)}), ["mean of a prior"]),
-            (lambda: twofold.TimingData([1.0], [-1.0]), ["standard deviation", "-1"]),
+            (lambda: twofold.TimingData([1.0], [-1.0]), ["sigmas", "-1"]),
             (lambda: twofold.TimingModel(1.0).phase(1e19), ["phase", "9e15"]),
             (lambda: twofold.TimingModel(1.0).phase([0.0, np.nan]), ["t (s)", "finite"]),
             (lambda: twofold.wobble_limits(twofold.TimingModel(2.5, chi=1.4), twofold.TimingData(), ["phase"], [4e7]), ["0 data"]),
@@ -505,7 +655,7 @@ class TestTimingModel:
             (lambda: twofold.Scene("b1828-11").pulsar().arrivals([]), ["epochs", "none"]),
             (lambda: twofold.TimingModel(2.5, all=1.0), ["`all`", "one parameter"]),
             (lambda: twofold.Scene("tp-1", about={"a": 1}), ["about", "section"]),
-            (lambda: twofold.fit_timing(twofold.TimingModel(1.0), twofold.TimingData([1.0], 0.0), ["phase"]), ["deviation", "0"]),
+            (lambda: twofold.fit_timing(twofold.TimingModel(1.0), twofold.TimingData([1.0], 0.0), ["phase"]), ["sigmas", "0"]),
         ],
     )
     def test_bad_input_is_named(self, make, words):
@@ -530,6 +680,7 @@ class TestFits:
         pulls = (found.values - [0.0, 10.0])[0] / found.sigmas[0], (sum(found.model.frequency) - 10.0) / found.sigmas[1]
         assert np.abs(pulls).max() < 3.5
         assert found.judged == "as stated" and found.degrees == 48
+        assert found.units == {"phase": "1", "f0": "Hz"}
         assert found.chi_squared == pytest.approx((found.residuals**2).sum())
 
     def test_a_prior(self):
@@ -557,7 +708,7 @@ class TestFits:
         assert again == data and data != twofold.TimingData([1.0, 2.0], 1e-6)
         assert np.array_equal(again.numbers, [7.0, np.nan], equal_nan=True)
         assert np.array_equal(again.times, [[1.0, 1e-9], [2.0, 0.0]]) and np.array_equal(again.widths, [[1.0, 0.1, 0.01]])
-        with pytest.raises(twofold.Error, match="number = 0.5"):
+        with pytest.raises(twofold.Error, match="numbers = 0.5"):
             twofold.TimingData([1.0], 1e-6, numbers=[0.5])
 
     def test_data_from_files(self, tmp_path):
@@ -670,6 +821,7 @@ class TestFits:
         fisher = scene.fisher({"arrivals": 1e-5}, names)
         found = scene.fit([scene.pulses()], {"closest_approaches": 1e-5}, names)
         assert found.unknowns == names and fisher.unknowns == names
+        assert found.units == fisher.units == {"spin": "rad/t_c", "s_axial": "1"}
         assert np.abs((found.values - fisher.values) / found.sigmas).max() < 0.01
         assert np.all(fisher.sigmas > 0) and np.allclose(fisher.covariance, fisher.covariance.T)
 
@@ -688,8 +840,36 @@ class TestKernels:
         assert found.shape == (2, 3) and np.allclose(found, expected, rtol=1e-15)
         with pytest.raises(twofold.Error, match="broadcast"):
             kernels.pulse_width([0.1, 0.2], [0.1, 0.2, 0.3], 0.1)
-        with pytest.raises(twofold.Error, match="interval"):
-            kernels.combination_bound(1.0, 1.0, 0.0, 1.0, 1.0)
+
+    @pytest.mark.parametrize(
+        ("kernel", "inside", "outside"),
+        [
+            (kernels.pulse_width, (0.3, 1.0, 1.0), {"rho": (-0.3, 0.0, np.pi, 4.0), "theta": (-0.1, 3.2, 7.0), "theta_o": (-0.1, 3.2)}),
+            (kernels.anisotropic_potential, (0.02, 0.01, -0.03, 0.1, 0.2), dict.fromkeys(["s_xx", "s_yy", "s_zz", "alpha", "beta"], (np.inf,))),
+            (kernels.constant_c, (1e30, 1e4, 0.1), {"mass": (0.0, -1.0, np.inf), "radius": (0.0, -1.0), "oblateness": (-1.0, 1.0)}),
+            (kernels.inertia_over_c, (1e18, 1e-3), {"density": (-1e18, 0.0, np.inf), "oblateness": (-1e-3, 0.0, 1.0)}),
+            (kernels.fluid_inertia_over_c, (-2.0,), {"spin": (0.0, np.inf)}),
+            (kernels.lambda_change, (0.5, 1.0, 0.3, -1e-3), {"lambda_": (-0.1, 3.2), "chi": (-0.1, 3.2), "width": (-0.1, 7.0), "width_change": (np.inf,)}),
+            (
+                kernels.combination_bound,
+                (1e-7, -4e3, 4e8, -1e-4, 1.0),
+                {"inertia_over_c": (-1.0, 0.0), "spin": (np.inf,), "interval": (-1.0, 0.0), "cos_lambda_change": (-3.0, 3.0), "eta": (-1.0, 0.0)},
+            ),
+            (kernels.root_mean_square_eta, (0.3, 0.7), {"asymmetry_ratio": (np.inf,), "beta": (-0.1, 3.2)}),
+        ],
+    )
+    def test_arguments_outside_their_domains(self, kernel, inside, outside):
+        assert np.isfinite(kernel(*inside))
+        for place, (name, refused) in enumerate(outside.items()):
+            for value in (*refused, np.nan):
+                given = [*inside[:place], [inside[place], value], *inside[place + 1 :]]
+                with pytest.raises(twofold.Error, match=rf"^{name}( .*)? = \S+: allowed is"):
+                    kernel(*given)
+
+    def test_results_are_finite(self):
+        for call in (lambda: kernels.constant_c(1e300, 1e4, 0.1), lambda: kernels.fluid_inertia_over_c(1e-200), lambda: kernels.inertia_over_c(1e-300, 1e-15)):
+            with pytest.raises(twofold.Error, match="C .* = inf: allowed is a finite number"):
+                call()
 
     def test_potential(self):
         alpha, beta = 0.3, 0.7

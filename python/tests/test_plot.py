@@ -152,6 +152,18 @@ def test_shapes_over_years_are_as_late_and_as_wide_as_the_table_says():
         plot.waterfall(damped)
 
 
+def test_a_pulsar_whose_pulses_come_half_a_turn_after_whole_phases():
+    """The date of a whole phase is then as near to one pulse as to the next."""
+    scene = twofold.Scene("isolated-pulsar")
+    mesh = plot.waterfall(scene, rows=10, samples=801).collections[0]
+    light, corners = mesh.get_array().reshape(10, 801), mesh.get_coordinates()[0, :, 0]
+    x = (corners[1:] + corners[:-1]) / 2.0
+    table = scene.pulsar().arrivals().table
+    widths = [np.ptp(x[row > 0.1]) for row in light]
+    durations = table["duration"][np.linspace(0, len(table) - 1, 10).round().astype(int)]
+    np.testing.assert_allclose(np.array(widths) / widths[0], durations / durations[0], rtol=0.02)
+
+
 def test_uprights_stand_at_the_lines_and_bear_their_names():
     scene = twofold.Scene("tp-1")
     axes = plot.spectrum(scene, "m.n", least=1e-3, named=3)

@@ -447,6 +447,19 @@ def test_a_path_that_is_no_table_is_refused_before_the_work(path, tmp_path, monk
     assert not list(tmp_path.iterdir())
 
 
+def test_names_of_files_in_bytes(tmp_path):
+    (tmp_path / "grid.toml").write_text(GRID)
+    sweep = twofold.Sweep(os.fsencode(tmp_path / "grid.toml"))
+    with ThreadPoolExecutor(1) as executor:
+        sweep.write(os.fsencode(tmp_path / "table.csv"), executor)
+    assert (tmp_path / "table.csv").read_bytes() == sweep.run().csv
+
+
+def test_signals_are_handled_between_costly_scenes(interrupted):
+    costly = 'scene = "tp-2"\n[[vary]]\nparameter = "star.inertia_ratio"\ngrid = { from = 1.1, to = 1.2, points = 200 }\n[time]\ntimes = [1000.0]\n[output]\nmethod = "taylor"\ncolumns = ["e_z"]\n'
+    interrupted(twofold.Sweep(toml=costly).run)
+
+
 def test_any_built_in_scene_is_a_base():
     """A template can be varied; one with spin-down or a bulge is refused for that, not as unknown."""
     text = """

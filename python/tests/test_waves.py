@@ -71,6 +71,17 @@ def test_hands_follow_an_angular_momentum_that_turns():
             Waveform(pulsar, "twice")(dt)
 
 
+@pytest.mark.parametrize("s", [2e-2, 2e-4])
+@pytest.mark.parametrize("spin", [20.0, 200.0])
+def test_harmonics_lack_what_the_torque_does_within_a_turn(s, spin):
+    """The figure in docs/waves-in-python.md: proportional to s and to the inverse square of the spin."""
+    pulsar = source(eigenvalues=(s, s / 2, -1.5 * s), spin=spin)
+    dt = np.linspace(0.0, 50.0 / spin, 2001)
+    whole = np.array(pulsar.wave(dt))
+    off = abs(added(pulsar, 0.0, dt, ("right", "left"), knot_distance=1.0 / spin) - whole).max() / abs(whole[0]).max()
+    assert off == pytest.approx(0.0306 * s * (20.0 / spin) ** 2, rel=0.01)
+
+
 def test_a_strong_violation_by_hands():
     # L goes round in seconds. The harmonics are those of a torque-free star, so they are off by what s does to a turn, and no more: the hands add nothing to it.
     pulsar = source(eigenvalues=(1e-2, 0.5e-2, -1.5e-2), spin=2.0)

@@ -67,11 +67,8 @@ class TimingLikelihood(_Likelihood):  # type: ignore[misc, valid-type]
             # Numbers count from any one: the first that is known belongs to the nearest turn.
             first = int(np.argmax(known))
             self.numbers[known] = given[known] + (self.numbers[first] - given[first])
-        # Turns a second at each arrival: residuals are times.
-        step = 0.5 / model.frequency[0]
-        before, after = (model.phase(self._t + sign * step, self._rest) for sign in (-1, 1))
-        gap = (self._t + step) - (self._t - step)
-        self._scale = 1.0 / (self._sigmas * ((after[0] - before[0]) + (after[1] - before[1])) / gap)
+        # Residuals are times.
+        self._scale = 1.0 / (self._sigmas * model.phase_rate(self._t, self._rest))
         self._norm = -np.log(self._sigmas).sum() - len(self._t) / 2 * np.log(2 * np.pi)
         self._basis = np.zeros((len(self._t), 0))
         if self.marginalised:

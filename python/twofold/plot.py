@@ -260,8 +260,11 @@ def waterfall(
         # A torque along L only stretches time: the same pulses of the star that does not slow down have the same shapes.
         unbraked = Scene(toml=scene.toml, spin_down=None)
         steady = unbraked.pulsar()
-        dates = float(steady.epoch) + number * (steady.period / 86400.0)
-        found = steady.arrivals(dates).table
+        found = steady.arrivals(float(steady.epoch) + number * (steady.period / 86400.0)).table
+        if len(found) == len(number):
+            # Whether the date of a whole phase is nearer to the pulse of its number or to the next depends on the phase of the first one.
+            dates = found["arrival_day"] + found["arrival_fraction"] + (number - found["pulse"]) * (steady.period / 86400.0)
+            found = steady.arrivals(dates).table
         if not np.array_equal(found["pulse"], number):
             raise Error(f"scene {scene.name}: its pulses of equal number are not found again")
         since = (found["arrival_day"] - float(steady.epoch)) * 86400.0 + found["arrival_fraction"] * 86400.0

@@ -96,7 +96,7 @@ class Sweep(_twofold.Sweep):
 
     def write(
         self,
-        path: str | os.PathLike[str],
+        path: str | bytes | os.PathLike[str],
         executor: Executor,
         *,
         scenes_at_once: int | None = None,
@@ -109,7 +109,7 @@ class Sweep(_twofold.Sweep):
         The file grows as `path.partial` with a journal beside it. After an interruption, a dead worker or a loss of power the same call, or `twofold sweep`, continues
         where it ended. Scenes that failed are in `path.errors.csv`, with the reason.
         """
-        path = os.fspath(path)
+        path = os.fsdecode(path)
         if not path or os.path.isdir(path) or path.endswith(".parquet"):
             raise _twofold.Error(f"path = {path!r}: allowed is the name of a file of CSV; `twofold sweep` writes Parquet")
         self._sizes(scenes_at_once, parts_at_once)

@@ -1,6 +1,6 @@
 """
 Formulas of the paper and of the star, each checked by the project's suite (docs/equations.md). Arguments are scalars or arrays, which
-are broadcast as numpy does.
+are broadcast as numpy does. An argument outside its domain raises `twofold.Error`.
 """
 
 from numpy.typing import ArrayLike
@@ -30,7 +30,7 @@ def fluid_inertia_over_c(spin: ArrayLike) -> Any:
 
 def inertia_over_c(density: ArrayLike, oblateness: ArrayLike) -> Any:
     """
-    `I^zz / C` (s^2) of a star of density (kg/m^3) and oblateness, Eq. (43), estimated.
+    `I^zz / C` (s^2) of an oblate star of density (kg/m^3) and oblateness, Eq. (43), estimated.
     """
 
 def lambda_change(lambda_: ArrayLike, chi: ArrayLike, width: ArrayLike, width_change: ArrayLike) -> Any:

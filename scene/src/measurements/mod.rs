@@ -8,7 +8,7 @@ mod timing_data;
 pub use data_file::DataFile;
 pub use errors::{add_timing_noise, beside, with_noise};
 pub use measurement::{LeftOut, Measurement, named};
-pub use timing_data::read_timing;
+pub use timing_data::{measured_twice, read_timing};
 
 use twofold::Error;
 use twofold::inference::{Noise, Observable};

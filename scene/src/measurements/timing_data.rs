@@ -61,7 +61,7 @@ pub fn read_timing(
 }
 
 /// The time (s) of an arrival at the time of another one, or of a width with time and length of another one: no two measurements agree to sixteen digits.
-fn measured_twice(data: &TimingData) -> Option<[f64; 2]> {
+pub fn measured_twice(data: &TimingData) -> Option<[f64; 2]> {
     let (mut arrivals, mut widths) = (HashSet::new(), HashSet::new());
     let arrival =
         data.arrivals.iter().map(|arrival| arrival.time).find(|time| !arrivals.insert(time.map(f64::to_bits)));

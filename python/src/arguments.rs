@@ -1,0 +1,70 @@
+//! Arguments that are one number or a list of names.
+
+use pyo3::Borrowed;
+use pyo3::exceptions::PyTypeError;
+use pyo3::inspect::PyStaticExpr;
+use pyo3::prelude::*;
+use pyo3::types::PyString;
+
+use crate::arrays::Numbers;
+use crate::error::raised;
+
+/// One real number, of Python or numpy. A boolean is none.
+#[derive(Clone, Copy)]
+pub struct Number(pub f64);
+
+impl<'py> FromPyObject<'_, 'py> for Number {
+    type Error = PyErr;
+
+    const INPUT_TYPE: PyStaticExpr = f64::INPUT_TYPE;
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let refused = || PyTypeError::new_err("allowed is a real number");
+        let numbers = given
+            .extract::<Numbers>()
+            .map_err(|error| if error.is_instance_of::<PyTypeError>(given.py()) { refused() } else { error })?;
+        numbers.scalar().map(Self).ok_or_else(refused)
+    }
+}
+
+/// The same for an argument with a default.
+pub fn number(given: &Bound<'_, PyAny>) -> PyResult<f64> {
+    given.extract().map(|Number(number)| number)
+}
+
+/// A list of names.
+pub struct Names(pub Vec<String>);
+
+impl<'py> FromPyObject<'_, 'py> for Names {
+    type Error = PyErr;
+
+    const INPUT_TYPE: PyStaticExpr = Vec::<String>::INPUT_TYPE;
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(text) = given.cast::<PyString>() {
+            return Err(PyTypeError::new_err(format!("the text {}: allowed is a list of names", text.repr()?)));
+        }
+        given.extract().map(Self)
+    }
+}
+
+impl Names {
+    /// The names as a list that the command takes, without what would be another list there. `argument` is what they are given as.
+    pub fn listed(&self, argument: &str) -> PyResult<String> {
+        if self.0.is_empty() {
+            return Err(raised(format!("{argument}: none: allowed are one name and more")));
+        }
+        match self.0.iter().find(|name| name.contains([',', ':'])) {
+            Some(name) => {
+                Err(raised(format!("{argument}: `{name}` is not a name: allowed is one name without `,` and `:`")))
+            }
+            None => Ok(self.0.join(",")),
+        }
+    }
+}
+
+/// A message of the command with the arguments of Python in place of the command's options.
+pub fn by_arguments(message: impl ToString) -> PyErr {
+    let options = [("--simulate and strains", "strains"), ("--observe", "observe"), ("--parameters", "parameters")];
+    raised(options.iter().fold(message.to_string(), |text, (option, argument)| text.replace(option, argument)))
+}
