@@ -495,6 +495,10 @@ class TimingModel:
         """
         The phase as from `phase`, and its derivatives (turns per unit of each parameter): an array of shape (..., 13).
         """
+    def phase_rate(self, /, t: ArrayLike, rest: ArrayLike | None = None) -> Any:
+        """
+        The rate of the phase at times (Hz): of a phase off by `x` turns the pulse is late by `x` over this rate.
+        """
     def width(self, /, t: ArrayLike) -> Any:
         """
         The widths of pulses (s) near times.
