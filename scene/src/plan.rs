@@ -64,13 +64,6 @@ impl Scene {
         let request =
             Request { method: self.method, ..Request::new(outputs, span, self.times.count(), self.tolerance) };
         let plan = self.problem.plan(&request)?;
-        let last = self.times.start().abs().max(self.times.last().abs());
-        Error::ensure(
-            (last.next_up() - last) / self.units.time * self.turning_rate() <= 1.0,
-            "last time",
-            last,
-            "a time at which doubles resolve a radian of rotation",
-        )?;
         let rotation = self.rotation();
         Error::ensure(
             rotation <= LARGEST_ROTATION || plan.costs_the_same_at_any_time(),
