@@ -4,7 +4,7 @@ use pyo3::Borrowed;
 use pyo3::exceptions::PyTypeError;
 use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
-use pyo3::types::PyString;
+use pyo3::types::{PyBool, PyString};
 
 use crate::arrays::Numbers;
 use crate::error::raised;
@@ -20,10 +20,16 @@ impl<'py> FromPyObject<'_, 'py> for Number {
 
     fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         let refused = || PyTypeError::new_err("allowed is a real number");
-        let numbers = given
-            .extract::<Numbers>()
-            .map_err(|error| if error.is_instance_of::<PyTypeError>(given.py()) { refused() } else { error })?;
-        numbers.scalar().map(Self).ok_or_else(refused)
+        if given.is_instance_of::<PyBool>() {
+            return Err(refused());
+        }
+        match given.extract::<Numbers>() {
+            Ok(numbers) => numbers.scalar().map(Self).ok_or_else(refused),
+            // A number of another kind, as a `Fraction`; an array has its reason.
+            Err(_) if !given.hasattr("dtype")? => given.extract().map(Self).map_err(|_| refused()),
+            Err(error) if error.is_instance_of::<PyTypeError>(given.py()) => Err(refused()),
+            Err(error) => Err(error),
+        }
     }
 }
 
@@ -65,6 +71,11 @@ impl Names {
 
 /// A message of the command with the arguments of Python in place of the command's options.
 pub fn by_arguments(message: impl ToString) -> PyErr {
-    let options = [("--simulate and strains", "strains"), ("--observe", "observe"), ("--parameters", "parameters")];
+    let options = [
+        ("--simulate and strains", "strains"),
+        ("--observe", "observe"),
+        ("--parameters", "parameters"),
+        ("--causes", "causes"),
+    ];
     raised(options.iter().fold(message.to_string(), |text, (option, argument)| text.replace(option, argument)))
 }

@@ -24,6 +24,11 @@ pub mod kernels {
         Error::ensure(value.is_finite(), name, value, "a finite number").map(|()| value)
     }
 
+    /// A result that a double can hold.
+    fn result(name: &'static str, value: f64) -> Result<f64, Error> {
+        Error::ensure(value.is_finite(), name, value, "a finite double; other arguments give one").map(|()| value)
+    }
+
     fn positive(name: &'static str, value: f64) -> Result<(), Error> {
         Error::ensure(value > 0.0 && value.is_finite(), name, value, "a finite number above zero")
     }
@@ -68,7 +73,7 @@ pub mod kernels {
             let given = [("s_xx", xx), ("s_yy", yy), ("s_zz", zz), ("alpha (rad)", alpha), ("beta (rad)", beta)];
             given.into_iter().try_for_each(|(name, value)| finite(name, value).map(drop))?;
             let s = PrincipalCoefficients::new([xx, yy, zz]);
-            finite("the energy", dynamics::potential::anisotropic_potential_in_angles(1.0, &s, alpha, beta))
+            result("the energy", dynamics::potential::anisotropic_potential_in_angles(1.0, &s, alpha, beta))
         })
     }
 
@@ -85,7 +90,7 @@ pub mod kernels {
             positive("mass (kg)", mass)?;
             positive("radius (m)", radius)?;
             let star = UniformSpheroid::from_mass(mass, radius, SpheroidShape::from_oblateness(oblateness)?)?;
-            finite("C (J)", star.c() * twofold::units::si::GRAVITATIONAL_CONSTANT)
+            result("C (J)", star.c() * twofold::units::si::GRAVITATIONAL_CONSTANT)
         })
     }
 
@@ -96,7 +101,7 @@ pub mod kernels {
             positive("density (kg/m^3)", density)?;
             Error::ensure(oblateness > 0.0 && oblateness < 1.0, "oblateness", oblateness, "above zero and below 1")?;
             let density = density * twofold::units::si::GRAVITATIONAL_CONSTANT;
-            finite("I^zz / C (s^2)", star::estimates::inertia_over_c_estimate(density, oblateness))
+            result("I^zz / C (s^2)", star::estimates::inertia_over_c_estimate(density, oblateness))
         })
     }
 
@@ -105,7 +110,7 @@ pub mod kernels {
     fn fluid_inertia_over_c<'py>(py: Python<'py>, spin: Numbers) -> PyResult<Bound<'py, PyAny>> {
         broadcast(py, [spin], |[spin]| {
             Error::ensure(spin != 0.0 && spin.is_finite(), "spin (rad/s)", spin, "a finite number other than zero")?;
-            finite("I^zz / C (s^2)", bound::fluid_inertia_over_c(spin))
+            result("I^zz / C (s^2)", bound::fluid_inertia_over_c(spin))
         })
     }
 
@@ -147,7 +152,7 @@ pub mod kernels {
             Error::ensure(cosines, "cos_lambda_change", cos_lambda_change, "from -2 to 2")?;
             positive("eta", eta)?;
             let drift = SpinAxisDrift { polar_inertia_over_c, spin, interval, cos_lambda_change };
-            finite("the bound", drift.combination_bound(eta)?)
+            result("the bound", drift.combination_bound(eta)?)
         })
     }
 

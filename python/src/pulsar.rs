@@ -7,7 +7,7 @@ use twofold::epoch::Epoch;
 use twofold::observables::wave_harmonics::WaveHarmonics;
 use twofold_scene::pulsar_timing::{self, PulsarScene, csv, par, tim};
 
-use crate::arguments::number;
+use crate::arguments::{by_arguments, number};
 use crate::arrays::Numbers;
 use crate::error::raised;
 use crate::pickle::Reduced;
@@ -59,7 +59,7 @@ impl Pulsar {
             let par = par(&scene, &timing).map_err(|error| error.to_string())?;
             Ok::<_, String>((table, par, timing))
         });
-        let (table, par, timing) = found.map_err(raised)?;
+        let (table, par, timing) = found.map_err(by_arguments)?;
         Ok(Timing { table: Py::new(py, table)?, par, timing })
     }
 
@@ -86,7 +86,7 @@ impl Pulsar {
         self.pulsar.clock.period()
     }
 
-    /// Rates (rad/s) of the precession of the body about its axis and of its angular momentum. The first is that of `e_x` about `n` from the direction in which `n` circles `L`; `precession_rate` of
+    /// Rates (rad/s) of the precession of the body about its axis and of its angular momentum. The first is that of `e_x` about `n` relative to the plane of `n` and `L`, positive in the right-handed sense; `precession_rate` of
     /// `timing_model()` is minus this, since its angle goes from the magnetic axis, which the body carries, to `L`. The second is positive where the angular momentum goes in the right-handed sense round the principal axis of `s^IJ` that it circles, directed so that its largest component is positive.
     #[getter]
     fn precession_rates(&self) -> PyResult<[f64; 2]> {
@@ -108,7 +108,7 @@ impl Pulsar {
 
     /// The two harmonics of the wave at times, those of a star without a torque with the `L` and the wobble of each time: amplitudes `h_1` (once a turn) and `h_2` (twice), the phase `Phi` of the symmetry axis about `L` from the line of sight, in (-pi, pi], and the inclination, position angle
     /// and wobble (rad): six arrays. With them `h_+' = -h_1 sin(2i)/2 cos(Phi) + h_2 (1 + cos^2 i)/2 cos(2 Phi)` and `h_x' = -h_1 sin i sin(Phi) + h_2 cos i sin(2 Phi)` along the projection of `L` on the sky. They are the whole `wave` without Lorentz violation. With it, they differ from it by about the ratio
-    /// of the torque to the rotation, `C s / (I_xx Omega^2)`: for the scene `wave-source` at 20 Hz by 0.03 s of the largest strain, at 200 Hz by 3e-4 s.
+    /// of the torque to the rotation, `C s / (I_xx Omega^2)`: for the scene `wave-source` at 20 Hz by `0.03 s` of the largest strain, at 200 Hz by `3e-4 s`.
     fn wave_harmonics<'py>(&self, py: Python<'py>, t: Numbers) -> PyResult<Bound<'py, PyTuple>> {
         let unit = self.pulsar.strain_unit.unwrap_or(f64::NAN);
         let spheroid = self.pulsar.problem.spheroid();

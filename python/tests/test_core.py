@@ -868,7 +868,7 @@ class TestKernels:
 
     def test_results_are_finite(self):
         for call in (lambda: kernels.constant_c(1e300, 1e4, 0.1), lambda: kernels.fluid_inertia_over_c(1e-200), lambda: kernels.inertia_over_c(1e-300, 1e-15)):
-            with pytest.raises(twofold.Error, match="C .* = inf: allowed is a finite number"):
+            with pytest.raises(twofold.Error, match="C .* = inf: allowed is a finite double"):
                 call()
 
     def test_potential(self):

@@ -47,7 +47,7 @@ class Waveform:
     `psi` is that of lalpulsar, from the projection of `L` on the sky at the reference: it is an angle on the true sky if Z of the scene is the north pole (`observer.frame = "equatorial"`). `L` may turn: for a change of more than 1e-3 rad in
     position angle, a waveform with one `psi` is refused. Then take two, `hand="right"` and `hand="left"`: the circular parts of the harmonic, whose sum is the harmonic however `L` turns.
 
-    The harmonics are those of `Pulsar.wave_harmonics`. Without Lorentz violation their sum is `Pulsar.wave`; with it they lack about `C s / (I_xx Omega^2)` of it, 0.03 s for the scene `wave-source` at 20 Hz (docs/waves-in-python.md).
+    The harmonics are those of `Pulsar.wave_harmonics`. Without Lorentz violation their sum is `Pulsar.wave`; with it they lack about `C s / (I_xx Omega^2)` of it, `0.03 s` for the scene `wave-source` at 20 Hz (docs/waves-in-python.md).
 
     Turns are counted from knots `knot_distance` apart (s; 16384 periods if not given), at most a million on a side, between which the rate of turns may change smoothly. A strong violation of Lorentz symmetry, by which `L`
     precesses in some 1e5 turns or less, needs a smaller distance. A phase of `n` turns is rounded to `1.4e-15 n` rad: choose a reference within the data.

@@ -18,7 +18,7 @@ fn every_built_in_scene_runs() {
     for built_in in BUILT_IN {
         let scene = Scene::named(built_in.name).unwrap_or_else(|error| panic!("{error}"));
         assert!(!scene.about.is_empty() && scene.about.len() < 100, "{}", built_in.name);
-        let summary = trajectory::write_csv(&scene, std::io::sink(), |_| {}).expect(built_in.name);
+        let summary = trajectory::write_csv(&scene, std::io::sink(), |_| Ok(())).expect(built_in.name);
         assert_eq!(summary.rows, scene.times.iter().count(), "{}", built_in.name);
         assert_eq!(summary.rows_on_pole, 0, "{}", built_in.name);
     }
@@ -50,7 +50,7 @@ fn the_documented_scenes_run() {
     assert_eq!(examples.len(), 3);
     for example in examples {
         let scene = Scene::from_toml("docs/scenes.md", example).unwrap_or_else(|error| panic!("{error}"));
-        trajectory::write_csv(&scene, std::io::sink(), |_| {}).expect("motion");
+        trajectory::write_csv(&scene, std::io::sink(), |_| Ok(())).expect("motion");
     }
 }
 
@@ -205,7 +205,7 @@ fn a_physical_star_moves_as_in_its_own_units() {
 /// The table of a scene.
 fn csv(scene: &Scene) -> Vec<u8> {
     let mut table = Vec::new();
-    trajectory::write_csv(scene, &mut table, |_| {}).expect("motion");
+    trajectory::write_csv(scene, &mut table, |_| Ok(())).expect("motion");
     table
 }
 

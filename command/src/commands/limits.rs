@@ -66,7 +66,7 @@ impl Periods {
 
 fn periods(text: &str) -> Result<Periods, String> {
     let wrong = || {
-        "allowed are two periods from 1e-6 to 1e9 days and their number from 1 to 10000, as 50:5000:40; one period once"
+        "allowed are two periods from 1e-6 to 1e9 days and their number from 1 to 10000, as 50:5000:40; equal periods only with the number 1"
             .to_owned()
     };
     let [first, last, number] = text.split(':').collect::<Vec<_>>()[..] else { return Err(wrong()) };

@@ -181,12 +181,15 @@ pub(super) fn note_size(rows: f64, columns: usize) {
 pub(super) fn write<T>(
     args: &OutputArgs,
     scene: &Scene,
-    table: impl FnOnce(&mut dyn Write, &mut dyn FnMut(f64)) -> Result<T, TrajectoryError>,
+    table: impl FnOnce(&mut dyn Write, &mut dyn FnMut(f64) -> io::Result<()>) -> Result<T, TrajectoryError>,
 ) -> Result<Option<T>, Failure> {
     let output = args.out.as_deref().map(|path| OutputFile::beside(path, args.force)).transpose()?;
     note_units(scene);
     let mut progress = Progress::new(output.is_some() || !io::stdout().is_terminal());
-    let mut show = |part| progress.show(part);
+    let mut show = |part| {
+        progress.show(part);
+        Ok(())
+    };
     let summary = match &output {
         None => table(&mut standard_output()?, &mut show),
         Some(output) => table(&mut BufWriter::new(output.file()), &mut show),

@@ -164,7 +164,10 @@ pub(super) fn days_apart(times: impl ExactSizeIterator<Item = f64>) -> f64 {
 fn note_left_out(timing: &Timing, asked: usize) {
     let shared = asked - timing.pulses.len() - timing.dark;
     if shared > 0 {
-        note(&format!("{shared} of {asked} epochs are in the same turn as an earlier one: each pulse is written once"));
+        let are = if shared == 1 { "is" } else { "are" };
+        note(&format!(
+            "{shared} of {asked} epochs {are} in the same turn as an earlier one: each pulse is written once"
+        ));
     }
     if timing.dark > 0 {
         note(&format!(

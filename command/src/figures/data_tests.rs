@@ -52,7 +52,7 @@ fn run(scene: &Scene, group: &str, since_start: &[f64]) -> Columns {
     scene.choose_columns(&[group]).unwrap();
     scene.times = Times::Listed { start, times: since_start.iter().map(|t| start + t).collect() };
     let mut csv = Vec::new();
-    write_csv(&scene, &mut csv, |_| ()).unwrap();
+    write_csv(&scene, &mut csv, |_| Ok(())).unwrap();
     Columns::of(csv)
 }
 
@@ -157,7 +157,7 @@ fn periods_and_lengths_are_those_of_the_pulses() {
         scene.times = Times::Even { start, end: start + last[0] + last[1], samples: 2 };
         let mut csv = Vec::new();
         scene.pulsar.as_mut().unwrap().second_beam = false;
-        write_pulses(&scene, &mut csv, |_| ()).unwrap();
+        write_pulses(&scene, &mut csv, |_| Ok(())).unwrap();
         let pulses = Columns::of(csv);
         let whole: Vec<_> = pulses.column("cut").iter().map(|cut| cut.is_nan()).collect();
         let of = |head: &str| {

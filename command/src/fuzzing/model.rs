@@ -24,7 +24,7 @@ use twofold::propagation::{
     states_of_many,
 };
 use twofold::solutions::averaged::slow_precession::slow_precession;
-use twofold::solutions::averaged::{AveragingOrder, middle_axis_growth};
+use twofold::solutions::averaged::{AveragedSolution, AveragingOrder, middle_axis_growth};
 use twofold::solutions::free::free_precession_rates;
 use twofold::solutions::perturbation::{
     Constants, Form, Perturbation, Precession, constants_from_initial_values, shifted_rates,
@@ -188,6 +188,9 @@ fn closed(case: &Case) {
     }
     if let Ok(motion) = AveragedMotion::new(&problem, span) {
         look_within(&motion, case);
+    }
+    if let Ok(solution) = AveragedSolution::new(&problem, AveragingOrder::First) {
+        let _ = black_box((solution.state(span.1), solution.error_estimate(span.1)));
     }
 }
 

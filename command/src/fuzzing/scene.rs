@@ -27,12 +27,12 @@ fn run(scene: &Scene) {
     let is_short = is_small(scene);
     if is_short || plan.costs_the_same_at_any_time() && scene.times.count() <= SAMPLES {
         let mut table = Vec::new();
-        if write_csv(scene, &mut table, |_| {}).is_ok() {
+        if write_csv(scene, &mut table, |_| Ok(())).is_ok() {
             are_finite(&table);
         }
     }
     if is_short {
-        let _ = write_pulses(scene, std::io::sink(), |_| {});
+        let _ = write_pulses(scene, std::io::sink(), |_| Ok(()));
     }
     if let (Ok(pulsar), true) = (PulsarScene::new(scene), scene.times.count() <= SAMPLES) {
         let start = scene.times.start();

@@ -26,7 +26,7 @@ fn motion(name: &str, changes: &[(&str, &str)], columns: &[&str], fields: &[usiz
     let mut scene = Scene::from_toml(name, &altered(name, changes)).expect("a scene");
     scene.choose_columns(columns).expect("columns");
     let mut table = Vec::new();
-    trajectory::write_csv(&scene, &mut table, |_| {}).expect("motion");
+    trajectory::write_csv(&scene, &mut table, |_| Ok(())).expect("motion");
     rows(&table, fields)
 }
 
@@ -48,7 +48,7 @@ fn files() -> &'static [(&'static str, String)] {
         let (_, after) = rest.split_once("[observer]").expect("observer");
         let scene = Scene::from_toml("caption", &format!("{before}{caption}{after}")).expect("scene");
         let mut table = Vec::new();
-        trajectory::write_pulses(&scene, &mut table, |_| {}).expect("pulses");
+        trajectory::write_pulses(&scene, &mut table, |_| Ok(())).expect("pulses");
         let widths: Vec<_> =
             rows(&table, &[4, 5, 6]).lines().filter_map(|row| row.strip_suffix('\t').map(String::from)).collect();
         let stamps: Vec<f64> =

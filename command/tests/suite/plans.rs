@@ -15,7 +15,7 @@ fn with_columns(name: &str, columns: &[Output]) -> Scene {
 }
 
 fn written(scene: &Scene) -> Summary {
-    write_csv(scene, std::io::sink(), |_| {}).unwrap_or_else(|error| panic!("{error}"))
+    write_csv(scene, std::io::sink(), |_| Ok(())).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// What `work` may be at most, by the plan of the scene's columns.
@@ -106,7 +106,7 @@ fn one_far_time_does_not_pay_for_those_before() {
 fn pulses_evaluate_as_listed() {
     for name in ["free", "tp-1", "tp-2"] {
         let scene = scene(name);
-        let summary = write_pulses(&scene, std::io::sink(), |_| {}).expect("pulses");
+        let summary = write_pulses(&scene, std::io::sink(), |_| Ok(())).expect("pulses");
         let plan = scene.plan(&[Output::Pulses]).expect("plan");
         let listed = plan.prediction.expect("prediction").work;
         assert_eq!(plan.samples, 0);

@@ -42,7 +42,7 @@ fn every_built_in_pulsar_is_timed_and_runs() {
     for built_in in PULSARS {
         let scene = Scene::named(built_in.name).unwrap_or_else(|error| panic!("{error}"));
         assert!(!scene.about.is_empty() && scene.about.len() < 100 && scene.sources.len() >= 3, "{}", built_in.name);
-        let summary = trajectory::write_csv(&scene, std::io::sink(), |_| {}).expect(built_in.name);
+        let summary = trajectory::write_csv(&scene, std::io::sink(), |_| Ok(())).expect(built_in.name);
         assert_eq!(summary.rows, 1000, "{}", built_in.name);
         let folder = Folder::new();
         folder.succeeds(&["timing", built_in.name, "--epochs", "50", "--out", "."]);

@@ -229,7 +229,7 @@ pub fn named<U: Unknown>(list: &str, all: &[U]) -> Result<Vec<U>, String> {
     let mut found = Vec::new();
     for name in list.split(',').map(str::trim) {
         if name == "all" {
-            return Err("`all`: allowed is all alone, or the names of parameters".to_owned());
+            return Err("`all` beside others: allowed are `all` alone, or names of parameters".to_owned());
         }
         let unknown = all.iter().copied().find(|unknown| unknown.key() == name).ok_or_else(|| {
             let names: Vec<_> = all.iter().map(|unknown| unknown.key()).collect();

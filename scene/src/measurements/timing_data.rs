@@ -60,11 +60,17 @@ pub fn read_timing(
     Ok(data)
 }
 
+/// The sum of two doubles as the nearest double and the rest, however it was given.
+fn same([time, rest]: [f64; 2]) -> [f64; 2] {
+    let sum = time + rest;
+    [sum + 0.0, (rest - (sum - time)) + 0.0]
+}
+
 /// The time (s) of an arrival at the time of another one, or of a width with time and length of another one: no two measurements agree to sixteen digits.
 pub fn measured_twice(data: &TimingData) -> Option<[f64; 2]> {
     let (mut arrivals, mut widths) = (HashSet::new(), HashSet::new());
     let arrival =
-        data.arrivals.iter().map(|arrival| arrival.time).find(|time| !arrivals.insert(time.map(f64::to_bits)));
+        data.arrivals.iter().map(|arrival| arrival.time).find(|time| !arrivals.insert(same(*time).map(f64::to_bits)));
     let width = data.widths.iter().find(|width| !widths.insert([width.time, width.duration].map(f64::to_bits)));
     arrival.or(width.map(|width| [width.time, 0.0]))
 }
@@ -104,7 +110,10 @@ impl DataFile {
                     return Err(refuse(format!("`FORMAT {}`: allowed is FORMAT 1", shortened(other))));
                 }
                 [..] if !has_format => {
-                    return Err(refuse(format!("`{}`: allowed before it is the line FORMAT 1", shortened(line))));
+                    return Err(refuse(format!(
+                        "`{}`: the line FORMAT 1 must come before the first arrival",
+                        shortened(line)
+                    )));
                 }
                 [_, frequency, date, error, site, ref flags @ ..] => {
                     if !BARYCENTRE.contains(&site.to_lowercase().as_str()) {

@@ -81,8 +81,8 @@ impl Pulsar {
     /// Whether the uncertainties of the angles and of the width change `Delta lambda` by more than a third of itself, as near angles at which the width
     /// is stationary: limits, which are of first order in these uncertainties, may then cover less than [`CONFIDENCE`].
     pub fn is_rough(&self) -> Result<bool, String> {
-        let change = self.figure("lambda_change")?;
-        Ok(change.from_inputs > change.value.abs() / 3.0)
+        let unit = Self { width_change: Quantity::exact(1.0), ..self.clone() }.figure("lambda_change")?;
+        Ok(unit.from_inputs > unit.value.abs() / 3.0)
     }
 
     /// The limit that a measured change of zero with the same error would give; `None` if the change has no error.

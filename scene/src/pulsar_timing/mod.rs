@@ -145,9 +145,9 @@ impl PulsarScene {
         let epoch = Epoch::new(0, 0.0)?.after([middle.round() * DAY, 0.0])?;
         let points: Vec<_> =
             pulses.iter().map(|timed| (timed.pulse.number, timed.arrival.seconds_since(&epoch))).collect();
-        let least = 2 + derivatives;
+        let least = 2 + derivatives.min(2);
         if pulses.len() < least {
-            let (found, unknowns) = (pulses.len(), ["F0", "F0 and F1", "F0, F1 and F2"][derivatives.min(2)]);
+            let (found, unknowns) = (pulses.len(), ["F0", "F0 and F1", "F0, F1 and F2"][least - 2]);
             return Err(Refusal::Input(format!(
                 "{found} different pulses at {} epochs: allowed are at least {least}, for a fit of {unknowns}",
                 epochs.len()

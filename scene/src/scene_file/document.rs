@@ -43,7 +43,7 @@ impl FileFormat {
             };
             refuse(format!("neither a built-in {noun} nor a readable file ({error}); {guess}"))
         })?;
-        read_text(file).map_err(|why| refuse(format!("{why}: {name} is a TOML file")))
+        read_text(file).map_err(refuse)
     }
 
     /// The result of `read` for the document with the text of `file`.

@@ -216,7 +216,7 @@ fn errors(scene: &Scene, sample: &Sample) -> [f64; 5] {
 }
 
 fn count_pulses(scene: &Scene) -> Result<f64, String> {
-    let found = write_pulses(scene, std::io::sink(), |_| {}).map_err(|error| error.to_string())?;
+    let found = write_pulses(scene, std::io::sink(), |_| Ok(())).map_err(|error| error.to_string())?;
     Ok(found.pulses.iter().sum::<usize>() as f64)
 }
 

@@ -1,6 +1,6 @@
 //! The pulses of a scene, one row each.
 
-use std::io::Write;
+use std::io::{self, Write};
 
 use twofold::Error;
 use twofold::dynamics::BodyState;
@@ -39,11 +39,12 @@ fn header(scene: &Scene) -> Vec<String> {
 }
 
 /// Writes every pulse of the span of `scene` as CSV, in order of the time at which it ends. Memory is bounded whatever the
-/// span; a pulse that extends from one segment of the motion to the next is one pulse.
+/// span; a pulse that extends from one segment of the motion to the next is one pulse. `progress` receives the fraction of the span that is done, from 0
+/// to 1; its error ends the work.
 pub fn write_pulses(
     scene: &Scene,
     writer: impl Write,
-    progress: impl FnMut(f64),
+    progress: impl FnMut(f64) -> io::Result<()>,
 ) -> Result<PulseSummary, TrajectoryError> {
     let plan = scene.plan(&[Output::Pulses])?;
     write_by_segments(scene, Segments::new(scene, &plan)?, writer, progress)
@@ -53,7 +54,7 @@ pub(super) fn write_by_segments(
     scene: &Scene,
     mut segments: Segments<'_, BodyState<f64>>,
     writer: impl Write,
-    mut progress: impl FnMut(f64),
+    mut progress: impl FnMut(f64) -> io::Result<()>,
 ) -> Result<PulseSummary, TrajectoryError> {
     let (Some(viewer), Some(pulsar)) = (scene.observer, scene.pulsar) else {
         return Err(TrajectoryError::Incomplete(
@@ -94,7 +95,7 @@ pub(super) fn write_by_segments(
             numbered.write(scene, width.flatten(), &mut table)?;
         }
         segments.resume_at(&segment, to)?;
-        progress(scene.part_done(to));
+        progress(scene.part_done(to))?;
         if let Some(last) = last_motion.replace(segment.motion) {
             summary.work += last.evaluations();
         }
@@ -216,7 +217,7 @@ mod tests {
         scene.problem = scene.problem.starting_from(start).unwrap();
         scene.observer = Some(Viewer { theta_o: THETA_O, phi_o: 0.0, distance: None });
         scene.pulsar = Some(Pulsar { chi: THETA_O - 0.25, delta: 0.0, rho: 0.25, second_beam: false });
-        let summary = write_pulses(&scene, Vec::new(), |_| {}).unwrap();
+        let summary = write_pulses(&scene, Vec::new(), |_| Ok(())).unwrap();
         assert_eq!((summary.grazings, summary.without_turn.len()), (3, 0));
         assert!((summary.first_grazing.unwrap() - 0.75).abs() < 1e-7, "{:?}", summary.first_grazing);
     }
@@ -230,7 +231,11 @@ mod tests {
         let of = |segments: f64| {
             let mut shown = Vec::new();
             let segments = Segments::with_rotation(&scene, &plan, 1.001 * scene.rotation() / segments).unwrap();
-            let summary = write_by_segments(&scene, segments, Vec::new(), |part| shown.push(part)).unwrap();
+            let summary = write_by_segments(&scene, segments, Vec::new(), |part| {
+                shown.push(part);
+                Ok(())
+            })
+            .unwrap();
             let evaluations = summary.work.axis_evaluations + summary.work.orientation_evaluations;
             ([summary.work.steps, summary.work.right_hand_sides, evaluations], shown)
         };

@@ -20,7 +20,7 @@ fn rows_of(scene: &Scene, rotation_per_segment: f64) -> (Vec<Vec<String>>, Pulse
     let plan = scene.plan(&[Output::Pulses]).expect("plan");
     let segments = Segments::with_rotation(scene, &plan, rotation_per_segment).expect("a motion");
     let mut table = Vec::new();
-    let summary = write_by_segments(scene, segments, &mut table, |_| {}).expect("pulses");
+    let summary = write_by_segments(scene, segments, &mut table, |_| Ok(())).expect("pulses");
     let text = String::from_utf8(table).expect("text");
     (text.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect(), summary)
 }

@@ -1,7 +1,7 @@
 //! Rows of a table: the values of every group of columns at each time.
 
 use std::cell::RefCell;
-use std::io::Write;
+use std::io::{self, Write};
 
 use twofold::plan::Work;
 
@@ -34,8 +34,12 @@ pub fn header(scene: &Scene) -> Vec<String> {
 
 /// Computes the motion of `scene` by the [plan](Scene::plan) for its columns and writes it as CSV: the [`header`], then a
 /// row per time. Numbers are written with as few digits as identify the double. Memory is bounded whatever the span.
-/// `progress` receives the fraction of the span that is done, from 0 to 1.
-pub fn write_csv(scene: &Scene, writer: impl Write, progress: impl FnMut(f64)) -> Result<Summary, TrajectoryError> {
+/// `progress` receives the fraction of the span that is done, from 0 to 1; its error ends the work.
+pub fn write_csv(
+    scene: &Scene,
+    writer: impl Write,
+    progress: impl FnMut(f64) -> io::Result<()>,
+) -> Result<Summary, TrajectoryError> {
     let plan = scene.plan(&scene.columns)?;
     let progress = RefCell::new(progress);
     let show = |t: f64| (progress.borrow_mut())(scene.part_done(t));
@@ -61,13 +65,9 @@ pub fn write_csv(scene: &Scene, writer: impl Write, progress: impl FnMut(f64)) -
             summary.rows_on_pole += 1;
             summary.first_on_pole.get_or_insert(time);
         }
-        show(sample.since_start);
-        Ok::<(), TrajectoryError>(())
+        Ok::<(), TrajectoryError>(show(sample.since_start)?)
     };
-    let after_segment = |_: &AxisStateAt<'_>, _, to| {
-        show(to);
-        Ok(())
-    };
+    let after_segment = |_: &AxisStateAt<'_>, _, to| Ok(show(to)?);
     let sampled = for_each_sample(scene, &plan, ErrorEstimates::AtEnd, row, after_segment)?;
     table.flush()?;
     Ok(Summary { error: sampled.error, work: sampled.work, ..summary })
@@ -85,7 +85,7 @@ mod tests {
     fn table(text: &str) -> Vec<Vec<f64>> {
         let scene = Scene::from_toml("scene", text).unwrap_or_else(|error| panic!("{error}"));
         let mut csv = Vec::new();
-        write_csv(&scene, &mut csv, |_| ()).unwrap();
+        write_csv(&scene, &mut csv, |_| Ok(())).unwrap();
         let text = String::from_utf8(csv).unwrap();
         text.lines().skip(1).map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect()
     }
@@ -138,7 +138,11 @@ mod tests {
         scene.choose_columns(&["e_z"]).unwrap();
         scene.times = crate::scene_file::Times::Listed { start: 0.0, times: vec![1.2e5 / scene.turning_rate()] };
         let mut shown = Vec::new();
-        write_csv(&scene, Vec::new(), |part| shown.push(part)).unwrap();
+        write_csv(&scene, Vec::new(), |part| {
+            shown.push(part);
+            Ok(())
+        })
+        .unwrap();
         let ends = (1..=24).map(|k| f64::from(k) / 24.0);
         assert_eq!(shown, ends.chain([1.0]).collect::<Vec<_>>());
     }

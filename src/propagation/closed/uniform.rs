@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::dynamics::equations_of_motion::{angular_velocity, torque_on_axis};
+use crate::dynamics::equations_of_motion::torque_on_axis;
 use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::{SymmetryOfTensor, traceless};
@@ -106,12 +106,12 @@ impl<S: Real> UniformMotion<S> {
             )?;
             (turn, 1.0 + speed * speed / (stiffness * sin * sin), off * speed)
         };
-        let omega = angular_velocity(spheroid, axis, momentum);
+        let spin = S::inner_product(momentum, axis) / spheroid.inertia_zz;
         Ok(Self {
             problem: *problem,
             span,
             turn,
-            body_rate: (omega - turn).dot(axis),
+            body_rate: (momentum / spheroid.inertia_xx - turn).dot(axis) - spheroid.oblateness() * spin,
             momentum_is_constant: false,
             neglected_torque: 0.0,
             neglected_bulge: 0.0,

@@ -12,7 +12,7 @@ checks! {
     /// numbers and midpoints of single pulses, looked up in any order over 2000 t_c of an averaged motion, are those of the pulse train, whose
     /// turns are followed from one half radian to the next: chi less or more than the wobble and its supplement, spins of both signs, L that goes
     /// round the line of sight or not
-    Oracle "pulsar-clock-numbers" [44]: || numbers(averaged, |problem| PhasedMotion::averaged(problem));
+    Oracle "pulsar-clock-numbers" [44]: || numbers(averaged, PhasedMotion::averaged);
     AtMost(1e-6) "largest error of a midpoint [t_c]; infinite if a number is wrong, 40 random pulsars of 10 pulses or more";
     because "the last step to an edge, some 1e-4 rad, is by derivatives of the exact motion, off by (C |s| I^xx / |L|^2)^2, up to 7e-4; a margin is \
      slow at the edges of a short pulse";
