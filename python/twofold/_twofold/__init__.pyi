@@ -153,7 +153,7 @@ class Pulsar:
     @property
     def precession_rates(self, /) -> list[float]:
         """
-        Rates (rad/s) of the precession of the body about its axis and of its angular momentum. The first is that of `e_x` about `n` from the direction in which `n` circles `L`; `precession_rate` of
+        Rates (rad/s) of the precession of the body about its axis and of its angular momentum. The first is that of `e_x` about `n` relative to the plane of `n` and `L`, positive in the right-handed sense; `precession_rate` of
         `timing_model()` is minus this, since its angle goes from the magnetic axis, which the body carries, to `L`. The second is positive where the angular momentum goes in the right-handed sense round the principal axis of `s^IJ` that it circles, directed so that its largest component is positive.
         """
     @property
@@ -173,7 +173,7 @@ class Pulsar:
         """
         The two harmonics of the wave at times, those of a star without a torque with the `L` and the wobble of each time: amplitudes `h_1` (once a turn) and `h_2` (twice), the phase `Phi` of the symmetry axis about `L` from the line of sight, in (-pi, pi], and the inclination, position angle
         and wobble (rad): six arrays. With them `h_+' = -h_1 sin(2i)/2 cos(Phi) + h_2 (1 + cos^2 i)/2 cos(2 Phi)` and `h_x' = -h_1 sin i sin(Phi) + h_2 cos i sin(2 Phi)` along the projection of `L` on the sky. They are the whole `wave` without Lorentz violation. With it, they differ from it by about the ratio
-        of the torque to the rotation, `C s / (I_xx Omega^2)`: for the scene `wave-source` at 20 Hz by 0.03 s of the largest strain, at 200 Hz by 3e-4 s.
+        of the torque to the rotation, `C s / (I_xx Omega^2)`: for the scene `wave-source` at 20 Hz by `0.03 s` of the largest strain, at 200 Hz by `3e-4 s`.
         """
 
 @final
