@@ -1,5 +1,7 @@
 //! Rigid bodies: moments of inertia and the constant of the anisotropic self-energy.
 
+use nalgebra::Vector3;
+
 use crate::error::Error;
 use crate::numerics::scalar::{Real, Scalar};
 
@@ -62,6 +64,15 @@ impl<S: Scalar> RigidSpheroid<S> {
     /// `omega = I^zz Omega^z / I^xx` for the spin `Omega^z`, Eq. (28).
     pub fn free_precession_constant(&self, spin: S) -> S {
         self.inertia_zz * spin / self.inertia_xx
+    }
+}
+
+impl<S: Real> RigidSpheroid<S> {
+    /// Rate at which `e_x` rotates about `n` relative to a vector that rotates with `L / I^xx` like `n`: `-epsilon Omega^z`,
+    /// from `Omega = L / I^xx - epsilon Omega^z n`. It is constant, since `Omega^z = L.n / I^zz` is. `n` and `L` are those given, not in another frame:
+    /// the rounding of `L.n` for an `L` almost normal to `n` is multiplied by `1 / I^zz`, which is large for a needle.
+    pub(crate) fn rate_about_axis(&self, axis: &Vector3<S>, momentum: &Vector3<S>) -> S {
+        -(self.oblateness() * S::inner_product(momentum, axis) / self.inertia_zz)
     }
 }
 

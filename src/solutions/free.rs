@@ -52,9 +52,8 @@ pub fn free_precession_rates<S: Real>(spheroid: &RigidSpheroid<S>, spin: S, beta
 ///
 /// Error: a few ulp of one plus the rounding of the angle `|L| t / I^xx`.
 pub fn free_rotation<S: Real>(spheroid: &RigidSpheroid<S>, initial: &BodyState<S>, t: S) -> BodyState<S> {
-    let spin = S::inner_product(&initial.momentum, &initial.axis) / spheroid.inertia_zz;
     let turned = {
-        let (sin, cos) = (-(spheroid.oblateness() * spin * t)).sin_cos();
+        let (sin, cos) = (spheroid.rate_about_axis(&initial.axis, &initial.momentum) * t).sin_cos();
         initial.equatorial_axis * cos + initial.axis.cross(&initial.equatorial_axis) * sin
     };
     let turn = initial.momentum * (t / spheroid.inertia_xx);

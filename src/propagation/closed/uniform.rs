@@ -46,12 +46,11 @@ impl<S: Real> UniformMotion<S> {
         let s = problem.coefficients().map(S::re);
         let anisotropic = traceless(&s);
         let turn = initial.momentum / spheroid.inertia_xx;
-        let spin = S::inner_product(&initial.momentum, &initial.axis) / spheroid.inertia_zz;
         Self {
             problem: *problem,
             span,
             turn,
-            body_rate: -(spheroid.oblateness() * spin),
+            body_rate: spheroid.rate_about_axis(&initial.axis, &initial.momentum),
             momentum_is_constant: true,
             neglected_torque: largest_torque(spheroid, problem.coefficients()),
             neglected_bulge: 2.0 * problem.bulge().re().abs() * anisotropic.norm(),
@@ -106,12 +105,11 @@ impl<S: Real> UniformMotion<S> {
             )?;
             (turn, 1.0 + speed * speed / (stiffness * sin * sin), off * speed)
         };
-        let spin = S::inner_product(momentum, axis) / spheroid.inertia_zz;
         Ok(Self {
             problem: *problem,
             span,
             turn,
-            body_rate: (momentum / spheroid.inertia_xx - turn).dot(axis) - spheroid.oblateness() * spin,
+            body_rate: (momentum / spheroid.inertia_xx - turn).dot(axis) + spheroid.rate_about_axis(axis, momentum),
             momentum_is_constant: false,
             neglected_torque: 0.0,
             neglected_bulge: 0.0,

@@ -15,7 +15,7 @@ use crate::propagation::splitting::motion::{PrincipalProblem, SPLITTING_STEP_LIM
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::splitting::stepper::{Steps, angles};
 use crate::propagation::splitting::tangents::{Tangents, WithTangents};
-use crate::propagation::third_angle::{body_state, rate_about_axis};
+use crate::propagation::third_angle::body_state;
 
 /// The derivatives of a problem that the flows need, in the principal frame.
 struct Seed<const V: usize> {
@@ -167,7 +167,7 @@ impl<X: RotationState<Dual64>, const V: usize> Derivatives<'_, X, V> {
             return BodyState { axis, momentum, equatorial_axis: Vector3::zeros() };
         }
         let start = seeded.initial().axis_state();
-        let rate = rate_about_axis(seeded.spheroid(), &start.axis, &start.momentum);
+        let rate = seeded.spheroid().rate_about_axis(&start.axis, &start.momentum);
         body_state([axis, momentum, vector(COMPANION)], rate * elapsed)
     }
 }

@@ -16,7 +16,7 @@ pub(crate) use crate::propagation::splitting::error::ErrorAtEnd as SplittingErro
 use crate::propagation::splitting::error::ErrorEstimate;
 use crate::propagation::splitting::flows::{AXIS, Field, Moving, RATE, dot};
 use crate::propagation::splitting::scheme::Scheme;
-use crate::propagation::third_angle::{body_state, rate_about_axis};
+use crate::propagation::third_angle::body_state;
 use crate::propagation::{Motion, TOLERANCE_RANGE};
 
 /// Largest number of steps of one motion.
@@ -70,7 +70,7 @@ impl<const V: usize> PrincipalProblem<V> {
             inertia,
             principal_from_given: turn,
             start,
-            rate_about_axis: rate_about_axis(spheroid, &initial[AXIS], &initial[RATE]),
+            rate_about_axis: spheroid.rate_about_axis(&initial[AXIS], &initial[RATE]),
             casimir: dot(&rate, &axis),
             spread,
             largest_rate,

@@ -10,7 +10,7 @@ use crate::numerics::scalar::{Real, Scalar};
 use crate::propagation::taylor::clock::{Interval, StepLimit};
 use crate::propagation::taylor::scaled_problem::ScaledProblem;
 use crate::propagation::taylor::{fused_for, work_of};
-use crate::propagation::third_angle::{body_state, rate_about_axis};
+use crate::propagation::third_angle::body_state;
 
 /// About an hour.
 pub(super) const LIMIT: StepLimit =
@@ -38,7 +38,7 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
     pub fn taylor_states(&self, start: f64, times: &[f64], tolerance: f64) -> Result<Samples<X>, Error> {
         if const { X::VECTORS == 3 } {
             let AxisState { axis, momentum } = self.initial().axis_state();
-            let rate = rate_about_axis(self.spheroid(), &axis, &momentum);
+            let rate = self.spheroid().rate_about_axis(&axis, &momentum);
             let state = |vectors, t| X::from_vectors(body_state(vectors, rate * (t - S::from_f64(start))).vectors());
             sampled(self, start, times, tolerance, state)
         } else {

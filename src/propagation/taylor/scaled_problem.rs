@@ -14,7 +14,7 @@ use crate::propagation::taylor::frame::SeriesFrame;
 use crate::propagation::taylor::series::{AXIS, MOMENTUM, Vectors, change};
 use crate::propagation::taylor::step_size::{Scale, Work, longest_step, order_for};
 use crate::propagation::taylor::stepper::Stepper;
-use crate::propagation::third_angle::{body_state, rate_about_axis};
+use crate::propagation::third_angle::body_state;
 
 /// Body, tensor, start and span of a motion, with the order and the error allowed per unit of time.
 #[derive(Debug, Clone)]
@@ -64,7 +64,7 @@ impl<S: Real, const V: usize> ScaledProblem<S, V> {
         // rotation the derivative with respect to `s` has terms of twice the frequency.
         let longest_step = if principal_frame { longest_step(order, &scale, budget) } else { 1.0 / scale.turning_rate };
         let frame = SeriesFrame::of(&anisotropic, principal_frame)?;
-        let rate_about_axis = rate_about_axis(spheroid, &start[AXIS], &start[MOMENTUM]);
+        let rate_about_axis = spheroid.rate_about_axis(&start[AXIS], &start[MOMENTUM]);
         let given_start = start;
         let start = start.map(|v| Padded::from(frame.series_from_given(&v)));
         let (spheroid, tensor) = (*spheroid, *s);

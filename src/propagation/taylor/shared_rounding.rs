@@ -155,7 +155,6 @@ mod tests {
     use crate::dynamics::{BodyState, Problem, RotationState};
     use crate::numerics::double_double::DoubleDouble;
     use crate::propagation::taylor::step_size::Work;
-    use crate::propagation::third_angle::rate_about_axis;
 
     const SPHEROID: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 0.1, constant_c: 0.8 };
 
@@ -215,7 +214,7 @@ mod tests {
     #[test]
     fn the_rate_about_the_axis_differs_by_what_was_rounded() {
         let start = [Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.3, -0.5, 1.2)];
-        let rate = rate_about_axis(&SPHEROID, &start[0], &start[1]);
+        let rate = SPHEROID.rate_about_axis(&start[0], &start[1]);
         let [xx, zz] = [1.3, 0.1];
         let difference = DoubleDouble::sum(zz, -xx);
         assert_ne!(difference.low, 0.0);

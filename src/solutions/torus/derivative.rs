@@ -59,7 +59,7 @@ impl<'a> TorusDerivative<'a> {
         let tensor = torus_from_given * coefficients * torus_from_given.transpose();
         let tensor = tensor - Matrix3::from_diagonal_element(Dual64::from_re(tensor.m22.re));
         let start = problem.initial().rotated(&torus_from_given).vectors();
-        let spin = -spheroid.oblateness() * start[1].dot(&start[0]) / spheroid.inertia_zz;
+        let spin = spheroid.rate_about_axis(&start[0], &start[1]);
         let mut found = Self {
             solution,
             integrals: Integrals::new(spheroid, &tensor, Dual64::from_re(solution.spread), DOUBLE),

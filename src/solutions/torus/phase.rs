@@ -1,7 +1,6 @@
 //! The angles of a torus as functions of time.
 
 use super::ways::{ClosedWays, HalfWay};
-use crate::dynamics::RigidSpheroid;
 use crate::numerics::arithmetic::Componentwise;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::four_lanes::FourLanes;
@@ -38,12 +37,9 @@ impl Phase {
     }
 }
 
-/// Both angles of the torus, from the state in the plane, and the angle by which `e_x` is behind the vector of the torus. `along` is `L.n`.
-pub(super) fn phases<S: Real + Into<DoubleDouble>>(
-    spheroid: &RigidSpheroid<S>,
-    along: S,
-    ways: &ClosedWays<S>,
-) -> [Phase; 3] {
+/// Both angles of the torus, from the state in the plane, and the angle by which `e_x` is behind the vector of the torus. `rate_about_axis` is
+/// what the method of [`RigidSpheroid`](crate::dynamics::RigidSpheroid) with this name gives.
+pub(super) fn phases<S: Real + Into<DoubleDouble>>(rate_about_axis: S, ways: &ClosedWays<S>) -> [Phase; 3] {
     let whole = |half: &HalfWay<S>| (half.times.map(|time| time * 2.0), half.turn * 2.0);
     let (([t1, k1], psi1), ([t2, k2], psi2)) = (whole(&ways.fast), whole(&ways.slow));
     let determinant = t1 * k2 - t2 * k1;
@@ -52,7 +48,6 @@ pub(super) fn phases<S: Real + Into<DoubleDouble>>(
     let [a, b] = turns(ways.to_plane.times).map(|turns| -turns);
     // 2 pi, to the precision of the number type.
     let tau = S::zero().atan2(-S::one()) * 2.0;
-    let spin = spheroid.oblateness() * along / spheroid.inertia_zz;
     let phase = |rate: S, offset: S| {
         let offset: DoubleDouble = offset.into();
         // Whole turns, which the path to the plane of a thin torus may contain, would cost digits of a sum of doubles.
@@ -61,7 +56,7 @@ pub(super) fn phases<S: Real + Into<DoubleDouble>>(
     [
         phase(f1, a),
         phase(f2, b),
-        phase((spin - f1 * psi1 - f2 * psi2) / tau, -(ways.to_plane.turn + a * psi1 + b * psi2) / tau),
+        phase((-rate_about_axis - f1 * psi1 - f2 * psi2) / tau, -(ways.to_plane.turn + a * psi1 + b * psi2) / tau),
     ]
 }
 

@@ -18,7 +18,6 @@ use crate::numerics::arithmetic::plain;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::four_lanes::FourLanes;
 use crate::numerics::fused::{Fused, detect_fused, run_fused};
-use crate::numerics::scalar::Real;
 
 /// Rounding error at the end of half a closed orbit, due to the flow and the initial state.
 const END_OF_HALF_WAY: f64 = 5e-16;
@@ -84,11 +83,11 @@ impl TorusSolution {
         let tolerance = tolerance.max(ROUNDING);
         let torus = Torus::of(problem)?;
         let given = problem.initial();
-        let along = f64::inner_product(&given.momentum, &given.axis);
-        let near = phases(&torus.spheroid, along, &torus.ways);
+        let rate_about_axis = torus.spheroid.rate_about_axis(&given.axis, &given.momentum);
+        let near = phases(rate_about_axis, &torus.ways);
         let torque = 2.0 * torus.spheroid.constant_c.abs() * ROUNDING_OF_VALUES * problem.coefficients().amax();
         // The length of n is rounded, and with it the rate about n.
-        let of_length = f64::EPSILON * (torus.spheroid.oblateness() * along / torus.spheroid.inertia_zz).abs();
+        let of_length = f64::EPSILON * rate_about_axis.abs();
         let drift = rate_of_ways(&near) * 2.0 * END_OF_HALF_WAY + torque / torus.unit + of_length;
         if longest.abs() * drift <= 0.3 * tolerance
             && let Some(solution) = Self::of(&torus, near, drift, tolerance, |quarter| torus.starts(quarter))?
@@ -401,7 +400,7 @@ mod tests {
     #[test]
     fn rows_that_do_not_close_are_rounding() {
         let torus = Torus::of(&problem([[0.2, 0.1, -0.3], [0.48, 0.6, 0.64], [0.3, -0.2, 1.5]])).unwrap();
-        let phases = phases(&torus.spheroid, torus.initial[1].dot(&torus.initial[0]), &torus.ways);
+        let phases = phases(torus.spheroid.rate_about_axis(&torus.initial[0], &torus.initial[1]), &torus.ways);
         let mut sampled = coefficients(&torus, |quarter| torus.starts(quarter), 1e-12, FIRST_GRID).unwrap().unwrap();
         sampled.open = 1e-6;
         let (solution, gap) = TorusSolution::on(&torus, phases, 0.0, 1e-12, &sampled);
@@ -415,7 +414,7 @@ mod tests {
         let torus = Torus::of(&problem([[0.2, 0.1, -0.3], [0.48, 0.6, 0.64], [0.3, -0.2, 1.5]])).unwrap();
         let starts = |quarter: usize| torus.starts(quarter);
         let first = coefficients(&torus, starts, 1e-4, FIRST_GRID).unwrap().unwrap().grid.quarter;
-        let mut wrong = phases(&torus.spheroid, torus.initial[1].dot(&torus.initial[0]), &torus.ways);
+        let mut wrong = phases(torus.spheroid.rate_about_axis(&torus.initial[0], &torus.initial[1]), &torus.ways);
         wrong[0].offset += DoubleDouble::from(0.01);
         let found = TorusSolution::of(&torus, wrong, 0.0, 1e-4, starts);
         let Err(Error::NotConverged { iterations, residual, .. }) = found else { panic!("not refused") };

@@ -45,7 +45,7 @@ impl WideTorus {
         initial[0] /= length(&initial[0]);
         let ways = ClosedWays::near(&integrals, torus.unit, &initial, torus.ways.times().map(|times| times.map(wide)));
         let ways = ways.ok_or(Error::not_found("periods of the torus in 32 digits"))?;
-        let phases = phases(&spheroid, initial[1].dot(&initial[0]), &ways);
+        let phases = phases(spheroid.rate_about_axis(&initial[0], &initial[1]), &ways);
         // The torque of the remaining off-diagonal elements, which is not zero if two eigenvalues are nearly equal.
         let beside = [(0, 1), (1, 2), (2, 0)].map(|place| tensor[place].re().abs()).iter().sum::<f64>();
         let torque = 2.0 * torus.spheroid.constant_c.abs() * beside / torus.unit;
