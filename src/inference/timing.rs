@@ -6,6 +6,7 @@ use super::least_squares::{self, Comparison, Fit, least_squares};
 use super::{Fisher, InferenceError, Jacobian};
 use crate::error::Error;
 use crate::observables::pulsar::timing_model::{TimingModel, TimingParameter, check_turns};
+use crate::solutions::averaged::Turns;
 
 /// The arrival of a pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,6 +20,14 @@ pub struct MeasuredArrival {
     pub number: Option<i64>,
 }
 
+impl MeasuredArrival {
+    /// In standard deviations, from the phase and its rate at the time of arrival: a pulse that arrives late has passed its turn.
+    fn residual(&self, phase: &Turns, rate: f64) -> f64 {
+        let turns = (phase.whole - self.number.unwrap_or(phase.whole)) as f64 + phase.fraction;
+        -turns / rate / self.sigma
+    }
+}
+
 /// The width of a pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeasuredWidth {
@@ -30,6 +39,12 @@ pub struct MeasuredWidth {
     pub sigma: f64,
 }
 
+impl MeasuredWidth {
+    fn residual(&self, duration: f64) -> f64 {
+        (duration - self.duration) / self.sigma
+    }
+}
+
 /// Prior for a parameter: a normal distribution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prior {
@@ -39,6 +54,12 @@ pub struct Prior {
     pub mean: f64,
     /// Its standard deviation.
     pub sigma: f64,
+}
+
+impl Prior {
+    fn residual(&self, model: &TimingModel) -> f64 {
+        (model.value(self.parameter) - self.mean) / self.sigma
+    }
 }
 
 /// Measurements of the pulses of a star, with independent errors, and priors.
@@ -101,17 +122,12 @@ impl Comparison<TimingModel> for TimingData {
     fn residuals(&self, model: &TimingModel) -> Result<Vec<f64>, InferenceError> {
         let mut residuals = Vec::with_capacity(self.len());
         for arrival in &self.arrivals {
-            let phase = model.phase(arrival.time)?;
-            let turns = (phase.whole - arrival.number.unwrap_or(phase.whole)) as f64 + phase.fraction;
-            // A pulse that arrives late has passed its turn.
-            residuals.push(-turns / model.phase_rate(arrival.time)? / arrival.sigma);
+            residuals.push(arrival.residual(&model.phase(arrival.time)?, model.phase_rate(arrival.time)?));
         }
         for width in &self.widths {
-            residuals.push((model.width(width.time)? - width.duration) / width.sigma);
+            residuals.push(width.residual(model.width(width.time)?));
         }
-        for prior in &self.priors {
-            residuals.push((model.value(prior.parameter) - prior.mean) / prior.sigma);
-        }
+        residuals.extend(self.priors.iter().map(|prior| prior.residual(model)));
         Ok(residuals)
     }
 
@@ -121,23 +137,24 @@ impl Comparison<TimingModel> for TimingData {
         unknowns: &[TimingParameter],
     ) -> Result<(Vec<f64>, Jacobian), InferenceError> {
         let mut matrix = DMatrix::zeros(self.len(), unknowns.len());
-        let mut fill = |row: usize, of: &dyn Fn(TimingParameter) -> f64| {
+        let mut residuals = Vec::with_capacity(self.len());
+        let mut add = |residual: f64, of: &dyn Fn(TimingParameter) -> f64| {
+            let row = residuals.len();
+            residuals.push(residual);
             unknowns.iter().enumerate().for_each(|(column, unknown)| matrix[(row, column)] = of(*unknown));
         };
-        let (arrivals, widths) = (self.arrivals.len(), self.widths.len());
-        for (row, arrival) in self.arrivals.iter().enumerate() {
-            let (_, derivatives) = model.phase_and_derivatives(arrival.time)?;
+        for arrival in &self.arrivals {
+            let (phase, derivatives) = model.phase_and_derivatives(arrival.time)?;
             let rate = model.phase_rate(arrival.time)?;
-            fill(row, &|unknown| -derivatives[unknown as usize] / rate / arrival.sigma);
+            add(arrival.residual(&phase, rate), &|unknown| -derivatives[unknown as usize] / rate / arrival.sigma);
         }
-        for (row, width) in self.widths.iter().enumerate() {
-            let (_, derivatives) = model.width_and_derivatives(width.time)?;
-            fill(arrivals + row, &|unknown| derivatives[unknown as usize] / width.sigma);
+        for width in &self.widths {
+            let (duration, derivatives) = model.width_and_derivatives(width.time)?;
+            add(width.residual(duration), &|unknown| derivatives[unknown as usize] / width.sigma);
         }
-        for (row, prior) in self.priors.iter().enumerate() {
-            fill(arrivals + widths + row, &|unknown| if unknown == prior.parameter { 1.0 / prior.sigma } else { 0.0 });
+        for prior in &self.priors {
+            add(prior.residual(model), &|unknown| if unknown == prior.parameter { 1.0 / prior.sigma } else { 0.0 });
         }
-        let residuals = self.residuals(model)?;
         for value in matrix.iter().chain(&residuals) {
             let what = "derivative or residual of a datum, in its standard deviations";
             Error::ensure(value.abs() <= LARGEST, what, *value, "a number up to 1e150 in size")?;

@@ -171,13 +171,14 @@ fn failures(answer: &Value, command: &Value) -> Vec<String> {
     }
     let outputs = command["outputs"].as_object().expect("outputs");
     let wrong = outputs.iter().filter_map(|(name, expected)| {
+        let told = || if name == "stdout" { String::from_utf8_lossy(&output.stdout).into() } else { stderr(&output) };
         let why = match name.as_str() {
-            "stderr" => {
-                let told = stderr(&output);
+            "stdout" | "stderr" if expected.is_array() => {
+                let told = told();
                 let missing = list(expected).iter().map(text_of).find(|words| !told.contains(words));
                 missing.map(|words| format!("no `{words}` in {told}"))
             }
-            "stdout" => difference(&String::from_utf8_lossy(&output.stdout), expected),
+            "stdout" => difference(&told(), expected),
             file => match fs::read_to_string(out.path().join(file)) {
                 Ok(text) if arguments[0] == "sweep" => {
                     difference(&text, expected).or_else(|| estimate_below(&text, expected))
@@ -277,6 +278,11 @@ fn pulses_are_those_of_the_second_program() {
 #[test]
 fn timing_files_are_those_of_the_second_program() {
     compare("timing", 16);
+}
+
+#[test]
+fn fits_and_limits_over_decades_are_those_of_the_second_program() {
+    compare("limits", 4);
 }
 
 #[test]

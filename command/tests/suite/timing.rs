@@ -118,12 +118,14 @@ fn files_agree_with_the_table() {
     }
 }
 
-/// What a timing program makes of the .par and the .tim: the phase at each arrival by all digits of F0 and F1, counted from TZRMJD. 3e11 turns to 3e-11 s are
+/// What a timing program makes of the .par and the .tim: the phase at each arrival by all digits of F0, F1 and F2, counted from TZRMJD. 3e11 turns to 3e-11 s are
 /// 22 digits; dates are rounded to 1e-16 d, 8.6e-12 s, at the arrival and at TZRMJD.
 #[test]
 fn the_digits_of_the_files_give_the_residuals() {
     let folder = Folder::new();
-    for (scene, extra) in [("b1937+21", None), ("b1937+21", Some("--f1")), ("b1828-11", Some("--f1"))] {
+    for (scene, extra) in
+        [("b1937+21", None), ("b1937+21", Some("--f1")), ("b1828-11", Some("--f1")), ("b1828-11", Some("--f2"))]
+    {
         let args = ["timing", scene, "--epochs", "40", "--force", "--out", "."];
         folder.succeeds(&[&args[..], extra.as_slice()].concat());
         let [csv, par, tim] = ["csv", "par", "tim"].map(|ending| folder.read(&format!("{scene}.{ending}")));
@@ -134,14 +136,15 @@ fn the_digits_of_the_files_give_the_residuals() {
             let [high, low] = text.parse::<Epoch>().expect("a date").seconds_since(&epoch);
             DoubleDouble::sum_of(high, low)
         };
-        let (f0, f1) = (number(value("F0").expect("F0")), number(value("F1").unwrap_or("0")));
-        assert_eq!(value("F1").is_some(), extra.is_some());
-        let phase = |t: DoubleDouble| f0 * t + f1 * t * t * number("0.5");
+        let [f0, f1, f2] = ["F0", "F1", "F2"].map(|key| number(value(key).unwrap_or("0")));
+        assert_eq!([value("F1"), value("F2")].map(|given| given.is_some()), [extra.is_some(), extra == Some("--f2")]);
+        let half = number("0.5");
+        let phase = |t: DoubleDouble| t * (f0 + t * (f1 * half + t * f2 / number("6")));
         let zero = phase(since(value("TZRMJD").expect("TZRMJD")));
         for (line, row) in tim.lines().skip(1).zip(numbers(&csv)) {
             let fields: Vec<_> = line.split_whitespace().collect();
             let at = since(fields[2]);
-            let late = (phase(at) - zero - number(fields[6])) / (f0 + f1 * at);
+            let late = (phase(at) - zero - number(fields[6])) / (f0 + at * (f1 + at * f2 * half));
             assert!((late.high() - row[3]).abs() < 3e-11, "{scene}: {:e}, in the table {:e}", late.high(), row[3]);
         }
     }

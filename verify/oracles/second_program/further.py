@@ -1,4 +1,4 @@
-"""Answers for the commands of many scenes and of data: `sweep`, `fisher`, `fit`, `forecast` and `bounds`.
+"""Answers for the commands of many scenes and of data: `sweep`, `fisher`, `fit`, `forecast`, `bounds` and `limits`.
 
 Here tolerances have a row for each row of a table, since the rows are of different unknowns. Files are named from `{here}`, this folder.
 """
@@ -11,6 +11,7 @@ import numpy as np
 
 import bounds
 import inference
+import limits
 import sweep
 from answers import FACTOR, MOVE, _plain, _tolerances, moved, state_error
 from motion import FINE, OTHER
@@ -18,6 +19,7 @@ from scene import Scene
 
 HERE = pathlib.Path(__file__).parent
 MEASUREMENTS = json.loads((HERE / "measurements.json").read_text())
+LIMITS = json.loads((HERE / "limits.json").read_text())
 ROUNDING = 2.2e-16
 # What the command states of the integrals that it takes over directions and over the angle to the line of sight.
 QUADRATURE = 1e-9
@@ -45,15 +47,15 @@ def noisy(slopes, other, scene):
     return [slopes + size * random.standard_normal(slopes.shape) for _ in range(DRAWS)]
 
 
-def _cells(rows, others):
-    """Tolerances of cells: `FACTOR` times the root mean square of the changes in `others`, and rounding in units of the number or of one."""
+def _cells(rows, others, one=1.0, roundings=50):
+    """Tolerances of cells: `FACTOR` times the root mean square of the changes in `others`, and rounding in units of the number or, of a value, of `one`."""
     found = []
     for line, row in enumerate(rows):
         tolerances = []
         for k, cell in enumerate(row):
             if isinstance(cell, float):
                 spread = np.sqrt(np.mean([(other[line][k] - cell) ** 2 for other in others]))
-                tolerances.append(FACTOR * spread + 50 * ROUNDING * max(1.0 if k == 1 else 0.0, abs(cell)))
+                tolerances.append(FACTOR * spread + roundings * ROUNDING * max(one if k == 1 else 0.0, abs(cell)))
             elif any(other[line][k] != cell for other in others):
                 raise ValueError(f"a text or an empty field changes: {cell!r}")
             else:
@@ -202,11 +204,54 @@ def of_bounds(name):
     return [{"arguments": arguments, "outputs": {"stdout": {"separator": "json", "rows": _plain(rows), "tolerances": tolerances}}}]
 
 
+def of_limits(name):
+    """`twofold limits` of one scene and its data."""
+    case, path = LIMITS[name], HERE / "limits" / name
+    start, data = limits.read(path, case)
+    unknowns = case["parameters"].split(",")
+    best, data, residuals = limits.fit(start, data, unknowns)
+    slopes, other = (limits.jacobian(best, data, unknowns, move) for move in limits.MOVES)
+    spread = limits.covariance(slopes)
+    sigma = np.sqrt(np.diag(spread))
+    off = limits.moved(best, {u: FIT_ENDS * s * (-1) ** k for k, (u, s) in enumerate(zip(unknowns, sigma))})
+    files = [f"{{here}}/limits/{name}.{kind}" for kind, key in (("tim", "arrivals"), ("csv", "widths")) if key in case]
+    arguments = ["limits", f"{{here}}/limits/{name}.toml", *files, "--parameters", case["parameters"], "--out", "{out}/table.csv"]
+    arguments += ["--observe", f"widths:{case['widths']!r}"] if "widths" in case else []
+    for key, (mean, deviation) in case.get("priors", {}).items():
+        arguments += ["--prior", f"{key}:{mean!r}:{deviation!r}"]
+    chi_2, degrees = residuals @ residuals, len(residuals) - len(unknowns)
+    outputs = {"stderr": [f"chi^2 = {chi_2:#.4g} of {degrees} degrees of freedom"]}
+    if "periods" in case:
+        first, last, count = case["periods"]
+        arguments += ["--periods", f"{first!r}:{last!r}:{count}"]
+        periods = np.geomspace(first, last, count)
+        rows, *others = (
+            limits.wobble_limits(model, data, unknowns, periods, move)
+            for model, move in ((best, limits.MOVES[0]), (best, limits.MOVES[1]), (off, limits.MOVES[0]))
+        )
+        # The table of the fit is not written then.
+        return [{"arguments": arguments, "outputs": outputs | {"table.csv": _table(rows, _cells(rows, others, 0.0, 4))}}]
+    size = np.abs(other - slopes).max(axis=0) + 1e-13 * np.abs(slopes).max(axis=0)
+    random = np.random.Generator(np.random.PCG64(1))
+    drawn = [limits.covariance(slopes + size * random.standard_normal(slopes.shape)) for _ in range(DRAWS)]
+    ended = limits.table(off, unknowns, limits.covariance(limits.jacobian(off, data, unknowns, limits.MOVES[0])))
+    rows, *others = (limits.table(best, unknowns, found) for found in (spread, *drawn))
+    # Values are from 1e-25 to 2: no unit is common to them.
+    tolerances = _cells(rows, others, 0.0, 4)
+    for line, (row, row_2) in enumerate(zip(rows, ended, strict=True)):
+        tolerances[line] = [t + abs(y - x) if isinstance(x, float) else t for t, x, y in zip(tolerances[line], row, row_2, strict=True)]
+    outputs["table.csv"] = _table(rows, tolerances)
+    if "inclination_rate" in unknowns:
+        outputs["stdout"] = [f"|2 s^ZZ - s^XX - s^YY| is at most {limits.limit_on_s(best, spread, unknowns):.3e} at 95 %"]
+    return [{"arguments": arguments, "outputs": outputs}]
+
+
 def tasks():
     """What is answered, by the name of its file of answers."""
     found = {f"sweep-{path.stem}": functools.partial(of_sweep, path.stem) for path in sorted(HERE.glob("sweeps/*.toml"))}
     for number, case in enumerate(MEASUREMENTS):
         found[f"{case['command']}-{case['scene']}"] = functools.partial(of_measurement, number)
+    found.update({f"limits-{name}": functools.partial(of_limits, name) for name in LIMITS})
     tables = ["paper", *(path.stem for path in sorted(HERE.glob("bounds/*.toml")))]
     found.update({f"bounds-{name}": functools.partial(of_bounds, name) for name in tables})
     return found
@@ -221,3 +266,5 @@ def write_data():
             for kind, rows in tables.items():
                 text = "".join(",".join(row) + "\n" for row in rows)
                 (HERE / "measurements" / f"{case['scene']}-{kind}.csv").write_text(text)
+    for name, case in LIMITS.items():
+        limits.write_data(HERE / "limits" / name, case)
