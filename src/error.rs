@@ -71,3 +71,18 @@ impl fmt::Display for Error {
 }
 
 impl std::error::Error for Error {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_refused_number_is_decimal_as_long_as_that_is_short() {
+        let told = |value: f64| Error::Domain { quantity: "x", value, allowed: "1" }.to_string();
+        for (value, text) in
+            [(3.0, "3"), (-3.0, "-3"), (0.0, "0"), (-2e-6, "-2e-6"), (-1e17, "-1e17"), (f64::NEG_INFINITY, "-inf")]
+        {
+            assert_eq!(told(value), format!("x = {text}: allowed is 1"));
+        }
+    }
+}

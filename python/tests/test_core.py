@@ -321,7 +321,7 @@ class TestTable:
         assert table.units["start"] == "t_c" and len(table) == len(table["start"])
         assert set(table["cut"]) == {"start", ""} and np.isnan(table["period"][0])
         assert np.all(table["end"] > table["start"])
-        assert "start" in table and "stop" not in table
+        assert "start" in table and "stop" not in table and "star" not in table
         assert list(dict(table)) == list(table) == table.keys()
         with pytest.raises(KeyError, match="stop.*closest_approach"):
             table["stop"]
@@ -819,6 +819,9 @@ class TestFits:
         scene = twofold.Scene("tp-1", time={"span": 60.0, "samples": 61})
         names = ["spin", "s_axial"]
         fisher = scene.fisher({"arrivals": 1e-5}, names)
+        # Error bars are in proportion to the error that is stated, with all its digits.
+        larger = scene.fisher({"arrivals": 1.2345e-5}, names)
+        assert np.array(larger.sigmas) == pytest.approx(1.2345 * np.array(fisher.sigmas), rel=1e-12)
         found = scene.fit([scene.pulses()], {"closest_approaches": 1e-5}, names)
         assert found.unknowns == names and fisher.unknowns == names
         assert found.units == fisher.units == {"spin": "rad/t_c", "s_axial": "1"}

@@ -112,3 +112,15 @@ impl fmt::Display for InferenceError {
 }
 
 impl std::error::Error for InferenceError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A fit ends a hundredth of an error from its minimum, which has to be more than the rounding of a datum.
+    #[test]
+    fn errors_above_the_rounding_of_a_fit_are_named() {
+        let told = InferenceError::Rounding { observable: Observable::Widths, rounding: 2e-14 }.to_string();
+        assert!(told.contains("widths to 2.0e-14 t_c") && told.ends_with("2.0e-12 t_c for certain"), "{told}");
+    }
+}

@@ -104,6 +104,7 @@ fn caption(axes: [&str; 3], nodes: [&str; 2], frame: &str) -> Caption {
 
 #[cfg(test)]
 mod tests {
+    use super::super::drawn::{elements, texts};
     use super::*;
 
     /// `e_z` is `beta` from Z and at right angles to the line of nodes, which is `alpha` from X; `e_x` is `gamma` from that.
@@ -120,6 +121,27 @@ mod tests {
                 let found = Vector3::from_iterator(table.rows.iter().map(|row| row[k]));
                 assert!((found - expected).norm() < 1e-15, "{}: {found}", table.columns[k]);
             }
+        }
+    }
+    /// The second name of the line of nodes is at its ascending end, `alpha` from the first axis.
+    #[test]
+    fn the_ends_of_the_line_of_nodes_have_their_names() {
+        for (sheet, [first, second, descending, ascending]) in
+            [(common(), ["X", "Y", "M", "N"]), (permuted(), ["Y", "Z", "P", "Q"])]
+        {
+            let elements = elements(&sheet.unwrap().svg);
+            let at = |name: &str| texts(&elements).find(|text| text.words == name).expect("a name").at;
+            let [first, second, descending, ascending] = [first, second, descending, ascending].map(at);
+            let centre = [0, 1].map(|k| (descending[k] + ascending[k]) / 2.0);
+            let (sin, cos) = ANGLES.alpha.sin_cos();
+            // The page is a projection of space, and the names of axes are at about equal distances.
+            let along = |k: usize| (first[k] - centre[k]) * cos + (second[k] - centre[k]) * sin;
+            let to_the_name = |k: usize| ascending[k] - centre[k];
+            let [cosine, sine] = [
+                along(0) * to_the_name(0) + along(1) * to_the_name(1),
+                along(0) * to_the_name(1) - along(1) * to_the_name(0),
+            ];
+            assert!(cosine > 10.0 * sine.abs(), "{cosine} {sine}");
         }
     }
 }

@@ -236,6 +236,13 @@ fn a_difference_beyond_the_files_own_error_fails() {
     all.write("mntp1_pset.dat", with_line(text_of("mntp1_pset.dat"), 40, shifted(1, 2e-4)));
     let text = stdout(&ends(compare(&all, &[]), 1));
     assert!(text.contains("\n15 columns agree, 1 DIFFERS, "), "{text}");
+    let json: serde_json::Value = serde_json::from_slice(&compare(&all, &["--json"]).stdout).expect("JSON");
+    assert_eq!(json["differing"], serde_json::json!(["mntp1_pset.dat"]));
+    let columns =
+        json["files"].as_array().expect("files").iter().flat_map(|file| file["columns"].as_array().expect("columns"));
+    let differing: Vec<_> =
+        columns.filter(|column| column["verdict"] == "differs").map(|column| &column["column"]).collect();
+    assert_eq!(differing, ["period"]);
     // A pulse of another star.
     let other = with_change("mntp1_widset.dat", |text| with_line(text, 40, shifted(0, 1.7)));
     has_all(&stdout(&ends(compare(&other, &[]), 1)), &["1 row of the file has nothing of ours within 1 t_c"]);

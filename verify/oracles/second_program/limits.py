@@ -85,7 +85,7 @@ class Star:
         self.values = values
         psi = TURN * np.arange(SAMPLES) / SAMPLES
         torque = 1 - values["torque_share"] * _magnetic_axis(values, psi)[2] ** 2
-        # No lower part: of psi only, as even harmonics.
+        # Even in psi: a mean and cosines.
         mean = torque.mean()
         k = np.arange(1, SAMPLES // 2)
         self.harmonics = 2 * (torque[None, :] * np.cos(k[:, None] * psi[None, :])).mean(axis=1) / mean
