@@ -123,6 +123,7 @@ mod tests {
             }
         }
     }
+
     /// The second name of the line of nodes is at its ascending end, `alpha` from the first axis.
     #[test]
     fn the_ends_of_the_line_of_nodes_have_their_names() {

@@ -25,6 +25,8 @@ ROUNDING = 2.2e-16
 QUADRATURE = 1e-9
 # Where the command ends a fit, in standard deviations, and the digits of a forecast.
 FIT_ENDS, FORECAST_DIGITS = 0.01, 0.5e-6
+# What it states of the derivatives of its timing model.
+TIMING_DERIVATIVES = 1e-13
 DRAWS = 16
 
 
@@ -37,13 +39,13 @@ def _rounded(tolerance):
     return float(f"{tolerance:.2e}")
 
 
-def noisy(slopes, other, scene):
-    """Derivatives with errors: those seen by other numerics, and those that the command states of its own, twenty times that of a state.
+def noisy(slopes, other, stated):
+    """Derivatives with errors: those seen by other numerics, and those that the command states of its own, a part of the largest of each column.
 
     A difference by chance is small now and then: errors are drawn with the largest of each column as their standard deviation.
     """
     random = np.random.Generator(np.random.PCG64(1))
-    size = np.abs(other - slopes).max(axis=0) + 20 * state_error(scene) * np.abs(slopes).max(axis=0)
+    size = np.abs(other - slopes).max(axis=0) + stated * np.abs(slopes).max(axis=0)
     return [slopes + size * random.standard_normal(slopes.shape) for _ in range(DRAWS)]
 
 
@@ -62,6 +64,19 @@ def _cells(rows, others, one=1.0, roundings=50):
                 tolerances.append(0.0)
         found.append(tolerances)
     return found
+
+
+def stated(scene):
+    """What the command states of derivatives of a motion: twenty times the error of a state."""
+    return 20 * state_error(scene)
+
+
+def _ended_off(tolerances, rows, ended):
+    """Tolerances with what the place where a fit may end changes."""
+    return [
+        [t + abs(y - x) if isinstance(x, float) else t for t, x, y in zip(line, row, row_2, strict=True)]
+        for line, row, row_2 in zip(tolerances, rows, ended, strict=True)
+    ]
 
 
 def of_sweep(name):
@@ -112,7 +127,7 @@ def of_measurement(number):
         model, unknowns, slopes = inference.fisher(scene, FINE, observe, names)
         other = inference.fisher(scene, OTHER, observe, names)[-1]
         rows, *others = (
-            inference.table(model, scene, unknowns, inference.covariance(j)) for j in (slopes, *noisy(slopes, other, scene))
+            inference.table(model, scene, unknowns, inference.covariance(j)) for j in (slopes, *noisy(slopes, other, stated(scene)))
         )
         return [{"arguments": arguments, "outputs": {"table.csv": _table(rows, _cells(rows, others))}}]
     target, spans, counts = case["of"], case["spans"], case["epochs"]
@@ -122,7 +137,7 @@ def of_measurement(number):
     _, _, others = inference.forecast(scene, OTHER, observe, target, names, spans, counts)
     tolerances = [[0.0] * 4]
     for row, slopes, other in zip(rows, parts, others, strict=True):
-        sigma, *noise = (inference.sigma_of(scene, j, unknowns, target) for j in (slopes, *noisy(slopes, other, scene)))
+        sigma, *noise = (inference.sigma_of(scene, j, unknowns, target) for j in (slopes, *noisy(slopes, other, stated(scene))))
         row.append(sigma)
         spread = 0.0 if sigma is None else FACTOR * np.sqrt(np.mean((np.array(noise) - sigma) ** 2)) + FORECAST_DIGITS * sigma
         tolerances.append([0.0, 0.0, 0.0, spread])
@@ -138,11 +153,9 @@ def _fit(case, scene, arguments):
     other, slopes_off = (inference.jacobian(best, unknowns, measured, OTHER)[0], inference.jacobian(off, unknowns, measured, FINE)[0])
     rows, *others, ended = (
         inference.table(model, scene, unknowns, inference.covariance(j))
-        for model, j in [(best, slopes), *((best, j) for j in noisy(slopes, other, scene)), (off, slopes_off)]
+        for model, j in [(best, slopes), *((best, j) for j in noisy(slopes, other, stated(scene))), (off, slopes_off)]
     )
-    tolerances = _cells(rows, others)
-    for line, (row, row_2) in enumerate(zip(rows, ended, strict=True)):
-        tolerances[line] = [t + abs(y - x) if isinstance(x, float) else t for t, x, y in zip(tolerances[line], row, row_2, strict=True)]
+    tolerances = _ended_off(_cells(rows, others), rows, ended)
     told = [f"{count} data, {len(unknowns)} unknowns, ", f"chi^2 = {chi_2:.4g} of {count - len(unknowns)} degrees of freedom"]
     data = [f"{{here}}/measurements/{path.name}" for path in files]
     outputs = {"table.csv": _table(rows, tolerances), "stderr": told}
@@ -211,7 +224,7 @@ def of_limits(name):
     unknowns = case["parameters"].split(",")
     best, data, residuals = limits.fit(start, data, unknowns)
     slopes, other = (limits.jacobian(best, data, unknowns, move) for move in limits.MOVES)
-    spread = limits.covariance(slopes)
+    spread = inference.covariance(slopes)
     sigma = np.sqrt(np.diag(spread))
     off = limits.moved(best, {u: FIT_ENDS * s * (-1) ** k for k, (u, s) in enumerate(zip(unknowns, sigma))})
     files = [f"{{here}}/limits/{name}.{kind}" for kind, key in (("tim", "arrivals"), ("csv", "widths")) if key in case]
@@ -231,15 +244,12 @@ def of_limits(name):
         )
         # The table of the fit is not written then.
         return [{"arguments": arguments, "outputs": outputs | {"table.csv": _table(rows, _cells(rows, others, 0.0, 4))}}]
-    size = np.abs(other - slopes).max(axis=0) + 1e-13 * np.abs(slopes).max(axis=0)
-    random = np.random.Generator(np.random.PCG64(1))
-    drawn = [limits.covariance(slopes + size * random.standard_normal(slopes.shape)) for _ in range(DRAWS)]
-    ended = limits.table(off, unknowns, limits.covariance(limits.jacobian(off, data, unknowns, limits.MOVES[0])))
-    rows, *others = (limits.table(best, unknowns, found) for found in (spread, *drawn))
+    ended = limits.table(off, unknowns, inference.covariance(limits.jacobian(off, data, unknowns, limits.MOVES[0])))
+    rows, *others = (
+        limits.table(best, unknowns, inference.covariance(j)) for j in (slopes, *noisy(slopes, other, TIMING_DERIVATIVES))
+    )
     # Values are from 1e-25 to 2: no unit is common to them.
-    tolerances = _cells(rows, others, 0.0, 4)
-    for line, (row, row_2) in enumerate(zip(rows, ended, strict=True)):
-        tolerances[line] = [t + abs(y - x) if isinstance(x, float) else t for t, x, y in zip(tolerances[line], row, row_2, strict=True)]
+    tolerances = _ended_off(_cells(rows, others, 0.0, 4), rows, ended)
     outputs["table.csv"] = _table(rows, tolerances)
     if "inclination_rate" in unknowns:
         outputs["stdout"] = [f"|2 s^ZZ - s^XX - s^YY| is at most {limits.limit_on_s(best, spread, unknowns):.3e} at 95 %"]

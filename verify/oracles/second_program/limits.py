@@ -14,6 +14,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 import bounds
+from inference import OFFSETS, WEIGHTS
 
 DAY = 86400
 LONG = np.longdouble
@@ -23,9 +24,7 @@ UNITS = {
     "precession_rate": "rad/s", "torque_share": "1", "inclination": "rad", "inclination_rate": "rad/s", "rho": "rad",
 }  # fmt: skip
 SHARES = {"vacuum": 1.0, "plasma": 0.5, "constant": 0.0}
-# Six points of a difference, in steps that move no datum by more than this of a turn.
-OFFSETS = np.array([-3, -2, -1, 1, 2, 3])
-WEIGHTS = np.array([-1, 9, -45, 45, -9, 1]) / 60
+# What a step of a difference moves the datum that it moves most: of a turn, of a width, of the error of a prior.
 MOVES = (1e-3, 6e-4)
 SAMPLES = 64
 CONFIDENCE = 0.95
@@ -202,12 +201,6 @@ def fit(values, data, unknowns):
         if np.linalg.norm(slopes @ step) < 1e-5:
             return values, data, differences(values, data)
     raise ArithmeticError("the fit does not converge")
-
-
-def covariance(slopes):
-    scale = np.linalg.norm(slopes, axis=0)
-    inverse = np.linalg.pinv(slopes / scale, rcond=1e-14)
-    return inverse @ inverse.T / np.outer(scale, scale)
 
 
 def table(values, unknowns, spread):
