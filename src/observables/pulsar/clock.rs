@@ -366,12 +366,12 @@ impl PulsarClock {
         };
         let search = EdgeSearch::new(margin, self.bounds);
         if let Some(pulse) = around(&search, middle, period)? {
-            return Ok(Some(self.described(&near, look.number, &pulse)));
+            return self.described(&near, look.number, &pulse).map(Some);
         }
         for reach in [0.5, 1.5] {
             let train = search.train(middle - reach * period, middle + reach * period)?;
             match nearest(&train, middle) {
-                Some(pulse) if pulse.is_whole() => return Ok(Some(self.described(&near, look.number, &pulse))),
+                Some(pulse) if pulse.is_whole() => return self.described(&near, look.number, &pulse).map(Some),
                 Some(_) => {}
                 None => return Ok(None),
             }
@@ -379,8 +379,14 @@ impl PulsarClock {
         Ok(None)
     }
 
-    fn described(&self, near: &Near<'_>, number: i64, pulse: &Pulse) -> ClockPulse {
-        let state = near.at(pulse.midpoint());
+    fn described(&self, near: &Near<'_>, number: i64, pulse: &Pulse) -> Result<ClockPulse, Error> {
+        let time_at =
+            |since: f64| DoubleDouble::from(self.time.time_at((DoubleDouble::from(near.t) + since.into()).into()));
+        let (start, end) = (time_at(pulse.start), time_at(pulse.end));
+        let midpoint = ((start + end) * 0.5).into();
+        // For a star that slows down, not the middle of the stretched time.
+        let stretched = self.time.stretched_at(midpoint)?;
+        let state = self.state(stretched);
         let bulge = self.motion.problem.bulge();
         let momentum = kinematic_momentum(near.spheroid(), near.coefficients(), bulge, &state.axis_state());
         let omega = angular_velocity(near.spheroid(), &state.axis, &momentum);
@@ -388,20 +394,17 @@ impl PulsarClock {
         let angle = |m: &Vector3<f64>| position_angle(m, &self.observer).unwrap_or(f64::NAN);
         let middle = angle(&m);
         let from = |t: f64| angle(&self.beam.direction(&near.at(t)));
-        let time_at =
-            |since: f64| DoubleDouble::from(self.time.time_at((DoubleDouble::from(near.t) + since.into()).into()));
-        let (start, end) = (time_at(pulse.start), time_at(pulse.end));
-        let stretched = near.t[0] + (near.t[1] + pulse.midpoint());
+        let stretched = stretched[0];
         let rate = if middle.is_nan() { middle } else { position_angle_rate(&m, &omega, &self.observer) };
-        ClockPulse {
+        Ok(ClockPulse {
             number,
-            midpoint: ((start + end) * 0.5).into(),
+            midpoint,
             duration: (end - start).high,
             position_angle: middle,
             position_angle_rate: rate * self.time.slowing(stretched),
             swing: wrapped(from(pulse.end) - middle) + wrapped(middle - from(pulse.start)),
             state: self.slowed(state, stretched),
-        }
+        })
     }
 }
 

@@ -50,15 +50,16 @@ def answered(file, name, changed):
         if scene.pulsar is not None:
             answer(["pulses", "{scene}", *second], lambda s, n: commands.pulse_list(s, n, bool(second)))
     if scene.epoch is not None:
-        error = answers.averaging_error(scene)
+        error = answers.timing_error(scene)
         rate = commands.strain_rate(unchanged)
         strain = ["--strain-rate", repr(rate), "--strain-span", repr((commands.STRAIN_SAMPLES - 0.5) / rate)]
-        for with_rate in (False, True):
-            arguments = ["timing", "{scene}", "--out", "{out}", "--uncertainty", "2.5", *strain, *["--f1"] * with_rate]
-            answer(arguments, lambda s, n, f1=with_rate: commands.timing_files(s, n, name, f1, rate, 2.5), error)
+        # F0 alone, or with F1 and F2 for a star that slows down.
+        for options, terms in [([], 3 if "spin_down" in scene.document else 1), (["--f1"], 2)]:
+            arguments = ["timing", "{scene}", "--out", "{out}", "--uncertainty", "2.5", *strain, *options]
+            answer(arguments, lambda s, n, terms=terms: commands.timing_files(s, n, name, terms, rate, 2.5), error)
         for options, dates in EPOCHS.get(file, []):
             arguments = ["timing", "{scene}", "--out", "{out}", *strain, *options]
-            answer(arguments, lambda s, n, dates=tuple(dates): commands.timing_files(s, n, name, False, rate, 1.0, dates), error)
+            answer(arguments, lambda s, n, dates=tuple(dates): commands.timing_files(s, n, name, 1, rate, 1.0, dates), error)
     for options in SPECTRA.get(file, []):
         # The span is that of the series here; the command needs none.
         flags = [f"--{option}={options[option]}" for option in ("least", "most")]

@@ -17,6 +17,7 @@ import re
 import numpy as np
 
 from motion import FINE, OTHER, Motion
+from torque import Torque
 
 MOVE = 1e-7
 FACTOR = 10.0
@@ -48,15 +49,18 @@ def state_error(scene):
     return scene.tolerance + 2.2e-16 * motion.turning * abs(scene.end - scene.start)
 
 
-def averaging_error(scene):
+def timing_error(scene):
     """The same for `twofold timing`, whose motion is averaged to second order in sigma = 2 C |s| I^xx / |L|^2, the torque over the rotation.
 
-    Three times the square of sigma for what a transformation of first order leaves out of the state, its cube for each radian of rotation.
+    Three times the square of sigma for what a transformation of first order leaves out of the state, its cube for each radian of rotation; and
+    what is left out of a star that slows down.
     """
     ratio = scene.inertia_zz / scene.inertia_xx
     momentum = np.linalg.norm(np.array([1, 1, ratio]) * scene.omega)
     sigma = 2 * scene.c / scene.inertia_xx * np.abs(np.linalg.eigvalsh(scene.tensor)).max() / momentum**2
-    return state_error(scene) + 3 * sigma**2 + sigma**3 * momentum * abs(scene.end - scene.start)
+    span = abs(scene.end - scene.start)
+    braked = Torque(scene).left_out(scene, span, sigma) if "spin_down" in scene.document else 0.0
+    return state_error(scene) + 3 * sigma**2 + sigma**3 * momentum * span + braked
 
 
 def tables(compute, scene, error=None):

@@ -77,9 +77,27 @@ def strain(motion, times):
         return np.column_stack([a * a - b * b, 2 * a * b])
 
     # I^IJ = I^xx delta^IJ + (I^zz - I^xx) n^I n^J, and h^IJ = -(2/r) d2 I^IJ/dt2.
-    second = (scene.inertia_zz - scene.inertia_xx) * motion.derivative(quadrupole, times, 2)
+    second = motion.derivative(quadrupole, times, 2) if motion.braking is None else _of_rotation(motion, times)
+    second = second * (scene.inertia_zz - scene.inertia_xx)
     scale = G_OVER_C4 / observer.distance if scene.physical else 1.0
     return -scale * second[:, 0], -scale * second[:, 1]
+
+
+def _of_rotation(motion, times):
+    """The same derivative as if the torque along L ended at each time: it is left out of the wave (docs/spin-down.md)."""
+    observer, y = motion.scene.observer, motion.states(times)
+    rate = motion.free_rates(y)
+    step = 1e-3 / motion.turning
+    # Along a line the equations are polynomials of third degree: exact.
+    near = {k: motion.free_rates(y + k * step * rate) for k in (-2, -1, 1, 2)}
+    second = (8 * (near[1] - near[-1]) - (near[2] - near[-2])) / (12 * step)
+    n, n_1, n_2 = (values[:, 6:9] for values in (y, rate, second))
+
+    def plus_and_cross(u, v):
+        (u_1, u_2), (v_1, v_2) = ((x @ observer.theta, x @ observer.phi) for x in (u, v))
+        return np.array([u_1 * v_1 - u_2 * v_2, u_1 * v_2 + u_2 * v_1])
+
+    return (2 * plus_and_cross(n, n_2) + 2 * plus_and_cross(n_1, n_1)).T
 
 
 def position_angle_and_rate(motion, times):
@@ -90,7 +108,14 @@ def position_angle_and_rate(motion, times):
         m = direction_of_beam(motion, t)
         return np.column_stack([-m @ observer.theta, -m @ observer.phi])
 
-    here, rate = on_sky(times), motion.derivative(on_sky, times, 1)
+    here = on_sky(times)
+    if motion.braking is None:
+        rate = motion.derivative(on_sky, times, 1)
+    else:
+        # By the rotation alone, without what friction adds (docs/spin-down.md).
+        axes = motion.free_rates(motion.states(times))[:, :9].reshape(-1, 3, 3)
+        m = np.einsum("i,tij->tj", magnetic_axis(motion.scene.pulsar), axes)
+        rate = np.column_stack([-m @ observer.theta, -m @ observer.phi])
     turning = (here[:, 0] * rate[:, 1] - here[:, 1] * rate[:, 0]) / (here**2).sum(axis=1)
     return np.arctan2(here[:, 1], here[:, 0]), turning
 

@@ -12,6 +12,7 @@ from motion import Motion
 from pulses import pulses
 from scene import Scene
 from spectrum import lines
+from torque import Torque
 
 GROUPS = "angles,rates,e_x,e_z,L,integrals".split(",")
 
@@ -55,7 +56,8 @@ def _timed(document, numerics, rate, dates):
     """What the files are made of, with F1 and without; for epochs of given dates, or at the times of the scene."""
     scene = Scene(json.loads(document))
     turn = 2 * np.pi / Motion(scene, scene.start, scene.start).turning
-    motion = Motion(scene, min(scene.start, scene.end) - 10 * turn, max(scene.start, scene.end) + 10 * turn, numerics)
+    braking = Torque(scene) if "spin_down" in scene.document else None
+    motion = Motion(scene, min(scene.start, scene.end) - 10 * turn, max(scene.start, scene.end) + 10 * turn, numerics, braking)
     epochs = scene.times - scene.start
     if dates is not None:
         epochs = np.array([float((Fraction(date) - Fraction(str(scene.epoch))) * 86400) for date in dates])
@@ -65,8 +67,8 @@ def _timed(document, numerics, rate, dates):
     return scene, epochs, rows, timing.described(motion, rows), rate, h
 
 
-def timing_files(scene, numerics, name, with_rate, rate, uncertainty, dates=None):
-    files = timing.timing_files(*_timed(json.dumps(scene.document), numerics, rate, dates), with_rate, uncertainty)
+def timing_files(scene, numerics, name, terms, rate, uncertainty, dates=None):
+    files = timing.timing_files(*_timed(json.dumps(scene.document), numerics, rate, dates), terms, uncertainty)
     return {f"{name}.{ending}": ("," if ending == "csv" else " ", rows) for ending, rows in files.items()}
 
 

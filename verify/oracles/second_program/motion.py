@@ -4,9 +4,12 @@ The unknowns are the three body axes and the angular velocity in the body,
 
     d e_i/dt = Omega x e_i,    I dOmega/dt = Gamma - Omega x (I Omega),    Gamma = 2 C (s^yz, -s^xz, 0)
 
-with s^ij = e_i . s e_j: the torque of dU = C s^zz. A segment is a polynomial at Chebyshev's points of the integral equation, iterated until it
+with s^ij = e_i . s e_j: the torque of dU = C s^zz. A star that slows down has a torque along I Omega as well, and friction turns it (torque.py).
+A segment is a polynomial at Chebyshev's points of the integral equation, iterated until it
 no longer changes; the motion is dense by construction.
 """
+
+import functools
 
 import numpy as np
 
@@ -41,13 +44,13 @@ class Motion:
     A state is a row of twelve numbers: e_x, e_y, e_z (inertial components) and the angular velocity (body components).
     """
 
-    def __init__(self, scene, first, last, numerics=FINE):
-        self.scene, self.numerics = scene, numerics
+    def __init__(self, scene, first, last, numerics=FINE, braking=None):
+        self.scene, self.numerics, self.braking = scene, numerics, braking
         ratio = scene.inertia_zz / scene.inertia_xx
         torque = 2 * scene.c / scene.inertia_xx
         s = scene.tensor
 
-        def rates(y):
+        def rates(y, braking=braking):
             axes, (p, q, r) = y[:, :9].reshape(-1, 3, 3), y[:, 9:].T
             x, e_y, z = axes[:, 0], axes[:, 1], axes[:, 2]
             of_z = z @ s
@@ -56,10 +59,16 @@ class Motion:
             p_rate = torque * np.sum(of_z * e_y, axis=1) + (1 - ratio) * q * r
             q_rate = -torque * np.sum(of_z * x, axis=1) - (1 - ratio) * p * r
             spin = np.column_stack([p_rate, q_rate, np.zeros_like(p)])
+            if braking is not None:
+                body = y[:, 9:] * inertia
+                slowing, friction = braking.rate(body)
+                spin -= slowing[:, None] * y[:, 9:] + np.cross(friction, body) / inertia
+                p1, q1, r1 = (y[:, 9:] + friction).T[:, :, None]
             return np.hstack([r1 * e_y - q1 * z, p1 * z - r1 * x, q1 * x - p1 * e_y, spin])
 
-        self.rates = rates
-        start = np.concatenate([scene.axes.ravel(), scene.omega])
+        self.rates, self.free_rates = rates, functools.partial(rates, braking=None)
+        inertia = np.array([scene.inertia_xx, scene.inertia_xx, scene.inertia_zz])
+        start = np.concatenate([scene.axes.ravel(), scene.omega * (braking.start() if braking else 1.0)])
         momentum = np.linalg.norm(np.array([1, 1, ratio]) * scene.omega)
         # Above the rotation rate of any of the axes: |L| / I^xx, the rotation about z, and what the torque may add.
         self.turning = momentum + abs(1 - ratio) * abs(scene.spin) + np.sqrt(torque * np.abs(s).max())

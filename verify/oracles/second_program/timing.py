@@ -50,8 +50,9 @@ def described(motion, rows):
     return described
 
 
-def timing_files(scene, epochs, rows, described, strain_rate, h, with_rate, uncertainty):
-    """Tables of the .csv, .par, .tim and of both strain files `h` (none without a distance). The date of the start of the motion is `time.epoch`.
+def timing_files(scene, epochs, rows, described, strain_rate, h, terms, uncertainty):
+    """Tables of the .csv, .par, .tim and of both strain files `h` (none without a distance), by a fit of F0 and as many derivatives as make `terms`.
+    The date of the start of the motion is `time.epoch`.
 
     A row of a file of words is a list of its words.
     """
@@ -63,12 +64,10 @@ def timing_files(scene, epochs, rows, described, strain_rate, h, with_rate, unce
     pepoch = round(float(np.mean([int(date + Fraction(epoch) / 86400) for epoch in epochs])))
     t = middle - scene.start - float((pepoch - date) * 86400)
     centre = t.mean()
-    fit = np.polynomial.Polynomial.fit(t - centre, numbers, 2 if with_rate else 1)
+    fit = np.polynomial.Polynomial.fit(t - centre, numbers, terms)
     # By the rate of the fit at each time.
     late = (fit(t - centre) - numbers) / fit.deriv()(t - centre)
-    series = fit.convert().coef
-    at_pepoch = [sum(c * (-centre) ** k for k, c in enumerate(np.polynomial.polynomial.polyder(series, d) if d else series)) for d in range(3)]
-    phase, f0, f1 = at_pepoch[0], at_pepoch[1], at_pepoch[2] if with_rate else 0.0
+    phase, *rates = (fit.deriv(d)(-centre) if d else fit(-centre) for d in range(terms + 1))
 
     table = [HEADER]
     for k, (number, *_) in enumerate(rows):
@@ -77,17 +76,15 @@ def timing_files(scene, epochs, rows, described, strain_rate, h, with_rate, unce
 
     reference = round(phase)
     # The time at which the fit has this phase.
-    at = (reference - phase) / f0
-    for _ in range(5):
-        at -= (phase + f0 * at + f1 * at * at / 2 - reference) / (f0 + f1 * at)
+    at = 0.0
+    for _ in range(8):
+        at -= (fit(at - centre) - reference) / fit.deriv()(at - centre)
     pulsar = scene.pulsar
     par = [["#", *source.split()] for source in scene.document.get("sources", [])]
     par.append(["PSR", pulsar.get("name", "PULSAR")])
     if "right_ascension" in pulsar:
         par += [["RAJ", pulsar["right_ascension"]], ["DECJ", pulsar["declination"]], ["POSEPOCH", float(pepoch)]]
-    par.append(["F0", f0])
-    if with_rate:
-        par.append(["F1", f1])
+    par += [[f"F{k}", rate] for k, rate in enumerate(rates)]
     par += [["PEPOCH", float(pepoch)], ["TZRMJD", float(pepoch + Fraction(at) / 86400)]]
     par += [["TZRSITE", "@"], ["TZRFRQ", 0.0], ["UNITS", "TDB"], ["TRACK", -2]]
     tim = [["FORMAT", 1]]
