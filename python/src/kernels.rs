@@ -156,7 +156,7 @@ pub mod kernels {
         })
     }
 
-    /// The root mean square of `eta` over directions of the line of sight, for the asymmetry ratio `(s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)` and an axis at `beta` (rad).
+    /// The `eta` that belongs to the root mean square of `d cos(lambda) / dt` over directions of the line of sight and azimuths of the axis (`eta` itself has no mean), for the asymmetry ratio `(s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)` and an axis at `beta` (rad).
     #[pyfunction]
     fn root_mean_square_eta<'py>(
         py: Python<'py>,

@@ -12,10 +12,11 @@ pub const LARGEST_ROTATION: f64 = 1e8;
 impl Scene {
     /// Converts a time of the output to the time since the start, in t_c.
     pub fn since_start(&self, time: f64) -> f64 {
-        (time - self.times.start()) / self.units.time
+        self.since_start_in_parts(time)[0]
     }
 
-    /// The same as a sum of two doubles: after 1e10 turns the rounding of one is a noticeable fraction of a turn.
+    /// The same as a sum of two doubles, of which the first is the rounded sum: after 1e10 turns the rounding of one is a noticeable fraction of a
+    /// turn.
     pub fn since_start_in_parts(&self, time: f64) -> [f64; 2] {
         let (start, unit) = (self.times.start(), self.units.time);
         // Knuth's exact difference, followed by the remainder of the quotient.
@@ -24,7 +25,11 @@ impl Scene {
         let lost = (time - (difference - part)) - (start + part);
         let quotient = difference / unit;
         let rest = ((-quotient).mul_add(unit, difference) + lost) / unit;
-        [quotient, if rest.is_finite() { rest } else { 0.0 }]
+        if !rest.is_finite() {
+            return [quotient, 0.0];
+        }
+        let sum = quotient + rest;
+        [sum, rest - (sum - quotient)]
     }
 
     /// Converts a time since the start, in t_c, to a time of the output.
@@ -118,6 +123,7 @@ mod tests {
             let [most, rest] = scene(start, time, 3.0).since_start_in_parts(time);
             let off = 3 * (whole(most) + whole(rest)) - (whole(time) - whole(start));
             assert!(off.abs() < 6 && rest != 0.0, "{start} to {time}: {off}");
+            assert_eq!(most + rest, most, "{start} to {time}: the first part is the rounded sum");
         }
         assert_eq!(scene(-f64::MAX, f64::MAX, 3.0).since_start_in_parts(f64::MAX), [f64::INFINITY, 0.0]);
     }

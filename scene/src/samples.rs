@@ -284,8 +284,8 @@ impl<'s, X: SegmentState> Segments<'s, X> {
     }
 }
 
-/// Converts a time of the output to the time since the start, in t_c, in two doubles; restricted to the segment, whose ends it
-/// may exceed by rounding.
+/// Converts a time of the output to the time since the start, in t_c, in two doubles; restricted to the segment: the end of one may be a rounding
+/// before a time that belongs to it.
 fn since_start_within(scene: &Scene, time: f64, from: f64, to: f64) -> [f64; 2] {
     let parts = scene.since_start_in_parts(time);
     let t = parts[0].clamp(from.min(to), from.max(to));
@@ -314,6 +314,27 @@ mod tests {
         }
         assert_eq!(count, 21);
         assert!(sum < scene.tolerance, "{sum:e}");
+    }
+
+    /// Neither the start nor the unit of time is a short binary number: the times since the start are rounded.
+    #[test]
+    fn the_last_time_of_a_scene_is_within_its_span() {
+        let mut scene = Scene::named("tp-2").unwrap();
+        scene.units.time = 0.02156407;
+        scene.choose_method("taylor").unwrap();
+        scene.choose_columns(&["e_z"]).unwrap();
+        for (start, k) in [0.1, 0.3, 0.7].into_iter().flat_map(|start| (1..=30).map(move |k| (start, k))) {
+            let last = start + 0.01 * f64::from(k);
+            scene.times = crate::scene_file::Times::Listed { start, times: vec![last] };
+            let plan = scene.plan(&scene.columns).unwrap();
+            let mut taken = Vec::new();
+            let take = |time: f64, _: &Sample| -> Result<(), Error> {
+                taken.push(time);
+                Ok(())
+            };
+            for_each_sample(&scene, &plan, ErrorEstimates::None, take, |_, _, _| Ok(())).unwrap();
+            assert_eq!(taken, [last]);
+        }
     }
 
     /// A scene that rotates by a given number of radians, with samples at these rotations.

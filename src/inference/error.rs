@@ -123,4 +123,12 @@ mod tests {
         let told = InferenceError::Rounding { observable: Observable::Widths, rounding: 2e-14 }.to_string();
         assert!(told.contains("widths to 2.0e-14 t_c") && told.ends_with("2.0e-12 t_c for certain"), "{told}");
     }
+
+    /// Without a first step there are no residuals, and no cosine.
+    #[test]
+    fn a_fit_that_did_not_begin_is_told_from_one_that_ended_off_a_minimum() {
+        let told = |cosine: f64| InferenceError::NotConverged { why: "no step", cosine }.to_string();
+        assert_eq!(told(f64::NAN), "the fit did not begin: no step");
+        assert!(told(0.25).starts_with("the fit ended off a minimum (no step; the residuals have a cosine of 2.5e-1"));
+    }
 }

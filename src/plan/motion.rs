@@ -213,6 +213,14 @@ mod tests {
     use crate::propagation::splitting::GRADIENT_8_8_6;
     use crate::solutions::free::free_rotation;
 
+    /// Derivatives of what an observer sees follow from it.
+    #[test]
+    fn a_star_with_a_bulge_turns_by_the_equations_that_have_it() {
+        let problem = problem([2e-6, 1e-6, -3e-6]).with_bulge(0.2).unwrap();
+        let motion = problem.motion((0.0, 10.0), 1e-9).unwrap();
+        assert!(matches!(motion.turning(), Turning::Equations { bulge } if bulge == problem.bulge() && bulge != 0.0));
+    }
+
     #[test]
     fn a_time_in_two_parts_is_their_sum() {
         let problem = problem([2e-6, 1e-6, -3e-6]);

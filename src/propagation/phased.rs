@@ -66,10 +66,10 @@ impl PhasedMotion {
     }
 
     /// The motion accurate to rounding, for times up to `longest` in size: on the torus. A free motion is uniform. If there is no torus, as for `n`
-    /// along `L`, it is the averaged motion if its truncation error is below rounding at the start, or a steady one.
+    /// along `L` or for a star with a bulge, it is the averaged motion if its truncation error is below rounding at the start, or a steady one.
     ///
     /// # Errors
-    /// As for [`TorusSolution::new`].
+    /// As for [`TorusSolution::new`]; [`Error::Domain`] for a star with a bulge whose averaged motion is not so accurate.
     pub fn exact(problem: &Problem<f64>, longest: f64) -> Result<Self, Error> {
         let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
         let uniform = |motion| Self { problem: *problem, solution: Solution::Uniform(motion) };
@@ -78,6 +78,16 @@ impl PhasedMotion {
             return Ok(uniform(free));
         }
         let is_exact = |motion: &Self| motion.truncation(0.0) <= motion.rounding(0.0);
+        if problem.require_rigid().is_err() {
+            let motion = Self::averaged(problem)?;
+            Error::ensure(
+                is_exact(&motion),
+                "error (rad) of the averaged motion, the only one of a star with a bulge",
+                motion.truncation(0.0),
+                "at most that of rounding; it is smaller for weaker coefficients",
+            )?;
+            return Ok(motion);
+        }
         Self::torus(problem, longest).or_else(|refused| {
             let averaged = Self::averaged(problem).ok().filter(is_exact);
             let steady = || UniformMotion::steady(problem, everywhere).ok().map(uniform);

@@ -220,6 +220,24 @@ pub(crate) mod tests {
         assert!(numbered > 10, "{numbered}");
         let claim = part(page, "claim-beyond-leading-order", "</article>");
         assert!(claim.contains("href=\"#figure-method-regimes\""), "{claim}");
+        for (check, _) in &content.results {
+            let link = format!("href=\"#{}\"", cross_reference::check(check.id));
+            for number in check.equations {
+                let article = part(page, &cross_reference::equation(*number), "</article>");
+                assert!(article.contains(&link), "({number}) does not name {}", check.id);
+            }
+        }
+        let mut named = 0;
+        for id in values(page, "id").into_iter().filter(|id| id.starts_with("discrepancy-")) {
+            // To the next heading, or to the end of the page's section.
+            let text = part(page, id, "<h").split("</section>").next().expect("a part");
+            for equation in values(text, "href").into_iter().filter(|link| link.starts_with("#eq-")) {
+                named += 1;
+                let article = part(page, &equation[1..], "</article>");
+                assert!(article.contains(&format!("href=\"#{id}\"")), "{equation} does not name {id}");
+            }
+        }
+        assert!(named > 20, "{named}");
         // Captions name equations too.
         let equation = part(page, "eq-57", "</article>");
         assert!(equation.contains("href=\"#figure-pulse-series\""), "{equation}");

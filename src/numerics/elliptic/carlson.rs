@@ -177,13 +177,14 @@ impl<S: Real> Arguments<S> {
     }
 
     /// Replaces every argument `x` by `(x + lambda) / 4`, which leaves `R_F` unchanged.
+    ///
+    /// With `s = sqrt y + sqrt z`, `(y + z) / 2 + lambda = s (s / 2 + sqrt x)` and `(y + lambda)(z + lambda) = s^2 (x + lambda)`: nothing cancels,
+    /// also where `y` and `z` are near the negative axis.
     fn duplicate(&mut self) {
         let lambda = self.lambda();
         let x = (self.x + lambda) * 0.25;
-        let mean = (self.mean + lambda) * 0.25;
-        let product = self.root_product * self.root_product + self.mean * lambda * 2.0 + lambda * lambda;
-        let root_product = product.sqrt() * 0.25;
-        // The mean is positive by now.
+        let mean = self.root_sum * (self.root_sum * 0.5 + self.root_x) * 0.25;
+        let root_product = self.root_sum * x.sqrt() * 0.5;
         let root_sum = ((mean + root_product) * 2.0).sqrt();
         *self = Self { x, root_x: x.sqrt(), mean, root_sum, root_product };
     }
@@ -230,6 +231,24 @@ mod tests {
                 assert!((rj(1.0, 1.0, z, p) / expected - 1.0).abs() < 1e-14, "{p}: {} {expected}", rj(1.0, 1.0, z, p));
             }
         }
+    }
+
+    /// `R_F` of these roots, by mpmath with 60 digits.
+    const REFERENCES: [([f64; 3], f64); 4] = [
+        ([1e-3, 1e-8, 1.0], 20.499_113_036_244_412),
+        ([1.0, 1e-8, 1.0], 14.362_679_314_918_039),
+        ([0.0, 1e-9, 1.0], 22.802_707_378_626_247),
+        ([0.5, 0.01, 1.0], 5.748_115_486_319_065),
+    ];
+
+    #[test]
+    fn a_conjugate_pair_near_the_negative_axis_keeps_its_digits() {
+        for ([root_x, root_sum, root_product], expected) in REFERENCES {
+            let found = rf_of_roots(root_x, root_sum, root_product);
+            assert!((found / expected - 1.0).abs() < 2e-15, "{root_x} {root_sum} {root_product}: {found} {expected}");
+        }
+        let found = rj_of_roots(1e-3, 1e-8, 1.0, 0.7);
+        assert!((found / 36.546_563_163_515_29 - 1.0).abs() < 2e-15, "{found}");
     }
 
     /// Of 1, 2, 1 and p = 1/2 the mean (x + y + z + 2 p) / 5 is 1: only y and p are far from it.

@@ -77,7 +77,7 @@ pub struct ClockPulse {
     pub position_angle: f64,
     /// Rate of the position angle there (rad per unit of time).
     pub position_angle_rate: f64,
-    /// Swing of the position angle from edge to edge (rad), less than a turn.
+    /// Swing of the position angle from edge to edge (rad), followed along the pulse.
     pub swing: f64,
     /// State at the midpoint, in the frame of the initial state.
     pub state: BodyState<f64>,
@@ -393,7 +393,6 @@ impl PulsarClock {
         let m = self.beam.direction(&state);
         let angle = |m: &Vector3<f64>| position_angle(m, &self.observer).unwrap_or(f64::NAN);
         let middle = angle(&m);
-        let from = |t: f64| angle(&self.beam.direction(&near.at(t)));
         let stretched = stretched[0];
         let rate = if middle.is_nan() { middle } else { position_angle_rate(&m, &omega, &self.observer) };
         Ok(ClockPulse {
@@ -402,11 +401,34 @@ impl PulsarClock {
             duration: (end - start).high,
             position_angle: middle,
             position_angle_rate: rate * self.time.slowing(stretched),
-            swing: wrapped(from(pulse.end) - middle) + wrapped(middle - from(pulse.start)),
+            swing: self.swing(near, pulse),
             state: self.slowed(state, stretched),
         })
     }
+
+    /// The change of the position angle along a pulse (rad), in steps shorter than the distance of the magnetic axis from the line of sight: a cap about
+    /// the axis that contains neither that line nor its opposite has one value of the angle in each direction.
+    fn swing(&self, near: &Near<'_>, pulse: &Pulse) -> f64 {
+        let look = |t: f64| {
+            let m = self.beam.direction(&near.at(t));
+            let angle = position_angle(&m, &self.observer).unwrap_or(f64::NAN);
+            (angle, m.cross(&self.observer.direction).norm())
+        };
+        let (mut t, mut swing) = (pulse.start, 0.0);
+        let (mut angle, mut distance) = look(t);
+        while t < pulse.end && !f64::is_nan(swing) {
+            // The friction of a star that is damped may add a tenth to the rate.
+            t = pulse.end.min(t + (0.8 * distance).max(NEAREST) / self.bounds.first);
+            let next = look(t);
+            swing += wrapped(next.0 - angle);
+            (angle, distance) = next;
+        }
+        swing
+    }
 }
+
+/// Distance (rad) from the line of sight below which the magnetic axis passes it in one step: its side is then lost to rounding.
+const NEAREST: f64 = 1e-9;
 
 /// The pulse at a time, if the line of sight is inside the beam then and m.n is concave: no other pulse is nearer, and the rest of the
 /// turn need not be searched.

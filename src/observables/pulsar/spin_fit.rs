@@ -108,8 +108,8 @@ impl SpinFit {
     }
 
     /// The time at which the fit has the phase `number`, as the unevaluated sum of two doubles, by Newton's method from the root
-    /// `2 n / (F0 + sqrt(F0^2 + 2 F1 n))` of the quadratic equation, `n` counted from the phase at the time zero. NaN if the phase never reaches the
-    /// number.
+    /// `2 n / (F0 + sqrt(F0^2 + 2 F1 n))` of the quadratic equation, `n` counted from the phase at the time zero. NaN if that equation has
+    /// no root, or if `F2` changes the phase so much by then that the method does not converge in five steps; for a pulsar neither happens.
     pub fn time_of(&self, number: i64) -> [f64; 2] {
         let wanted = (DoubleDouble::from(number as f64) - self.phase.into()) * 2.0;
         let frequency = DoubleDouble::from(self.frequency);
@@ -118,10 +118,16 @@ impl SpinFit {
         let mut t = wanted / (if frequency.high < 0.0 { frequency - root } else { frequency + root });
         if second != 0.0 {
             let wanted = wanted * 0.5;
+            let mut step = DoubleDouble::default();
             for _ in 0..NEWTON_STEPS {
                 let phase = t * (frequency + t * (DoubleDouble::from(rate / 2.0) + t * (second / 6.0)));
                 let slope = frequency.high + t.high * (rate + t.high * second / 2.0);
-                t -= (phase - wanted) / slope;
+                step = (phase - wanted) / slope;
+                t -= step;
+            }
+            // The last step squares an error that is below 1e-14.
+            if step.high.abs() > 1e-14 * t.high.abs() {
+                return [f64::NAN; 2];
             }
         }
         t.into()
@@ -185,6 +191,25 @@ fn horner([a, b, c, d]: &[f64; 4], u: f64) -> [f64; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// `10 t + F2 t^3 / 6`: five steps from `n / 10` reach the root for a small `F2`, and no number is made up for a large one.
+    #[test]
+    fn a_time_of_a_phase_is_one_of_that_phase_or_none() {
+        let fit = |second: f64| SpinFit {
+            phase: [0.0; 2],
+            frequency: [10.0, 0.0],
+            derivatives: [0.0, second],
+            residuals: Vec::new(),
+        };
+        for (second, number) in [(1e-10, 100_000), (-1e-9, 10_000), (1e-3, 0)] {
+            let t = fit(second).time_of(number)[0];
+            let phase = 10.0 * t + second * t.powi(3) / 6.0;
+            assert!((phase - number as f64).abs() < 1e-9, "{second} {number}: {t}");
+        }
+        for (second, number) in [(1e-3, 100_000), (1e-3, 10_000_000), (-1e-3, 1000)] {
+            assert!(fit(second).time_of(number)[0].is_nan(), "{second} {number}");
+        }
+    }
 
     /// Twenty years of a millisecond pulsar with a known sinusoidal delay of 3 ns.
     #[test]

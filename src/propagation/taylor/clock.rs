@@ -65,3 +65,19 @@ fn check_length(steps: usize, limit: StepLimit, elapsed: f64, duration: f64) -> 
     let hopeless = steps >= 256 && foreseen > 2.0 * limit.steps as f64;
     Error::ensure(steps < limit.steps && !hopeless, "length of the motion in its own steps", foreseen, limit.allowed)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A tenth of the motion took 300 steps: 3,000 are foreseen. Fewer than 256 foresee nothing, and twice the limit may be an irregular start.
+    #[test]
+    fn a_refused_length_is_the_one_foreseen() {
+        let limit = StepLimit { steps: 1000, allowed: "at most 1000" };
+        let refused = check_length(300, limit, 0.2, 2.0).unwrap_err();
+        let quantity = "length of the motion in its own steps";
+        assert_eq!(refused, Error::Domain { quantity, value: 3000.0, allowed: "at most 1000" });
+        assert!(check_length(255, limit, 0.2, 2.0).is_ok() && check_length(300, limit, 0.4, 2.0).is_ok());
+        assert!(check_length(1000, limit, 2.0, 2.0).is_err());
+    }
+}

@@ -121,6 +121,22 @@ mod tests {
         assert!((frame.map(Real::re) - turn).amax() < 1e-15);
     }
 
+    /// Two eigenvalues 1e-13 apart, in a tilted frame: the axes of their plane stay as they were found in doubles, and the rounding of the tensor,
+    /// some 1e-17, is beside its diagonal. Eigenvalues that differ leave 1e-33 there.
+    #[test]
+    fn what_is_left_beside_the_diagonal_is_in_the_stated_error() {
+        let turn = Rotation3::from_euler_angles(0.3, -0.8, 1.7).into_inner();
+        let drift = |second: f64| {
+            let given = turn.transpose() * Matrix3::from_diagonal(&Vector3::new(0.3, second, -0.6)) * turn;
+            let problem = crate::dynamics::fixture::problem([0.2, 0.1, -0.3]);
+            let problem = Problem::new(*problem.spheroid(), (given + given.transpose()) / 2.0, *problem.initial());
+            let problem = problem.unwrap();
+            WideTorus::near(&Torus::of(&problem).unwrap(), &problem).unwrap().drift
+        };
+        assert!((1e-18..1e-15).contains(&drift(0.3 + 1e-13)), "{:e}", drift(0.3 + 1e-13));
+        assert!(drift(0.1) < 1e-29, "{:e}", drift(0.1));
+    }
+
     /// Two equal eigenvalues: any axes of their plane are valid, and nothing is divided by zero.
     #[test]
     fn equal_eigenvalues_keep_their_axes() {

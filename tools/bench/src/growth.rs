@@ -146,10 +146,12 @@ mod tests {
         }
     }
 
-    /// The largest changes of the integrals so far do not become smaller.
+    /// The largest changes of the integrals so far do not become smaller. The longest time is among them.
     #[test]
     fn changes_are_the_largest_so_far() {
         let rows = measure(&Effort { rounds: 1, longest: 1e4 }, |_| ()).expect("motions");
+        let times: Vec<_> = rows.iter().map(|row| row.time).collect();
+        assert_eq!(times, [1e2, 1e3, 1e4].repeat(METHODS.len()));
         let mut compared = 0;
         for (earlier, later) in rows.iter().zip(&rows[1..]).filter(|(earlier, later)| earlier.method == later.method) {
             assert!(

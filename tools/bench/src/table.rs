@@ -201,14 +201,21 @@ mod tests {
     /// Each number under its own name.
     #[test]
     fn errors_stand_under_their_names() {
-        let row = |time: f64| growth::Row { method: "m", time, energy: 1e-15, clebsch: 2e-12, phase: 3e-9 };
-        let text = growth(&[row(1e3), row(1e4)]);
+        let row = |time: f64| growth::Row {
+            method: "m",
+            time,
+            energy: 1e-15 * (time / 1e3).sqrt(),
+            clebsch: 2e-12 * (time / 1e3),
+            phase: 3e-9 * (time / 1e3).powi(2),
+        };
+        let text = growth(&[1e3, 1e4, 1e5].map(row));
         let cells = |start: &str| {
             let line = text.lines().find(|line| line.contains(start)).expect("a line");
             line.split('|').map(str::trim).filter(|cell| !cell.is_empty()).skip(2).collect::<Vec<_>>()
         };
         assert_eq!(cells("method"), ["energy", "K", "phase"]);
         assert_eq!(cells("1e3"), ["1.0e-15", "2.0e-12", "3.0e-9"]);
+        assert_eq!(cells("exponent"), ["0.50", "1.00", "2.00"]);
     }
 
     #[test]
