@@ -50,7 +50,7 @@ pub struct ArithmeticGeometricMean<S> {
 /// The values `sn(u | m)`, `cn(u | m)`, `dn(u | m)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JacobiFunctions<S> {
-    /// Sine amplitude.
+    /// Sine amplitude; from [`ArithmeticGeometricMean::functions`] that over `a`.
     pub sn: S,
     /// Cosine amplitude.
     pub cn: S,
@@ -59,7 +59,7 @@ pub struct JacobiFunctions<S> {
 }
 
 impl<S: Real> ArithmeticGeometricMean<S> {
-    /// The mean of `a` and `b`, both above zero; NaN otherwise.
+    /// The mean of `a` and `b`, both above zero and with a finite sum; NaN unless both are above zero.
     pub fn new(a: S, b: S) -> Self {
         // The means of a positive number and zero would only halve, and stop before their limit zero.
         let b = if a.re() > 0.0 && b.re() > 0.0 { b } else { S::from_f64(f64::NAN) };
@@ -71,7 +71,10 @@ impl<S: Real> ArithmeticGeometricMean<S> {
             if (a - b).re().abs() <= NEARLY_EQUAL * a.re() {
                 to_go -= 1;
             }
-            steps[used] = ((a + b) * 0.5, (a * b).sqrt());
+            let product = a * b;
+            // With fewer roundings, but only while the product neither under- nor overflows.
+            let root = if product.re().is_normal() { product.sqrt() } else { a.sqrt() * b.sqrt() };
+            steps[used] = ((a + b) * 0.5, root);
             used += 1;
         }
         Self { steps, used, negative_parameter }
@@ -89,7 +92,8 @@ impl<S: Real> ArithmeticGeometricMean<S> {
 
     /// `sn(a t | m) / a`, `cn(a t | m)`, `dn(a t | m)` for `|t|` up to half the quarter period `K(m) / a`.
     ///
-    /// Relative error of each a few ulp there, also for `m -> 1`; it grows towards the zeros of `cn` beyond.
+    /// Relative error of each a few ulp there, also for `m -> 1`; it grows towards the zeros of `cn` beyond. Squares of `a` and `b` must neither
+    /// overflow nor underflow.
     pub fn functions(&self, t: S) -> JacobiFunctions<S> {
         let (sin, cos) = (self.limit() * t).sin_cos();
         let mut f = JacobiFunctions { sn: sin / self.limit(), cn: cos, dn: S::one() };
@@ -143,4 +147,22 @@ pub fn jacobi<S: Real>(u: S, m1: S) -> JacobiFunctions<S> {
         JacobiFunctions { sn: f.cn / f.dn * side, cn: complement * f.sn / f.dn, dn: complement / f.dn }
     };
     JacobiFunctions { sn: f.sn * sign, cn: f.cn * sign, dn: f.dn }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The mean of `a` and 2 a is 1.456791031046907 a. That of `a` and `b` far below it is `pi a / (2 ln(4 a / b))`.
+    #[test]
+    fn means_of_tiny_and_of_huge_numbers_keep_their_digits() {
+        let mean = |a: f64, b: f64| ArithmeticGeometricMean::new(a, b).limit();
+        for a in [1e-300, 1e-200, 1e-160, 1.0, 1e160, 1e300] {
+            assert!((mean(a, 2.0 * a) / a - 1.456_791_031_046_907).abs() < 1e-14, "{a:e}: {:e}", mean(a, 2.0 * a));
+            assert_eq!(mean(a, a), a);
+        }
+        let far = FRAC_PI_2 * 1e300 / (4.0_f64.ln() + 600.0 * 10.0_f64.ln());
+        assert!((mean(1e-300, 1e300) / far - 1.0).abs() < 1e-14, "{:e} {far:e}", mean(1e-300, 1e300));
+        assert!([(0.0, 1.0), (1.0, 0.0), (-1.0, -1.0)].iter().all(|(a, b)| mean(*a, *b).is_nan()));
+    }
 }

@@ -141,7 +141,7 @@ impl<S: Real> Perturbation<S> {
     /// order in `r` corrected; both also have an error of first order in `s`. `r` is the size of `alpha1` and `beta1`.
     ///
     /// # Errors
-    /// [`Error::Domain`] where `sin beta_0` or (twofold) `cos beta_0` is not above 2.2e-16 in size, where the spin is zero,
+    /// [`Error::Domain`] where `sin beta_0` or `cos beta_0` is not above 2.2e-16 in size, where the spin is zero,
     /// and where `a`, by which Eq. (33) divides, vanishes.
     pub fn new(
         form: Form,
@@ -151,7 +151,7 @@ impl<S: Real> Perturbation<S> {
         spin: S,
         constants: &Constants<S>,
     ) -> Result<Self, Error> {
-        check_domain(kind, spin, constants.beta_0)?;
+        check_domain(spin, constants.beta_0)?;
         Self::new_unchecked(form, kind, spheroid, s, spin, constants).with_nonzero_rate(spheroid, s, spin)
     }
 
@@ -171,7 +171,7 @@ impl<S: Real> Perturbation<S> {
             rate.abs() > 4.0 * f64::EPSILON * terms,
             "precession rate a of Eq. (32)",
             rate,
-            "nonzero beyond rounding: Eq. (33) divides by it (for single precession 2 s^ZZ - s^XX - s^YY and cos beta_0 must not vanish)",
+            "nonzero beyond rounding: Eq. (33) divides by it (for single precession 2 s^ZZ - s^XX - s^YY must not vanish)",
         )?;
         Ok(self)
     }
@@ -196,7 +196,7 @@ pub fn shifted_rates<S: Real>(
     spin: S,
     beta_0: S,
 ) -> Result<ShiftedRates<S>, Error> {
-    check_domain(Precession::Twofold, spin, beta_0)?;
+    check_domain(spin, beta_0)?;
     let (_, cb) = beta_0.sin_cos();
     let forced_rate = spheroid.constant_c * s.combination() * cb / (spheroid.inertia_zz * spin);
     Ok(ShiftedRates {
@@ -205,7 +205,7 @@ pub fn shifted_rates<S: Real>(
     })
 }
 
-fn check_domain<S: Real>(kind: Precession, spin: S, beta_0: S) -> Result<(), Error> {
+fn check_domain<S: Real>(spin: S, beta_0: S) -> Result<(), Error> {
     let (sb, cb) = beta_0.sin_cos();
     Error::ensure(
         sb.re().abs() > f64::EPSILON,
@@ -214,10 +214,10 @@ fn check_domain<S: Real>(kind: Precession, spin: S, beta_0: S) -> Result<(), Err
         "|sin beta_0| > 2.2e-16: Eqs. (30)-(34) divide by it",
     )?;
     Error::ensure(
-        kind == Precession::Single || cb.re().abs() > f64::EPSILON,
+        cb.re().abs() > f64::EPSILON,
         "cosine of the mean inclination, cos beta_0",
         cb.re(),
-        "|cos beta_0| > 2.2e-16 for twofold precession: a = omega / cos beta_0",
+        "|cos beta_0| > 2.2e-16: twofold precession has the rate omega / cos beta_0, single precession none at a right angle",
     )?;
     Error::ensure(spin.re() != 0.0, "spin Omega^z", spin.re(), "nonzero: Eq. (31) divides by it")
 }
@@ -226,4 +226,24 @@ fn check_domain<S: Real>(kind: Precession, spin: S, beta_0: S) -> Result<(), Err
 fn doubled<S: Scalar>(angle: S) -> (S, S) {
     let (sin, cos) = angle.sin_cos();
     (sin * cos * 2.0, cos * cos - sin * sin)
+}
+
+#[cfg(test)]
+mod tests {
+    use core::f64::consts::FRAC_PI_2;
+
+    use super::*;
+
+    /// The cosine of the double nearest to a right angle is its rounding.
+    #[test]
+    fn neither_precession_has_a_rate_at_a_right_angle() {
+        let (star, s) = (RigidSpheroid::in_units_of_tc(1.1), PrincipalCoefficients::new([0.02, 0.01, -0.04]));
+        for kind in [Precession::Single, Precession::Twofold] {
+            let at = |beta_0: f64| {
+                let constants = Constants { alpha_0: 0.3, beta_0, amplitude: 0.0, phase: 0.0 };
+                Perturbation::new(Form::Printed, kind, &star, &s, 1.0, &constants)
+            };
+            assert!(at(FRAC_PI_2).is_err() && at(FRAC_PI_2 - 1e-15).is_ok(), "{kind:?}");
+        }
+    }
 }
