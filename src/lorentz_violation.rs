@@ -292,15 +292,21 @@ pub fn coefficients_from_preferred_frame<S: Scalar>(alpha_2: S, w: &Vector3<S>) 
     -(w * w.transpose()) * alpha_2
 }
 
+/// `|w|^2`; refuses a velocity whose fourth power would underflow.
+pub(crate) fn squared_velocity<S: Real>(w: &Vector3<S>) -> Result<S, Error> {
+    let w2 = w.dot(w);
+    Error::ensure(w2.re() >= 1e-150, "squared velocity |w|^2", w2.re(), "at least 1e-150: |w|^4 must not underflow")?;
+    Ok(w2)
+}
+
 /// The PPN parameter of a tensor of rank one, the inverse of Eq. (5) `[replace]` for a given velocity `w` (units of c):
 /// `alpha_2 = -s^ij w^i w^j / |w|^4`.
 ///
 /// # Errors
-/// [`Error::Domain`] for `w = 0`, or where `s^ij + alpha_2 w^i w^j` is not zero to `1e-9` of `s^ij`: such a tensor is not
+/// [`Error::Domain`] for `|w|` below 1e-75, or where `s^ij + alpha_2 w^i w^j` is not zero to `1e-9` of `s^ij`: such a tensor is not
 /// of preferred-frame form.
 pub fn preferred_frame_parameter<S: Real>(s: &Matrix3<S>, w: &Vector3<S>) -> Result<S, Error> {
-    let w2 = w.dot(w);
-    Error::ensure(w2.re() > 0.0, "squared velocity |w|^2", w2.re(), "above zero")?;
+    let w2 = squared_velocity(w)?;
     let alpha_2 = -(w.dot(&(s * w)) / (w2 * w2));
     let rest = (s - coefficients_from_preferred_frame(alpha_2, w)).map(S::re).amax();
     Error::ensure(
@@ -417,6 +423,20 @@ mod tests {
                     other => assert!(is_symmetric && other.is_ok()),
                 }
             }
+        }
+    }
+
+    #[test]
+    fn velocities_whose_fourth_power_underflows_are_refused_as_such() {
+        let tensor = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, -0.1));
+        for size in [1e-3, 1e-74] {
+            let w = Vector3::new(0.0, 0.0, size);
+            let found = preferred_frame_parameter(&coefficients_from_preferred_frame(0.1, &w), &w).unwrap();
+            assert!((found - 0.1_f64).abs() < 1e-15, "{size:e}: {found}");
+        }
+        for size in [0.0, 1e-170, 1e-90, 1e-76, f64::NAN] {
+            let refused = preferred_frame_parameter(&tensor, &Vector3::new(0.0, 0.0, size)).unwrap_err();
+            assert!(matches!(refused, Error::Domain { quantity: "squared velocity |w|^2", .. }), "{size:e}: {refused}");
         }
     }
 }

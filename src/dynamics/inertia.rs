@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use crate::error::Error;
 use crate::numerics::scalar::{Real, Scalar};
+use crate::units::time_unit;
 
 /// Principal moments of inertia `I^xx, I^yy, I^zz` of any rigid body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,10 +81,25 @@ impl<S: Real> RigidSpheroid<S> {
     /// Unit of time `t_c = sqrt(I^xx / C)`, Eq. (35) `[unitt]`.
     ///
     /// # Errors
-    /// [`Error::Domain`] unless `C > 0`, which an oblate star has.
+    /// [`Error::Domain`] unless `C > 0`, which an oblate star has, and as for [`units::time_unit`](crate::units::time_unit).
     pub fn time_unit(&self) -> Result<S, Error> {
         let c = self.constant_c.re();
         Error::ensure(c > 0.0, "constant C of the anisotropic self-energy", c, "above zero, as for an oblate star")?;
-        Ok((self.inertia_xx / self.constant_c).sqrt())
+        time_unit(self.inertia_xx / self.constant_c)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_unit_of_time_is_a_time() {
+        let unit =
+            |inertia_xx: f64, constant_c: f64| RigidSpheroid { inertia_xx, inertia_zz: 1.0, constant_c }.time_unit();
+        assert_eq!(unit(9.0, 4.0), Ok(1.5));
+        for (inertia_xx, constant_c) in [(1.0, 0.0), (1.0, f64::INFINITY), (-1.0, 1.0), (-1.0, -1.0), (1.0, f64::NAN)] {
+            assert!(unit(inertia_xx, constant_c).is_err(), "{inertia_xx} {constant_c}");
+        }
     }
 }

@@ -75,7 +75,7 @@ pub fn scaling(forecasts: &[Forecast]) -> [Option<Slope>; 2] {
             let (x_mean, y_mean) = of_group.iter().fold((0.0, 0.0), |(a, b), (x, y)| (a + x / count, b + y / count));
             points.extend(of_group.into_iter().map(|(x, y)| (x - x_mean, y - y_mean)));
         }
-        slope(&points).ok().filter(|slope| slope.value.is_finite())
+        slope(&points).ok()
     };
     [
         mean_slope(|forecast| forecast.epochs as u64, |forecast| forecast.span),

@@ -26,7 +26,8 @@ pub struct Slope {
 /// Least-squares slope of `y` against `x`.
 ///
 /// # Errors
-/// With fewer than three points there is no scatter from which to estimate the error.
+/// [`Error::Domain`] for fewer than three points, which have no scatter from which to estimate the error, for points at a single `x`, and for a slope
+/// or an error that is not finite, as where a point is not.
 pub fn slope(points: &[(f64, f64)]) -> Result<Slope, Error> {
     let n = points.len() as f64;
     Error::ensure(n >= 3.0, "number of points of a slope", n, "three or more")?;
@@ -36,14 +37,37 @@ pub fn slope(points: &[(f64, f64)]) -> Result<Slope, Error> {
     let sxy: f64 = points.iter().map(|p| (p.0 - mean_x) * (p.1 - mean_y)).sum();
     let value = sxy / sxx;
     let scatter: f64 = points.iter().map(|p| (p.1 - mean_y - value * (p.0 - mean_x)).powi(2)).sum();
-    Ok(Slope { value, error: (scatter / (n - 2.0) / sxx).sqrt() })
+    let error = (scatter / (n - 2.0) / sxx).sqrt();
+    // The rounding of their mean spreads equal values of x.
+    let spread = points.iter().any(|p| p.0 != points[0].0);
+    let allowed = "a finite number with a finite error: finite points, not all at one x";
+    Error::ensure(spread && value.is_finite() && error.is_finite(), "slope", value, allowed)?;
+    Ok(Slope { value, error })
 }
 
 /// Slope of `log10 y` against `log10 x`, without the points with `y` below `floor` (rounding).
 ///
 /// # Errors
-/// As for [`slope`].
+/// As for [`slope`], of the logarithms: an `x` that is kept is above zero.
 pub fn order(points: &[(f64, f64)], floor: f64) -> Result<Slope, Error> {
     let kept: Vec<_> = points.iter().filter(|p| p.1 > floor).map(|p| (p.0.log10(), p.1.log10())).collect();
     slope(&kept)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_that_lie_on_no_line_have_no_slope() {
+        let rising = |x: [f64; 3]| [(x[0], 1.0), (x[1], 2.0), (x[2], 4.0)];
+        assert!(slope(&rising([0.1, 0.2, 0.3])).is_ok() && order(&rising([0.1, 0.2, 0.3]), 0.0).is_ok());
+        for x in [[0.1; 3], [0.0; 3], [0.1, 0.2, f64::NAN], [0.1, 0.2, f64::INFINITY]] {
+            assert!(slope(&rising(x)).is_err(), "{x:?}");
+        }
+        assert!(slope(&[(0.1, 1.0), (0.2, f64::INFINITY), (0.3, 1.0)]).is_err());
+        for first in [0.0, -0.1] {
+            assert!(order(&rising([first, 0.2, 0.3]), 0.0).is_err(), "{first}");
+        }
+    }
 }

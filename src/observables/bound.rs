@@ -16,6 +16,7 @@
 use nalgebra::Vector3;
 
 use crate::error::Error;
+use crate::lorentz_violation::squared_velocity;
 use crate::numerics::scalar::{Real, Scalar};
 
 /// An observed limit on the motion of the spin axis of a star: the largest change of `cos lambda`, and the time that it
@@ -36,9 +37,9 @@ impl<S: Real> SpinAxisDrift<S> {
     /// Bound `|2 s^ZZ - s^XX - s^YY| <~ eta |I^zz Omega^z Delta cos lambda / (C Delta t)|`, Eq. (41) `[est1]`.
     ///
     /// The paper's estimate sets the factors by which Eq. (38) depends on the directions to one: `eta` is
-    /// [`eta_from_inclination`] for `beta_0` up to about 1.1 and, according to the paper, at most 10. Its mean, and the
-    /// value that it does not exceed with a given probability, follow from [`eta`](super::eta) and
-    /// [`eta_distribution`](super::eta_distribution).
+    /// [`eta_from_inclination`] for `beta_0` up to about 1.1 and, according to the paper, at most 10. The `eta` of
+    /// the root mean square of the drift follows from [`eta`](super::eta), the value that it does not exceed with a given
+    /// probability from [`eta_distribution`](super::eta_distribution); it has no mean.
     ///
     /// # Errors
     /// [`Error::Domain`] for an interval of zero.
@@ -67,8 +68,8 @@ pub fn eta_from_inclination<S: Real>(beta_0: S) -> Result<S, Error> {
 /// `T_rot = I^zz (Omega^z)^2 / 2`: density profile, radius and the size of the oblateness do not matter. The errors are those of
 /// Newtonian gravity and of treating the star as a fluid. Eq. (43) with Eq. (20) `[epf]` gives the same to first order in the
 /// oblateness for a uniform star, whose `eps = (5/4) (Omega^z)^2 R^3 / M` (Eq. (20) sets the coefficient 5/4 to one). With it and
-/// Eq. (5) `[replace]` the spin axis precesses about `w` with the rate `(alpha_2 / 2) |w|^2 Omega^z cos(beta)` of Nordtvedt. The
-/// result is a time squared, with `spin` in rad per unit of time.
+/// Eq. (5) `[replace]` the spin axis precesses about `w` with the right-handed rate `-(alpha_2 / 2) |w|^2 Omega^z cos(beta)`, in size
+/// that of Nordtvedt. The result is a time squared, with `spin` in rad per unit of time.
 pub fn fluid_inertia_over_c<S: Scalar>(spin: S) -> S {
     S::from_f64(4.0) / (spin * spin)
 }
@@ -81,10 +82,9 @@ pub fn fluid_inertia_over_c<S: Scalar>(spin: S) -> S {
 /// between the spin axis and `w`.
 ///
 /// # Errors
-/// [`Error::Domain`] for `w = 0`.
+/// [`Error::Domain`] for `|w|` below 1e-75.
 pub fn preferred_frame_bound<S: Real>(combination_bound: S, w: &Vector3<S>) -> Result<S, Error> {
-    let w2 = w.dot(w);
-    Error::ensure(w2.re() > 0.0, "squared velocity |w|^2", w2.re(), "above zero")?;
+    let w2 = squared_velocity(w)?;
     Ok(combination_bound.abs() / (w2 * 2.0))
 }
 

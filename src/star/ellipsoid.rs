@@ -35,12 +35,14 @@ impl<S: Real> UniformEllipsoid<S> {
     /// The ellipsoid from the semi-axes `(a1, a2, a3)`, in any order of size, and the density.
     ///
     /// # Errors
-    /// [`Error::Domain`] unless all are positive and finite.
+    /// [`Error::Domain`] unless all are positive and finite, and the semi-axes between 1e-60 and 1e60.
     pub fn new(semi_axes: Vector3<S>, density: S) -> Result<Self, Error> {
-        let named = semi_axes.iter().map(|a| (a.re(), "semi-axis")).chain([(density.re(), "density rho")]);
-        for (value, quantity) in named {
-            Error::ensure(value > 0.0 && value.is_finite(), quantity, value, "positive and finite")?;
+        for a in semi_axes.map(S::re).iter() {
+            let allowed = "1e-60 to 1e60, so that no power up to the fifth over- or underflows";
+            Error::ensure((1e-60..=1e60).contains(a), "semi-axis", *a, allowed)?;
         }
+        let density_is_allowed = density.re() > 0.0 && density.re().is_finite();
+        Error::ensure(density_is_allowed, "density rho", density.re(), "positive and finite")?;
         Ok(Self { semi_axes, density })
     }
 
@@ -88,5 +90,26 @@ impl<S: Real> UniformEllipsoid<S> {
 
     fn product(&self) -> S {
         self.semi_axes.x * self.semi_axes.y * self.semi_axes.z
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The three coefficients of any ellipsoid have the sum 2; those of a sphere are equal.
+    #[test]
+    fn ellipsoids_of_any_allowed_size_have_coefficients() {
+        let of = |axes: [f64; 3]| UniformEllipsoid::new(Vector3::from(axes), 1.0);
+        for axes in [[1e-60; 3], [1e60; 3], [1e-60, 1.0, 1e60], [1e60, 1e60, 1e-60], [1e-60, 1e-60, 1e60]] {
+            let body = of(axes).unwrap();
+            assert!((body.coefficients().sum() - 2.0).abs() < 1e-14, "{axes:?}: {}", body.coefficients());
+            assert!(body.moments_of_inertia().iter().all(|moment| moment.is_normal()), "{axes:?}");
+            assert!(body.central_coefficient().is_normal(), "{axes:?}");
+        }
+        for axis in [0.9e-60, 1.1e60, 0.0, -1.0, f64::NAN] {
+            assert!(of([1.0, axis, 1.0]).is_err(), "{axis}");
+        }
+        assert!(UniformEllipsoid::new(Vector3::repeat(1.0), f64::INFINITY).is_err());
     }
 }

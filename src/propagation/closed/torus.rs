@@ -7,7 +7,7 @@ use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
 use crate::numerics::double_double::DoubleDouble;
 use crate::propagation::Motion;
-use crate::propagation::input::check_time;
+use crate::propagation::input::{check_request, check_time};
 use crate::solutions::torus::{TorusDerivative, TorusSolution};
 
 /// A motion by [`TorusSolution`], for any anisotropic `s` off the separatrix; the cost of an evaluation does not depend on
@@ -23,8 +23,9 @@ impl TorusMotion {
     /// The motion from the initial state at `span.0`, with the error tolerance `tolerance`.
     ///
     /// # Errors
-    /// As for [`TorusSolution::new`].
+    /// As for [`TorusSolution::new`], and [`Error::Domain`] for a tolerance out of its range.
     pub fn new(problem: &Problem<f64>, span: (f64, f64), tolerance: f64) -> Result<Self, Error> {
+        check_request(span, tolerance)?;
         Ok(Self { problem: *problem, span, solution: TorusSolution::new(problem, tolerance, span.1 - span.0)? })
     }
 
@@ -103,5 +104,21 @@ mod tests {
         let motion = TorusMotion::new(&problem([0.2, 0.1, -0.3]), (0.0, 100.0), 1e-9).unwrap();
         assert!(motion.elapsed([110.0, -20.0]).is_ok() && motion.elapsed([-20.0, 30.0]).is_ok());
         assert!(motion.elapsed([90.0, 20.0]).is_err() && motion.elapsed([60.0, -70.0]).is_err());
+    }
+
+    /// The solution takes any tolerance that is one, the motion those of every other motion.
+    #[test]
+    fn tolerances_that_are_none_are_refused() {
+        let problem = problem([0.2, 0.1, -0.3]);
+        for (tolerance, of_solution, of_motion) in [
+            (1e-9, true, true),
+            (0.0, true, false),
+            (0.02, true, false),
+            (-1.0, false, false),
+            (f64::NAN, false, false),
+        ] {
+            assert_eq!(TorusSolution::new(&problem, tolerance, 1.0).is_ok(), of_solution, "{tolerance}");
+            assert_eq!(TorusMotion::new(&problem, (0.0, 1.0), tolerance).is_ok(), of_motion, "{tolerance}");
+        }
     }
 }

@@ -72,14 +72,16 @@ pub struct TorusSolution {
 
 impl TorusSolution {
     /// The motion of a problem, with the error tolerance for the components of `n`, `e_x` and `L`, for times up to `longest` in size. For long times
-    /// the closed orbits are computed to 32 digits, which takes a few ms.
+    /// the closed orbits are computed to 32 digits, which takes a few ms. A tolerance below rounding is taken as rounding.
     ///
     /// # Errors
-    /// [`Error::Domain`] for isotropic `s` and a time that is not finite; near the separatrix [`Error::Unsupported`], where the closed orbits are
-    /// not found, or [`Error::NotConverged`], where they need more coefficients than a table may have; [`Error::Unsupported`] for a star with a bulge.
+    /// [`Error::Domain`] for isotropic `s`, a tolerance below zero and a time that is not finite; near the separatrix [`Error::Unsupported`], where the
+    /// closed orbits are not found, or [`Error::NotConverged`], where they need more coefficients than a table may have; [`Error::Unsupported`] for a
+    /// star with a bulge.
     pub fn new(problem: &Problem<f64>, tolerance: f64, longest: f64) -> Result<Self, Error> {
         problem.require_rigid()?;
         Error::ensure(longest.is_finite(), "longest time", longest, "a finite number")?;
+        Error::ensure(tolerance >= 0.0, "tolerance", tolerance, "zero or above")?;
         let tolerance = tolerance.max(ROUNDING);
         let torus = Torus::of(problem)?;
         let given = problem.initial();
