@@ -125,7 +125,7 @@ pub fn euler_rates<S: Real>(angles: &EulerAngles<S>, omega_body: &Vector3<S>) ->
 }
 
 /// Euler angles of a rotation matrix (rows: body axes), the inverse of Eq. (9) `[trans]`, with `beta` in [0, pi] and
-/// `alpha`, `gamma` in (-pi, pi].
+/// `alpha`, `gamma` from -pi to pi.
 ///
 /// `beta` is computed with the two-argument arctangent, so it keeps full precision near the poles.
 ///

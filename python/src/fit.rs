@@ -365,7 +365,7 @@ pub fn wobble_limits<'py>(
     Ok(table)
 }
 
-/// The posterior of a small wobble `x = theta (cos psi_0, sin psi_0)` (rad) in which the residuals are linear: `residuals + along x[0] + across x[1]`, in standard deviations and with the other unknowns projected out. A dict: the `best` x, the `gain` (the decrease of chi^2 by it), and the `limit` on theta that is not exceeded with the probability `confidence`, with a flat prior for theta and psi_0; infinite above 0.1 rad.
+/// The posterior of a small wobble `x = theta (cos psi_0, sin psi_0)` (rad) in which the residuals are linear: `residuals + along x[0] + across x[1]`, in standard deviations and with the other unknowns projected out. A dict: the `best` x, the `gain` (the decrease of chi^2 by it), and the `limit` on theta that is not exceeded with the probability `confidence`, with a flat prior for theta and psi_0; infinite where it or the wider standard deviation of the wobble is above 0.1 rad.
 #[pyfunction]
 #[pyo3(signature = (along, across, residuals, *, confidence: "SupportsFloat | SupportsIndex"=0.95))]
 pub fn wobble_posterior<'py>(

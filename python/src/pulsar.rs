@@ -106,7 +106,7 @@ impl Pulsar {
         Ok((plus?, cross?))
     }
 
-    /// The two harmonics of the wave at times, those of a star without a torque with the `L` and the wobble of each time: amplitudes `h_1` (once a turn) and `h_2` (twice), the phase `Phi` of the symmetry axis about `L` from the line of sight, in (-pi, pi], and the inclination, position angle
+    /// The two harmonics of the wave at times, those of a star without a torque with the `L` and the wobble of each time: amplitudes `h_1` (once a turn) and `h_2` (twice), the phase `Phi` of the symmetry axis about `L` from the line of sight, from -pi to pi, and the inclination, position angle
     /// and wobble (rad): six arrays. With them `h_+' = -h_1 sin(2i)/2 cos(Phi) + h_2 (1 + cos^2 i)/2 cos(2 Phi)` and `h_x' = -h_1 sin i sin(Phi) + h_2 cos i sin(2 Phi)` along the projection of `L` on the sky. They are the whole `wave` without Lorentz violation. With it, they differ from it by about the ratio
     /// of the torque to the rotation, `C s / (I_xx Omega^2)`: for the scene `wave-source` at 20 Hz by `0.03 s` of the largest strain, at 200 Hz by `3e-4 s`.
     fn wave_harmonics<'py>(&self, py: Python<'py>, t: Numbers) -> PyResult<Bound<'py, PyTuple>> {

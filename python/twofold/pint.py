@@ -467,7 +467,7 @@ def wobble_limits(
     """Upper limits on the wobble from arrival times at some periods of precession: arrays `period`, `best` and `phase` (the wobble of least chi^2), `gain` (the decrease of chi^2 by it) and `limit`.
 
     The likelihood is that of PINT's generalised least squares, linearised: all free parameters of the model and its correlated noise are projected out, the noise with the amplitudes of the model. The limit
-    is the quantile of the posterior of the wobble angle with a flat prior for it and for the phase; it is infinite above 0.1 rad. `chi` and the share of the torque are held fixed.
+    is the quantile of the posterior of the wobble angle with a flat prior for it and for the phase; it is infinite where it or the wider standard deviation of the wobble is above 0.1 rad. `chi` and the share of the torque are held fixed.
     """
     if "Wobble" in model.components:
         raise ValueError("model: it has a Wobble component: allowed is a model without one")

@@ -130,7 +130,7 @@ impl<S: Scalar> BodyState<S> {
 }
 
 impl<S: Real> BodyState<S> {
-    /// Euler angles of the state, `alpha` and `gamma` in (-pi, pi].
+    /// Euler angles of the state, `alpha` and `gamma` from -pi to pi.
     ///
     /// # Errors
     /// [`Error::Domain`] on the poles, see [`angles_from_rotation`].

@@ -1,4 +1,5 @@
-//! Forces and equations of motion of a rigid body under Lorentz violation. Eqs. (2), (4), (11), (21)-(25), (59)-(68).
+//! Forces and equations of motion of a rigid body under Lorentz violation. Eqs. (2), (4), (6), (11), (13), (19), (21)-(25), (28),
+//! (35), (60)-(68).
 
 pub mod angular_acceleration;
 pub mod bulge;

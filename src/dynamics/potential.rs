@@ -1,4 +1,4 @@
-//! Anisotropic gravitational self-energy as a function of the orientation. Eqs. (6), (11), (17), (21).
+//! Anisotropic gravitational self-energy as a function of the orientation. Eqs. (6), (11), (13), (17), (21).
 //!
 //! ```
 //! use nalgebra::{Matrix3, Vector3};

@@ -32,14 +32,14 @@ const NO_WOBBLE: f64 = 1e-12;
 ///
 /// Residuals of a small wobble are `theta (D_c cos psi_0 + D_s sin psi_0)`, with the derivatives of the phase with respect to the wobble at two
 /// phases: `theta cot chi sin psi / (2 pi f)` from geometry, with the rate `f` of the phase, plus the timing delay due to the torque. The other unknowns are projected out. The
-/// limit is the quantile of the posterior of `theta`, with a flat prior for `theta` and for `psi_0`. Where it is above 0.1 rad the data do not limit
-/// the wobble, and it is infinite.
+/// limit is the quantile of the posterior of `theta`, with a flat prior for `theta` and for `psi_0`. Where it is above 0.1 rad, or the wider standard
+/// deviation of the wobble is, the data do not limit the wobble, and it is infinite.
 ///
 /// # Errors
 /// [`InferenceError::TooFew`] if there are no more arrivals than unknowns; as for [`fit_timing`](super::fit_timing) for the model; [`Error::Domain`]
-/// for a probability outside 0 to 1, for a fitted model with a wobble, and for unknowns on which residuals without a wobble do not depend: `wobble`,
-/// `chi`, `precession_phase`, `precession_rate` and `torque_share`. If a wobble does not move the pulses, as for `chi` a right angle, the limit is
-/// infinite.
+/// unless `0 <= probability < 1`, and for a fitted model with a wobble; [`Error::Unsupported`] for unknowns on which residuals without a wobble do
+/// not depend: `wobble`, `chi`, `precession_phase`, `precession_rate` and `torque_share`. If a wobble does not move the pulses, as for `chi` a right
+/// angle, the limit is infinite.
 pub fn wobble_limits(
     fitted: &TimingModel,
     data: &TimingData,

@@ -77,10 +77,11 @@ impl WobblePosterior {
     }
 
     /// Upper limit on the wobble (rad) at this probability, accurate to 1e-12 of probability (or to 1e-14 of the distance of the best wobble from
-    /// zero in standard deviations, if that is more). Infinite above 0.1 rad, where residuals are not linear.
+    /// zero in standard deviations, if that is more). Infinite above 0.1 rad, where residuals are not linear, and for every probability where the
+    /// wider standard deviation is above 0.1 rad: residuals are then not linear over the posterior.
     ///
     /// # Errors
-    /// [`Error::Domain`] for a probability outside 0 to 1.
+    /// [`Error::Domain`] unless `0 <= probability < 1`.
     pub fn limit(&self, probability: f64) -> Result<f64, Error> {
         Error::ensure((0.0..1.0).contains(&probability), "confidence", probability, "from 0 to below 1")?;
         let wide = self.widths[0];
@@ -233,7 +234,7 @@ mod tests {
         assert!(one.gain() == 0.0 && one.limit(0.95).unwrap() == f64::INFINITY, "{one:?}");
     }
 
-    /// A small probability to all digits; wide posteriors whose requested quantile is below 0.1 rad, and those that are too wide for any.
+    /// A small probability to all digits; a wide posterior whose requested quantile is below 0.1 rad, and those that are too wide for any.
     #[test]
     fn limits_at_the_ends_of_their_range() {
         // Half a normal distribution: probability times sqrt(pi / 2), to its square.

@@ -19,12 +19,13 @@ pub(crate) fn whole_turns(angle: f64) -> f64 {
     (angle / TAU).round() * TAU
 }
 
-/// The angle minus the nearest multiple of a whole turn: from -pi to pi.
+/// The angle minus the nearest multiple of a whole turn: from -pi to pi, up to 2.2e-16 of the angle, the rounding of that multiple. Beyond 1e16 rad
+/// nothing is left of it.
 pub fn wrapped(angle: f64) -> f64 {
     angle - whole_turns(angle)
 }
 
-/// Angle about a unit vector from one vector to another, in (-pi, pi]. At least one of the two is perpendicular to the unit
+/// Angle about a unit vector from one vector to another, from -pi to pi. At least one of the two is perpendicular to the unit
 /// vector.
 pub(crate) fn about<S: Real>(axis: &Vector3<S>, from: &Vector3<S>, to: &Vector3<S>) -> S {
     axis.dot(&from.cross(to)).atan2(from.dot(to))
@@ -112,6 +113,13 @@ mod tests {
     fn an_angle_is_half_a_turn_from_zero_at_most() {
         for (angle, expected) in [(0.3, 0.3), (PI, -PI), (-PI, PI), (4.0, 4.0 - TAU), (-20.0, -20.0 + 3.0 * TAU)] {
             assert_eq!(wrapped(angle), expected);
+        }
+        // Half a rounding of the number of turns, which may take it to the next one, and half a rounding of the multiple.
+        for k in 0..1000 {
+            for size in [1e3, 1e8, -6.1e13, -4.95e17] {
+                let angle = size * (1.0 + 1e-3 * f64::from(k));
+                assert!(wrapped(angle).abs() <= PI + f64::EPSILON * angle.abs(), "{angle:e}: {}", wrapped(angle));
+            }
         }
     }
 

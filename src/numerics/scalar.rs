@@ -88,7 +88,8 @@ pub trait Real: Scalar {
     /// Natural logarithm.
     fn ln(self) -> Self;
 
-    /// Angle (rad) of the point with ordinate `self` and abscissa `x`, in (-pi, pi].
+    /// Angle (rad) of the point with ordinate `self` and abscissa `x`, from -pi to pi: where the ordinate is a
+    /// negative zero, -pi in place of pi.
     fn atan2(self, x: Self) -> Self;
 
     /// `sum a_i b_i`, whose terms may cancel: for doubles, also as real parts of dual numbers, as if it were rounded once.

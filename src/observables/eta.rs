@@ -9,8 +9,9 @@
 //!
 //! which makes Eq. (41) an equality. `eta` depends on the direction, on the position of the axis and on the shape of the
 //! tensor, through the asymmetry ratio `r = (s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)`: 0 for a tensor symmetric about Z, 1/3
-//! in size for the most asymmetric one (`s^YY` midway between the others), 1 for one symmetric about X or Y. It does not
-//! depend on the size of `s`. Speeds here are in units of `C |2 s^ZZ - s^XX - s^YY| / (I^zz Omega^z)`.
+//! in size where `s^XX` or `s^YY` is midway between the others, 1 in size for one symmetric about X or Y. Where `s^ZZ` is midway `r`
+//! diverges, and the unit of the speeds here, `C |2 s^ZZ - s^XX - s^YY| / (I^zz Omega^z)`, vanishes. `eta` does not depend on the
+//! size of `s`.
 //!
 //! ```
 //! use nalgebra::Vector3;

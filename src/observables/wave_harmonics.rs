@@ -32,11 +32,11 @@ use crate::observables::pulsar::position_angle::position_angle;
 /// 20, 351 (1979)).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaveHarmonics<S> {
-    /// `h_1`, at once per turn of the symmetry axis about `L`.
+    /// `h_1`, the amplitude at the frequency of the symmetry axis about `L`.
     pub once: S,
-    /// `h_2`, at twice per turn.
+    /// `h_2`, the amplitude at twice that frequency.
     pub twice: S,
-    /// `Phi`, azimuth of the symmetry axis about `L` from that of the observer, in (-pi, pi] (rad).
+    /// `Phi`, azimuth of the symmetry axis about `L` from that of the observer, from -pi to pi (rad).
     pub phase: S,
     /// `i`, angle of `L` to the direction to the observer (rad).
     pub inclination: S,

@@ -50,7 +50,7 @@ pub fn free_precession_rates<S: Real>(spheroid: &RigidSpheroid<S>, spin: S, beta
 /// The free motion from any state after the time `t`: `n` and `e_x` rotate about the constant `L` at the rate `|L| / I^xx`,
 /// and `e_x` rotates about `n` at the rate `-epsilon Omega^z`. Regular for every orientation and for `L = 0`.
 ///
-/// Error: a few ulp of one plus the rounding of the angle `|L| t / I^xx`.
+/// Error: a few ulp of one plus the rounding of the angle `|L| t / I^xx`, which must be below 1e150 rad.
 pub fn free_rotation<S: Real>(spheroid: &RigidSpheroid<S>, initial: &BodyState<S>, t: S) -> BodyState<S> {
     let turned = {
         let (sin, cos) = (spheroid.rate_about_axis(&initial.axis, &initial.momentum) * t).sin_cos();
@@ -64,8 +64,8 @@ pub fn free_rotation<S: Real>(spheroid: &RigidSpheroid<S>, initial: &BodyState<S
     }
 }
 
-/// `v` rotated by the rotation vector `turn` (axis times angle). The zero vector gives the identity, with correct
-/// derivatives.
+/// `v` rotated by the rotation vector `turn` (axis times angle, below 1e150 rad so that its square is finite). The zero vector gives the identity,
+/// with correct derivatives.
 pub fn rotated_by<S: Real>(turn: &Vector3<S>, v: &Vector3<S>) -> Vector3<S> {
     let angle_squared = turn.dot(turn);
     // Below this the series is exact to rounding and, unlike the square root, has derivatives at zero.

@@ -38,8 +38,8 @@ use crate::solutions::perturbation::Precession;
 /// ignored.
 ///
 /// # Errors
-/// [`Error::Domain`] if `s^XX != s^YY` (no steady precession exists), if the root is not real, and for the twofold root
-/// where `|cos beta|` is not above 2.2e-16 or both the spin and the root vanish.
+/// [`Error::Domain`] if `s^XX != s^YY` (no steady precession exists), and if the root is not real; for the twofold root where
+/// `|cos beta|` is not above 2.2e-16; for the single root where both the spin and the square root vanish.
 pub fn steady_precession_rate<S: Real>(
     kind: Precession,
     spheroid: &RigidSpheroid<S>,

@@ -100,7 +100,7 @@ impl<S: Real> Precession<S> {
         self.damping * slope(&Precession::new([wobble, chi, phase], rate, 0.0))
     }
 
-    /// The wobble angle at a stretched time (rad).
+    /// The wobble angle at a stretched time (rad), of a wobble from 0 to pi that is no right angle.
     pub fn wobble_at(&self, tau: S) -> S {
         let (sin, cos) = self.wobble.sin_cos();
         if self.is_undamped() {
@@ -120,7 +120,8 @@ impl<S: Real> Precession<S> {
         within(self.rate * tau, turn) + self.ahead(tau)
     }
 
-    /// Phase advance of `psi` due to damping (rad): a smaller wobble precesses faster.
+    /// Phase advance of `psi` due to damping (rad): a smaller wobble precesses faster. To rounding within two damping times of the time zero, for a
+    /// wobble from 0 to pi that is no right angle.
     pub fn ahead(&self, tau: S) -> S {
         if self.is_undamped() {
             let [rate, tau, sine] = [self.rate.re(), tau.re(), self.squares[0].re()];

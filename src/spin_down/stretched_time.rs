@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::scalar::Real;
 
-/// Largest fraction of its rotation that a star may lose, times `n - 2` for braking indices `n` above 3 or below 1: the series in it then has 32
+/// Largest fraction of its rotation that a star may lose, times `|n - 2|` for braking indices `n` above 3 or below 1: the series in it then has 32
 /// digits after [`TERMS`] terms.
 const MOST: f64 = 0.1;
 
@@ -49,7 +49,8 @@ pub struct Braking<S = f64> {
 ///
 /// with [`TorqueHarmonics`] `a_0, a_1, a_2`, `psi = psi_0 + w tau`, and `g = q / (1 - q + q a_0)` for the torque fraction `q`. `Q` is the timing
 /// delay due to the torque modulation. The rotation in the time `tau`, of the star that does not slow down, is the mean one at the time zero. Exact
-/// for `n = 3`; otherwise to second order in `kappa`.
+/// for `n = 3` without damping; with damping, of a [`Precession`], to second order in `gamma / w`; for another `n` to second order in `kappa`. See
+/// [`truncation`](Self::truncation).
 #[derive(Debug, Clone, PartialEq)]
 pub struct StretchedTime {
     braking: Braking,
@@ -72,7 +73,9 @@ impl StretchedTime {
     ///
     /// # Errors
     /// [`Error::Domain`] for a rate or an index that is not finite, a fraction outside 0 to 1, a torque that vanishes (`q = 1` with the magnetic axis
-    /// and `n` along `L`), and one that changes the rotation by more than a hundredth within a precession.
+    /// and `n` along `L`), and one that changes the rotation by more than a hundredth within a precession. For a damping that is not finite, that is
+    /// above a tenth of the rate of the precession, that applies to a wobble of a right angle (to 1e-3), or that comes with a braking rate and an
+    /// index other than 3.
     pub fn new(braking: &Braking, precession: &Precession) -> Result<Self, Error> {
         let Braking { rate, index, torque_share } = *braking;
         Error::ensure(rate.is_finite(), "braking rate -F1 / F0", rate, "a finite number")?;
@@ -134,7 +137,8 @@ impl StretchedTime {
     ///
     /// # Errors
     /// [`Error::Domain`] for times so long that the star loses or gains a tenth of its rotation; for braking indices above 3 or below 1, a tenth over
-    /// `n - 2`.
+    /// `|n - 2|`. With damping, for times of more than two damping times, and for those at which the wobble has passed `chi` or `pi - chi`, or is
+    /// damped by more than a tenth per radian of the precession.
     pub fn stretched_at(&self, time: [f64; 2]) -> Result<[f64; 2], Error> {
         let wanted = DoubleDouble::from(time);
         if self.is_uniform() {

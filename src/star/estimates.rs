@@ -1,6 +1,6 @@
 //! Estimates of `I^zz / C` and of the unit of time from density and oblateness. Eqs. (43), (58).
 //!
-//! Both hold for the uniform spheroid to first order in the oblateness. The exact counterparts are
+//! Both hold for the uniform spheroid to leading order in the oblateness `eps`, with a relative error of order `eps`. The exact counterparts are
 //! [`UniformSpheroid::polar_inertia_over_c`](crate::star::uniform_spheroid::UniformSpheroid::polar_inertia_over_c) and
 //! [`UniformSpheroid::time_unit`](crate::star::uniform_spheroid::UniformSpheroid::time_unit).
 //!

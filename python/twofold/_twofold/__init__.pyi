@@ -171,7 +171,7 @@ class Pulsar:
         """
     def wave_harmonics(self, /, t: ArrayLike) -> tuple:
         """
-        The two harmonics of the wave at times, those of a star without a torque with the `L` and the wobble of each time: amplitudes `h_1` (once a turn) and `h_2` (twice), the phase `Phi` of the symmetry axis about `L` from the line of sight, in (-pi, pi], and the inclination, position angle
+        The two harmonics of the wave at times, those of a star without a torque with the `L` and the wobble of each time: amplitudes `h_1` (once a turn) and `h_2` (twice), the phase `Phi` of the symmetry axis about `L` from the line of sight, from -pi to pi, and the inclination, position angle
         and wobble (rad): six arrays. With them `h_+' = -h_1 sin(2i)/2 cos(Phi) + h_2 (1 + cos^2 i)/2 cos(2 Phi)` and `h_x' = -h_1 sin i sin(Phi) + h_2 cos i sin(2 Phi)` along the projection of `L` on the sky. They are the whole `wave` without Lorentz violation. With it, they differ from it by about the ratio
         of the torque to the rotation, `C s / (I_xx Omega^2)`: for the scene `wave-source` at 20 Hz by `0.03 s` of the largest strain, at 200 Hz by `3e-4 s`.
         """
@@ -516,7 +516,7 @@ def wobble_limits(model: TimingModel, data: TimingData, unknowns: SupportsGetIte
 
 def wobble_posterior(along: ArrayLike, across: ArrayLike, residuals: ArrayLike, *, confidence: "SupportsFloat | SupportsIndex" = 0.95) -> dict:
     """
-    The posterior of a small wobble `x = theta (cos psi_0, sin psi_0)` (rad) in which the residuals are linear: `residuals + along x[0] + across x[1]`, in standard deviations and with the other unknowns projected out. A dict: the `best` x, the `gain` (the decrease of chi^2 by it), and the `limit` on theta that is not exceeded with the probability `confidence`, with a flat prior for theta and psi_0; infinite above 0.1 rad.
+    The posterior of a small wobble `x = theta (cos psi_0, sin psi_0)` (rad) in which the residuals are linear: `residuals + along x[0] + across x[1]`, in standard deviations and with the other unknowns projected out. A dict: the `best` x, the `gain` (the decrease of chi^2 by it), and the `limit` on theta that is not exceeded with the probability `confidence`, with a flat prior for theta and psi_0; infinite where it or the wider standard deviation of the wobble is above 0.1 rad.
     """
 
 def __getattr__(name: str) -> Incomplete: ...

@@ -10,7 +10,7 @@
 //!
 //! Accuracy: a few ulp (2.2e-16) relative to the value, and as much for the first three derivatives relative to their
 //! natural size (value over powers of the argument). Squares of arguments must neither overflow nor underflow. Outside the
-//! domain the result is NaN.
+//! domain the result is NaN, infinite, or a number without meaning.
 //!
 //! # Example
 //!
@@ -38,7 +38,7 @@ const MOST_DUPLICATIONS: usize = 600;
 
 /// `R_F(x, y, z) = (1/2) int_0^inf dt / sqrt((t + x)(t + y)(t + z))`, DLMF (19.16.1).
 ///
-/// Arguments not negative, at most one of them zero. Derivatives do not exist at a zero argument and come out as NaN.
+/// Arguments not negative, at most one of them zero. With a zero argument all derivatives are NaN; [`rf_of_roots`] has those that exist.
 pub fn rf<S: Real>(x: S, y: S, z: S) -> S {
     let (root_y, root_z) = (y.sqrt(), z.sqrt());
     rf_of_roots(x.sqrt(), root_y + root_z, root_y * root_z)
@@ -89,8 +89,8 @@ pub fn rc<S: Real>(x: S, y: S) -> S {
 
 /// `R_D(x, y, z) = R_J(x, y, z, z) = (3/2) int_0^inf dt / ((t + z) sqrt((t + x)(t + y)(t + z)))`, DLMF (19.16.5).
 ///
-/// `x`, `y` not negative and at most one of them zero, `z > 0`. Derivatives do not exist at a zero argument and come out as
-/// NaN.
+/// `x`, `y` not negative and at most one of them zero, `z > 0`. With a zero argument all derivatives are NaN; [`rj_of_roots`] has
+/// those that exist.
 pub fn rd<S: Real>(x: S, y: S, z: S) -> S {
     let (root_x, root_y) = (x.sqrt(), y.sqrt());
     let mut at = Arguments::new(z.sqrt(), root_x + root_y, root_x * root_y);
@@ -115,8 +115,8 @@ pub fn rd<S: Real>(x: S, y: S, z: S) -> S {
 
 /// `R_J(x, y, z, p) = (3/2) int_0^inf dt / ((t + p) sqrt((t + x)(t + y)(t + z)))`, DLMF (19.16.2).
 ///
-/// `x`, `y`, `z` not negative and at most one of them zero, `p > 0`. Derivatives do not exist at a zero argument and come out
-/// as NaN.
+/// `x`, `y`, `z` not negative and at most one of them zero, `p > 0`. With a zero argument all derivatives are NaN;
+/// [`rj_of_roots`] has those that exist.
 pub fn rj<S: Real>(x: S, y: S, z: S, p: S) -> S {
     let (root_y, root_z) = (y.sqrt(), z.sqrt());
     rj_of_roots(x.sqrt(), root_y + root_z, root_y * root_z, p)

@@ -72,7 +72,7 @@ pub struct ClockPulse {
     pub midpoint: [f64; 2],
     /// Time between the edges.
     pub duration: f64,
-    /// Position angle (rad) of the magnetic axis at the midpoint, in (-pi, pi]; NaN where the axis is along the line of
+    /// Position angle (rad) of the magnetic axis at the midpoint, from -pi to pi; NaN where the axis is along the line of
     /// sight.
     pub position_angle: f64,
     /// Rate of the position angle there (rad per unit of time).

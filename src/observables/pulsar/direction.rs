@@ -42,7 +42,7 @@ pub fn azimuth_offset_point<S: Scalar>(beta: S, gamma: S, chi: S, delta: S) -> (
 /// Colatitude `Theta` in [0, pi] and azimuth `Phi = alpha + DeltaPhi` of the magnetic axis (rad), Eqs. (49) `[tranang]`,
 /// (50).
 ///
-/// `DeltaPhi`, in (-pi, pi], is computed with the two-argument arctangent: the printed tangent leaves half a turn open.
+/// `DeltaPhi`, from -pi to pi, is computed with the two-argument arctangent: the printed tangent leaves half a turn open.
 /// `Theta` keeps full precision near the poles.
 ///
 /// # Errors

@@ -49,7 +49,7 @@ pub fn sky_from_inertial<S: Scalar>(observer: &Observer<S>) -> Matrix3<S> {
     ])
 }
 
-/// Position angle `psi` (rad) of the magnetic axis `m`, a unit vector in inertial components, in (-pi, pi].
+/// Position angle `psi` (rad) of the magnetic axis `m`, a unit vector in inertial components, from -pi to pi.
 ///
 /// # Errors
 /// [`Error::Domain`] where `m` is along the line of sight (`|m x n-hat|` not above 2.2e-16): it has no projection.
@@ -82,7 +82,7 @@ pub fn rotating_vector_point<S: Scalar>(theta: S, phi: S, theta_o: S, phi_o: S) 
     (c * s_o - s * c_o * cos_phi, -(s * sin_phi))
 }
 
-/// Position angle `psi` (rad, in (-pi, pi]) of the magnetic axis at `(Theta, Phi)`, seen from `(theta_o, phi_o)`:
+/// Position angle `psi` (rad, from -pi to pi) of the magnetic axis at `(Theta, Phi)`, seen from `(theta_o, phi_o)`:
 ///
 /// ```text
 /// tan psi = -sin Theta sin(Phi - phi_o) / [cos Theta sin theta_o - sin Theta cos theta_o cos(Phi - phi_o)]

@@ -55,7 +55,7 @@ pub(super) struct TurnCount {
 pub(super) struct Look {
     /// Number of the nearest turn.
     pub(super) number: i64,
-    /// Phase (rad) relative to it, in (-pi, pi].
+    /// Phase (rad) relative to it, from -pi to pi.
     pub(super) phase: f64,
 }
 

@@ -64,13 +64,13 @@ impl<'a, M: Motion<f64, State = BodyState<f64>>> Turns<'a, M> {
         Ok(self.phase)
     }
 
-    /// The phase at `t` in (-pi, pi].
+    /// The phase at `t` from -pi to pi.
     fn phase_at(&self, t: f64) -> Result<f64, Error> {
         phase(self.beam, self.line_of_sight, &self.motion.state(t)?)
     }
 }
 
-/// Azimuth of the magnetic axis about the angular momentum of a state, from that of the line of sight, in (-pi, pi].
+/// Azimuth of the magnetic axis about the angular momentum of a state, from that of the line of sight, from -pi to pi.
 pub(super) fn phase(beam: &Beam<f64>, n: &Vector3<f64>, state: &BodyState<f64>) -> Result<f64, Error> {
     let (l, m) = (state.momentum.normalize(), beam.direction(state));
     let (x, y) = (n.dot(&m) - l.dot(n) * l.dot(&m), l.dot(&n.cross(&m)));

@@ -33,8 +33,9 @@ pub enum PulseWidth<S> {
 /// tan^2(W/4) = sin((rho + D)/2) sin((rho - D)/2) / [sin((S + rho)/2) sin((S - rho)/2)],   D = Theta - theta_o, S = Theta + theta_o
 /// ```
 ///
-/// This is the printed cosine without its cancellation: `W` keeps its digits down to the grazing pulse. There is a pulse
-/// where `|D| < rho < min(S, 2 pi - S)`.
+/// This is the printed cosine without its cancellation. What remains is the rounding of `D`, near the grazing pulse, and of `S` and
+/// `S + rho`, near `W = 2 pi`. For `Theta` and `theta_o` within a factor of two of each other `D` is exact, and `W` keeps its digits
+/// down to the grazing pulse. There is a pulse where `|D| < rho < min(S, 2 pi - S)`.
 pub fn pulse_width<S: Real>(half_opening: S, theta: S, theta_o: S) -> PulseWidth<S> {
     let (difference, sum) = (theta - theta_o, theta + theta_o);
     let half_sine = |angle: S| (angle / 2.0).sin_cos().0;

@@ -35,7 +35,7 @@ pub struct SpectralLine {
     pub frequency: f64,
     /// Amplitude, above zero.
     pub amplitude: f64,
-    /// Phase at `t = 0`, in (-pi, pi] (rad).
+    /// Phase at `t = 0`, from -pi to pi (rad).
     pub phase: f64,
     /// Estimated error of the frequency.
     pub uncertainty: f64,

@@ -18,8 +18,9 @@ use crate::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 ///
 /// `A cos phi` and `A sin phi` follow directly from the rates; `alpha_0`, `beta_0` are found by Newton's method with exact derivatives,
 /// started at the initial angles and at a grid of inclinations. Eq. (34) is not linear, so there can be several solutions: of those found,
-/// the one with the smallest `|A|` is returned, with `A >= 0` and `phi` in (-pi, pi], `phi = 0` if `A = 0`. Residual: a few ulp of the terms
-/// of Eq. (34). Derivatives (duals) of the constants are correct up to third order, except for `A` and `phi` at `A = 0`.
+/// the one with the smallest `|A|` is returned, with `A >= 0` and `phi` from -pi to pi, `phi = 0` if `A = 0`. One with a smaller `|A|` may be
+/// missed, above all for a large asymmetry of `s^IJ`. Residual: a few ulp of the terms of Eq. (34). Derivatives (duals) of the constants are
+/// correct up to third order, except for `A` and `phi` at `A = 0`.
 ///
 /// # Errors
 /// [`Error::NotConverged`] if no start leads to a solution, as happens if the perturbation solutions do not describe the
