@@ -277,7 +277,7 @@ fn pulses_are_those_of_the_second_program() {
 
 #[test]
 fn timing_files_are_those_of_the_second_program() {
-    compare("timing", 16);
+    compare("timing", 40);
 }
 
 #[test]
