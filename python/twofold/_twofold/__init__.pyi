@@ -154,7 +154,7 @@ class Pulsar:
     def precession_rates(self, /) -> list[float]:
         """
         Rates (rad/s) of the precession of the body about its axis and of its angular momentum. The first is that of `e_x` about `n` relative to the plane of `n` and `L`, positive in the right-handed sense; `precession_rate` of
-        `timing_model()` is minus this, since its angle goes from the magnetic axis, which the body carries, to `L`. The second is positive where the angular momentum goes in the right-handed sense round the principal axis of `s^IJ` that it circles, directed so that its largest component is positive.
+        `timing_model()` is minus this, since its angle goes from the magnetic axis, which the body carries, to `L`; for a star of negative spin the timing model is that of `-n`, and its rate equals this. The second is positive where the angular momentum goes in the right-handed sense round the principal axis of `s^IJ` that it circles, directed so that its largest component is positive.
         """
     @property
     def scene(self, /) -> Scene:

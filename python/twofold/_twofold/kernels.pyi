@@ -45,5 +45,5 @@ def pulse_width(rho: ArrayLike, theta: ArrayLike, theta_o: ArrayLike) -> Any:
 
 def root_mean_square_eta(asymmetry_ratio: ArrayLike, beta: ArrayLike) -> Any:
     """
-    The root mean square of `eta` over directions of the line of sight, for the asymmetry ratio `(s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)` and an axis at `beta` (rad).
+    The `eta` that belongs to the root mean square of `d cos(lambda) / dt` over directions of the line of sight and azimuths of the axis (`eta` itself has no mean), for the asymmetry ratio `(s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)` and an axis at `beta` (rad).
     """
