@@ -1,4 +1,4 @@
-//! The coefficients for Lorentz violation from the field that couples to the Riemann tensor in the action. Eqs. (1), (3).
+//! Coefficients for Lorentz violation from the vacuum value of the field that couples to the Riemann tensor in the action. Eqs. (1), (3).
 //!
 //! ```
 //! use twofold::curvature_coupling::{CurvatureTensor, coefficients_from_vacuum_value};
@@ -23,9 +23,9 @@ pub type CurvatureTensor<S> = [[[[S; 4]; 4]; 4]; 4];
 /// The signs of the Minkowski metric `diag(-1, 1, 1, 1)`.
 const SIGNS: [f64; 4] = [-1.0, 1.0, 1.0, 1.0];
 
-/// `s^{ab} = 2 (k^{ambn} g_{mn} - (1/4) g^{ab} k^{lmkn} g_{mn} g_{lk})` with the metric `diag(-1, 1, 1, 1)`, Eq. (3), dimensionless: twice the
-/// part without trace of the contraction of the vacuum value `k` of the field in the action (1) `[action]`. Its spatial components are the
-/// `s^IJ` of all other equations.
+/// Coefficients `s^{ab} = 2 (k^{ambn} g_{mn} - (1/4) g^{ab} k^{lmkn} g_{mn} g_{lk})` with the metric `diag(-1, 1, 1, 1)`, Eq. (3),
+/// dimensionless: twice the trace-free part of the contraction of `k`, the vacuum value of the field in the action (1) `[action]`. The spatial
+/// components are the `s^IJ` of all other equations.
 ///
 /// In the action `k^{abcd} R_{abcd}` this is the coefficient of the trace-free Ricci tensor.
 pub fn coefficients_from_vacuum_value<S: Scalar>(k: &CurvatureTensor<S>) -> Matrix4<S> {

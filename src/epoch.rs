@@ -52,12 +52,12 @@ impl Epoch {
         Ok(Self { day, fraction: 0.0 }.with_days(fraction.into()))
     }
 
-    /// The whole days.
+    /// Whole part of the date (days).
     pub fn day(&self) -> i64 {
         self.day
     }
 
-    /// Fraction of the day, in [0, 1).
+    /// Fraction of the day that is added to [`day`](Self::day), in [0, 1).
     pub fn fraction(&self) -> f64 {
         self.fraction
     }
@@ -85,7 +85,7 @@ impl Epoch {
         let more = fraction.high.floor();
         let fraction = (fraction.high - more) + fraction.low;
         let day = self.day + whole as i64 + more as i64;
-        // A negative remainder smaller than the rounding of one.
+        // A negative remainder below the rounding of one leaves a fraction of one.
         if fraction >= 1.0 { Self { day: day + 1, fraction: 0.0 } } else { Self { day, fraction: fraction.max(0.0) } }
     }
 }
@@ -95,7 +95,7 @@ impl fmt::Display for Epoch {
     /// rounded.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (sign, day, fraction) = match (self.day, 1.0 - self.fraction) {
-            // A fraction below the rounding of one is lost too.
+            // A fraction below the rounding of one is lost here, too.
             (day, 1.0) if day < 0 => ("-", -day, 0.0),
             (day, rest) if day < 0 => ("-", -day - 1, rest),
             (day, _) => ("", day, self.fraction),
@@ -168,8 +168,8 @@ mod tests {
         assert!(high == 1e12 && low.abs() < 1e-11, "{high} {low:e}");
     }
 
-    /// Day numbers change correctly across midnight, and a change below the rounding of the fraction stays on its side or
-    /// has no effect.
+    /// The day changes correctly at midnight. A change below the rounding of the fraction stays on its side of midnight or has no
+    /// effect.
     #[test]
     fn a_fraction_is_below_one() {
         for (start, days, expected) in [

@@ -45,7 +45,7 @@ impl Error {
         if allowed_if { Ok(()) } else { Err(Error::Domain { quantity, value, allowed }) }
     }
 
-    /// Of a search that found nothing.
+    /// The error of a search for `what` that found nothing.
     pub fn not_found(what: &'static str) -> Self {
         Error::Unsupported { what, why: "not found" }
     }

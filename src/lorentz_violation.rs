@@ -136,8 +136,8 @@ pub(crate) fn traceless<S: Scalar>(tensor: &Matrix3<S>) -> Matrix3<S> {
 /// [`principal_frame`], and infinitesimal rotations remove the off-diagonal derivatives.
 ///
 /// # Errors
-/// As for [`principal_frame`], and with derivatives [`Error::Domain`] where two eigenvalues are equal (to 1e-12 of the largest): their axes
-/// turn with any change.
+/// As for [`principal_frame`]; with derivatives also [`Error::Domain`] where two eigenvalues are equal (to 1e-12 of the largest): there an
+/// infinitesimal change of the tensor can turn their axes by any angle.
 pub fn principal_frame_with_derivatives<S: Real>(
     tensor: &Matrix3<S>,
 ) -> Result<(PrincipalCoefficients<S>, Matrix3<S>), Error> {
@@ -175,9 +175,9 @@ pub fn principal_frame_with_derivatives<S: Real>(
     Ok((PrincipalCoefficients { xx: values.x, yy: values.y, zz: values.z }, rotation))
 }
 
-/// Difference of two eigenvalues, relative to the spread of all, below which derivatives treat them as equal. Treating them so
-/// changes the tensor by this much; the axes of distinct ones turn at a rate with a relative error of rounding over their difference.
-/// Both errors are 1e-8 here.
+/// Derivatives treat two eigenvalues as equal if their difference is below this fraction of the spread of all eigenvalues. This changes the tensor by
+/// the same fraction. The axes of two eigenvalues that are not treated as equal turn at a rate whose relative error is rounding divided by their
+/// difference. Both errors are 1e-8 here.
 const TAKEN_FOR_EQUAL: f64 = 1e-8;
 
 /// Eigenvalues in descending order and the proper rotation to the principal frame, with their derivatives with respect to one
@@ -221,7 +221,7 @@ pub fn principal_frame_along(
     Ok((PrincipalCoefficients::new([0, 1, 2].map(value)), frame.zip_map(&rates, Dual64::new)))
 }
 
-/// Relative error of derivatives because of the way [`principal_frame_along`] treats the eigenvalues: see there.
+/// Relative error of the derivatives from [`principal_frame_along`], due to its treatment of nearly equal eigenvalues.
 pub(crate) fn error_of_principal_frame_along(PrincipalCoefficients { xx, yy, zz }: PrincipalCoefficients<f64>) -> f64 {
     let (gap, spread) = ((xx - yy).min(yy - zz), xx - zz);
     if gap <= TAKEN_FOR_EQUAL * spread { gap / spread } else { f64::EPSILON * xx.max(-zz) / gap }
@@ -385,8 +385,8 @@ mod tests {
         }
     }
 
-    /// Two eigenvalues are treated as equal according to their difference over the spread; their axes stay distinct, whichever part of the derivative
-    /// is not symmetric.
+    /// Two eigenvalues count as equal if their difference is a small enough fraction of the spread, and their axes then do not turn about each other.
+    /// The antisymmetric part of a derivative of the tensor has no effect on the slopes of the eigenvalues.
     #[test]
     fn equal_eigenvalues_are_those_within_their_share_of_the_spread() {
         let slope = Matrix3::new(0.3, 0.1, 0.2, -1.1, 0.6, 0.4, 1.4, -0.3, -0.2);

@@ -102,7 +102,7 @@ pub fn time_unit<S: Real>(inertia_over_c: S) -> Result<S, Error> {
 mod tests {
     use super::*;
 
-    /// `I^xx / C` = 9 s^2 makes 3 s; a sphere, whose C is zero, a prolate star and none at all have no unit.
+    /// `I^xx / C` = 9 s^2 gives 3 s. A sphere, for which C is zero, a prolate star, and a value that is infinite or not a number have no unit.
     #[test]
     fn only_an_oblate_star_has_a_unit_of_time() {
         assert_eq!(time_unit(9.0), Ok(3.0));

@@ -20,7 +20,7 @@ pub(crate) fn whole_turns(angle: f64) -> f64 {
 }
 
 /// The angle minus the nearest multiple of a whole turn: from -pi to pi, up to 2.2e-16 of the angle, the rounding of that multiple. Beyond 1e16 rad
-/// nothing is left of it.
+/// the result has no correct digit.
 pub fn wrapped(angle: f64) -> f64 {
     angle - whole_turns(angle)
 }
@@ -99,7 +99,7 @@ mod tests {
 
     use super::*;
 
-    /// At small angles and near a half turn too, of vectors of any length.
+    /// Angles keep their digits also if they are small or near a half turn, for vectors of any length.
     #[test]
     fn angles_between_vectors_keep_their_digits() {
         for angle in [0.0_f64, 1e-150, 1e-12, 1e-8, 0.3, 2.0] {

@@ -204,7 +204,7 @@ mod tests {
         assert!((of(1.0).sin_cos().0 - of(1.0 + 4.0 * TAU).sin_cos().0).high.abs() < 1e-14);
     }
 
-    /// Compared with 32 digits from mpmath.
+    /// The exponentials are compared with 32 digits from mpmath.
     #[test]
     fn exponentials_have_thirty_digits_of_themselves() {
         for (x, high, low) in [

@@ -1,8 +1,8 @@
 //! The operators of a number type, defined from its four field operations.
 
-/// Gives a type with `Scalar::from_f64` the sum, the negative, the product and the quotient that are written for it, and what `Scalar` takes
-/// besides: differences, assigning operators, products with constants, zero and one. The type is `Copy` and `PartialEq`, and may have one parameter
-/// that is a `Scalar`. The crate that calls it needs `num_traits`.
+/// Implements the operators of a number type that has `Scalar::from_f64`, from expressions for the sum, the negative, the product and the quotient.
+/// It adds what `Scalar` requires besides: differences, assigning operators, products with constants, zero and one. The type is `Copy` and
+/// `PartialEq`, and may have one parameter that is a `Scalar`. The crate that calls the macro needs `num_traits`.
 #[macro_export]
 macro_rules! field_operators {
     (@operator [$type:ty $(, $parameter:ident)?] $trait:path, $name:ident($a:ident, $b:ident: $right:ty) $value:expr) => {

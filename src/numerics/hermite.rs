@@ -39,7 +39,7 @@ pub(crate) struct Quintic {
 }
 
 impl Quintic {
-    /// The polynomial, with bounds on the first, second and sixth derivative.
+    /// The polynomial between two jets, with bounds on the first, second and sixth derivative of the function.
     #[inline]
     pub(crate) fn between(a: &Jet, b: &Jet, [first, second, sixth]: [f64; 3]) -> Self {
         let h = b.time - a.time;
@@ -196,7 +196,7 @@ mod tests {
         assert_eq!(between([0.0, 0.0, 1.01 * bend]).convexity(), Some(true));
     }
 
-    /// Polynomials of any shape, many with three or five roots.
+    /// The polynomials have any shape, many of them three or five roots.
     #[test]
     fn the_root_is_close_to_one_of_the_polynomial() {
         let mut random = ChaCha8Rng::seed_from_u64(7);

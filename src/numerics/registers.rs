@@ -3,8 +3,8 @@
 use pulp::x86::{V3, V4};
 use pulp::{f64x4, f64x8};
 
-/// A register of doubles and its lane-by-lane operations. `pulp::Simd` has the same, but does not always inline its negation, size and choice:
-/// motions in lanes took 11 times as many instructions with it.
+/// A register of doubles and its lane-by-lane operations. `pulp::Simd` has the same operations, but does not always inline its negation,
+/// absolute value and selection: with it, motions in lanes took 11 times as many instructions.
 pub(crate) trait Register: Copy {
     /// The register.
     type Lanes: Copy;

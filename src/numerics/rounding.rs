@@ -1,7 +1,7 @@
 //! Error-free sums and products: the rounding error of an operation, as a number.
 //!
-//! They are identities of real numbers whose second part is zero, so they also work for duals: the rounding error has no
-//! derivatives beyond rounding.
+//! They are identities of real numbers, for which the second part is zero. They therefore also work for duals: the
+//! rounding error has no derivatives beyond rounding.
 //!
 //! Sums and products of double-double numbers are here too, for single numbers and for registers of them.
 

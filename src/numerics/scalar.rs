@@ -88,11 +88,12 @@ pub trait Real: Scalar {
     /// Natural logarithm.
     fn ln(self) -> Self;
 
-    /// Angle (rad) of the point with ordinate `self` and abscissa `x`, from -pi to pi: where the ordinate is a
-    /// negative zero, -pi in place of pi.
+    /// Angle (rad) of the point with ordinate `self` and abscissa `x`, from -pi to pi. Where the ordinate is a negative
+    /// zero, the result is -pi in place of pi.
     fn atan2(self, x: Self) -> Self;
 
-    /// `sum a_i b_i`, whose terms may cancel: for doubles, also as real parts of dual numbers, as if it were rounded once.
+    /// `sum a_i b_i`, whose terms may cancel. For doubles, and for the real parts of dual numbers, the result is as if it
+    /// were rounded once.
     fn inner_product(a: &Vector3<Self>, b: &Vector3<Self>) -> Self {
         a.dot(b)
     }
@@ -174,7 +175,7 @@ pub(crate) fn cast<T: 'static, U: 'static>(value: T) -> Option<U> {
     (&mut value as &mut dyn Any).downcast_mut::<Option<U>>()?.take()
 }
 
-/// The same for a reference.
+/// As [`cast`], for a reference.
 #[inline(always)]
 pub(crate) fn cast_ref<T: 'static, U: 'static>(value: &T) -> Option<&U> {
     (value as &dyn Any).downcast_ref()

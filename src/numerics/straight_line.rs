@@ -27,7 +27,7 @@ pub struct Slope {
 ///
 /// # Errors
 /// [`Error::Domain`] for fewer than three points, which have no scatter from which to estimate the error, for points at a single `x`, and for a slope
-/// or an error that is not finite, as where a point is not.
+/// or an error that is not finite, for example because a point is not.
 pub fn slope(points: &[(f64, f64)]) -> Result<Slope, Error> {
     let n = points.len() as f64;
     Error::ensure(n >= 3.0, "number of points of a slope", n, "three or more")?;
@@ -38,17 +38,17 @@ pub fn slope(points: &[(f64, f64)]) -> Result<Slope, Error> {
     let value = sxy / sxx;
     let scatter: f64 = points.iter().map(|p| (p.1 - mean_y - value * (p.0 - mean_x)).powi(2)).sum();
     let error = (scatter / (n - 2.0) / sxx).sqrt();
-    // The rounding of their mean spreads equal values of x.
+    // Because their mean is rounded, equal values of x could have a spread.
     let spread = points.iter().any(|p| p.0 != points[0].0);
     let allowed = "a finite number with a finite error: finite points, not all at one x";
     Error::ensure(spread && value.is_finite() && error.is_finite(), "slope", value, allowed)?;
     Ok(Slope { value, error })
 }
 
-/// Slope of `log10 y` against `log10 x`, without the points with `y` below `floor` (rounding).
+/// Slope of `log10 y` against `log10 x`, from the points with `y` above `floor` (the rounding).
 ///
 /// # Errors
-/// As for [`slope`], of the logarithms: an `x` that is kept is above zero.
+/// As for [`slope`], applied to the logarithms: every `x` of these points must be above zero.
 pub fn order(points: &[(f64, f64)], floor: f64) -> Result<Slope, Error> {
     let kept: Vec<_> = points.iter().filter(|p| p.1 > floor).map(|p| (p.0.log10(), p.1.log10())).collect();
     slope(&kept)

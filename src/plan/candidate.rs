@@ -27,9 +27,9 @@ pub enum Promise {
 /// The predicted performance of a method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prediction {
-    /// Its truncation error at the end, without rounding.
+    /// Truncation error of the method at the end of the span, without rounding.
     pub truncation: f64,
-    /// How that relates to the true error.
+    /// How the predicted truncation error relates to the true error.
     pub promise: Promise,
     /// The rounding error that the motion's [`error_estimate`](crate::propagation::Motion::error_estimate) will report at
     /// the end.
@@ -48,18 +48,18 @@ pub struct Prediction {
 /// Heap memory of a motion. A growing vector takes up to four times as much in total; evaluations take none.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Memory {
-    /// What is computed once, in bytes.
+    /// Memory for what is computed once, in bytes.
     pub table: f64,
     /// Number of steps of the motion.
     pub steps: f64,
-    /// No more steps than these are stored.
+    /// Largest number of steps that are stored.
     pub most_stored: f64,
-    /// For each step stored, in bytes.
+    /// Memory for each step stored, in bytes.
     pub per_step: f64,
 }
 
 impl Memory {
-    /// Memory, in bytes, of one of `count` segments of equal length in which the motion is computed one after the other.
+    /// Memory, in bytes, of one segment, if the motion is computed in `count` segments of equal length one after the other.
     pub fn of_a_segment(&self, count: usize) -> f64 {
         self.table + self.per_step * (self.steps / count as f64).min(self.most_stored)
     }
@@ -275,7 +275,7 @@ mod tests {
     use crate::dynamics::fixture::problem;
     use crate::parameters::Parameter;
 
-    /// The prediction for a method over a span with a tensor of those principal values.
+    /// The prediction for a method over a span, for a tensor with the principal values `s`.
     fn forecast(method: Method, s: [f64; 3], span: (f64, f64), derivatives: Vec<Parameter>) -> Candidate {
         let request = Request { derivatives, ..Request::new(&[Output::SymmetryAxis], span, 5, 1e-9) };
         Candidate::of(method, &problem(s), &request, State::Axis, span, 5.0)
@@ -363,7 +363,7 @@ mod tests {
         assert_relative_eq!(truncation(vec![Parameter::Spin]), expected, max_relative = 1e-6);
     }
 
-    /// On a thin torus derivatives lose accuracy, unlike values.
+    /// On a thin torus derivatives lose accuracy, but values do not.
     #[test]
     fn derivatives_on_a_torus_have_an_error_of_their_own() {
         let problem = problem([0.2, 0.1, -0.3]);

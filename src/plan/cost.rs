@@ -44,7 +44,7 @@ impl Cost {
         }
     }
 
-    /// Costs of a method that carries `state` and its derivatives with respect to a number of parameters.
+    /// Costs of a method that carries `state` and its derivatives with respect to `count` parameters.
     ///
     /// By splitting, a state with tangent maps takes 1.4 times the work of a state alone, and each register of four directions takes 0.6 times that.
     /// A dual number takes ten times the work of a series in vector registers and three times that of a closed form, once for each parameter. On the

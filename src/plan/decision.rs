@@ -31,7 +31,7 @@ pub struct Plan {
     pub method: Option<Method>,
     /// Whether the method was requested by name.
     pub forced: bool,
-    /// From the initial state to the end.
+    /// Times of the initial state and of the end of the motion.
     pub span: (f64, f64),
     /// Number of samples that are evaluated; zero if only events are requested.
     pub samples: usize,
@@ -109,7 +109,7 @@ impl Plan {
         prediction.truncation <= allowed && prediction.rounding <= (FAR_BELOW * least).max(self.tolerance)
     }
 
-    /// The cheapest admissible method; if one was requested, this one.
+    /// The cheapest admissible method, or the method that was requested.
     fn choose(&self) -> Result<(Method, Prediction), Error> {
         let mut best: Option<(Method, Prediction)> = None;
         for Candidate { method, prediction } in &self.considered {
@@ -129,7 +129,7 @@ impl Plan {
         best.ok_or_else(|| self.why_none())
     }
 
-    /// The reason why the averaged motion cannot be used: without it only the Taylor series meets any tolerance.
+    /// The reason why the averaged motion cannot be used. Without that motion only the Taylor series meets any tolerance.
     fn why_none(&self) -> Error {
         let averaged = self.considered.iter().find(|candidate| candidate.method == Method::Averaged);
         match &averaged.expect("considered where no method was asked for").prediction {
@@ -232,7 +232,8 @@ mod tests {
         assert!(plan.admits(&refused));
     }
 
-    /// Where all that meet the tolerance lose `lost` to rounding, a truncation up to this is no worse; one that no other is compared with must meet it.
+    /// If every method that meets the tolerance loses `lost` to rounding, a method with a truncation error up to `lost` is no worse. A method that is
+    /// compared with no other must meet the tolerance.
     #[test]
     fn a_truncation_above_the_tolerance_is_admitted_below_the_rounding_of_the_others() {
         let mut plan = plan(Output::SymmetryAxis, Some(Method::Taylor));
@@ -247,7 +248,7 @@ mod tests {
         assert!(!plan.admits(&misses));
         plan.considered = considered(&[meets, misses, unknown, too_far]);
         assert!(plan.admits(&meets) && plan.admits(&misses) && !plan.admits(&unknown) && !plan.admits(&too_far));
-        // One that misses the tolerance can be far more accurate than all that meet it.
+        // A method that misses the tolerance can be far more accurate than all that meet it.
         plan.considered = considered(&[meets, with(lost / 101.0, 1e-9)]);
         assert!(!plan.admits(&meets));
         plan.tolerance = 4e-6;
@@ -276,7 +277,7 @@ mod tests {
         assert_eq!(weak.plan(&free).unwrap().method, Some(Method::Free));
         let derivatives = Request { derivatives: vec![Parameter::Beta], ..free };
         assert!(matches!(weak.plan(&derivatives), Err(Error::Unsupported { .. }) | Err(Error::Domain { .. })));
-        // Free rotation neglects it, and includes it in its bound.
+        // Free rotation neglects the bulge, and includes it in its bound.
         let [free, averaged] =
             [Method::Free, Method::Averaged].map(|method| weak.motion_by(method, (0.0, 50.0), 1e-9).unwrap());
         let off = (free.state(50.0).unwrap().axis - averaged.state(50.0).unwrap().axis).norm();

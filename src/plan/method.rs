@@ -58,8 +58,8 @@ impl Method {
         Self::ALL.into_iter().find(|method| method.name() == name)
     }
 
-    /// Number of motions that are computed for derivatives with respect to a number of parameters: a dual number for each, but with
-    /// splitting one motion with tangent maps for every sixteen. One without derivatives.
+    /// Number of motions that are computed for derivatives with respect to a number of parameters. It is one for each parameter,
+    /// but with splitting one motion with tangent maps serves for every sixteen. Without derivatives there is one motion.
     pub(super) fn motions_for(self, derivatives: usize) -> usize {
         let motions = if self == Self::Splitting { derivatives.div_ceil(TANGENTS_AT_ONCE) } else { derivatives };
         motions.max(1)

@@ -1,8 +1,8 @@
 //! Plans: for the requested outputs, what is computed, by which method, and what is skipped.
 //!
 //! ```text
-//! outputs -> needs (state, evaluations)  -> candidates (each method: may it? error? work?) -> the cheapest one that meets
-//! the tolerance -> a motion
+//! outputs -> needs (state, evaluations) -> candidates (each method: is it applicable? its error? its work?)
+//! -> the cheapest one that meets the tolerance -> a motion
 //! ```
 //!
 //! A [`Plan`] is a decision, made before any work, that can be inspected ([`Plan::skipped`], [`Plan::considered`]); its

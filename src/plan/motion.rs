@@ -29,7 +29,8 @@ pub enum PlannedMotion<X = BodyState<f64>> {
     Taylor(TaylorMotion<f64, X>),
 }
 
-/// The error at the end of a numerical motion, as it goes on growing in one that starts there: [`PlannedMotion::error_at_end`].
+/// The error at the end of a numerical motion, from which the error of a motion that starts there continues to grow:
+/// [`PlannedMotion::error_at_end`].
 #[derive(Debug, Clone)]
 pub struct ErrorAtEnd {
     time: f64,
@@ -103,8 +104,8 @@ impl<X: RotationState<f64>> PlannedMotion<X> {
         Some(ErrorAtEnd { time, spheroid, coefficients, error })
     }
 
-    /// This motion with the error of another one that led to its start: a long numerical motion can be computed in parts, of which each states the
-    /// [error](Motion::error_estimate) of all so far. The start must be the state at the end of the other,
+    /// This motion with the error of another one that led to its start. A long numerical motion can thus be computed in parts, each of which
+    /// states the [error](Motion::error_estimate) of all parts so far. The start must be the state at the end of the other motion,
     /// [made orthonormal](RotationState::orthonormal).
     ///
     /// # Errors
@@ -213,7 +214,7 @@ mod tests {
     use crate::propagation::splitting::GRADIENT_8_8_6;
     use crate::solutions::free::free_rotation;
 
-    /// Derivatives of what an observer sees follow from it.
+    /// The law of rotation includes the bulge, and with it the derivatives of what an observer sees.
     #[test]
     fn a_star_with_a_bulge_turns_by_the_equations_that_have_it() {
         let problem = problem([2e-6, 1e-6, -3e-6]).with_bulge(0.2).unwrap();
@@ -259,7 +260,7 @@ mod tests {
         }
     }
 
-    /// The estimated errors of a motion in equal parts at the middle of the one before the last and at its end, and of the motion as a whole.
+    /// Estimated errors at two times, the middle of the last part but one and the end: of a motion in equal parts, and of the motion as a whole.
     fn in_parts_and_whole<X: RotationState<f64>>(
         problem: &Problem<f64, X>,
         (start, end): (f64, f64),
@@ -286,8 +287,8 @@ mod tests {
         [[late[1], last], [late[0], end].map(|t| whole.error_estimate(t))]
     }
 
-    /// Near the unstable middle axis an error grows by e^4 from one part to the next; it is that of the motion as a whole. The parts' steps
-    /// and the rounding between them differ.
+    /// Near the unstable middle axis an error grows by e^4 from one part to the next. The error of the parts is that of the motion as a whole,
+    /// although the steps of the parts and the rounding between them differ.
     #[test]
     fn the_error_of_a_motion_goes_on_from_part_to_part() {
         let s = [0.2, 0.05, -0.15];
@@ -317,8 +318,8 @@ mod tests {
         }));
     }
 
-    /// Of a regular motion too, in many parts: each takes over the error, and adds its own once. That of `e_x` is not compared for the Taylor series, as
-    /// its rate about `n` is rounded in each part.
+    /// The error of a regular motion in many parts is that of the motion, too: each part takes over the error and adds its own once. The error of
+    /// `e_x` is not compared for the Taylor series, as its rate about `n` is rounded in each part.
     #[test]
     fn the_error_of_many_parts_is_that_of_the_motion() {
         let problem = problem([2e-2, 1e-2, -3e-2]);

@@ -14,7 +14,7 @@ use crate::propagation::{Motion, Turning};
 /// Largest rotation (rad) whose turns are counted in one call; it takes minutes.
 pub const MOST_COUNTED: f64 = 1e9;
 
-/// Number of pieces of time allowed for counting turns, per radian and in addition: a passage by a pole takes some sixty.
+/// Number of pieces of time allowed for counting turns: per radian of rotation, and in addition to that. A passage by a pole takes some sixty.
 const PIECES_PER_RADIAN: f64 = 1e3;
 const LEAST_PIECES: f64 = 1e4;
 
@@ -188,8 +188,8 @@ mod tests {
     use crate::plan::Counted;
     use crate::propagation::UniformMotion;
 
-    /// Free precession about Z at the rate 1, starting at a given time. The tensor is isotropic and exerts no torque; as one that does it could turn the body
-    /// by more than 1e9 rad, which are refused.
+    /// Free precession about Z at the rate 1, starting at a given time. The tensor is isotropic, because one that exerts a torque could turn the body
+    /// by more than 1e9 rad, which is refused.
     fn precession(from: f64) -> (UniformMotion<f64>, EulerRates<f64>) {
         let spin = 1.3 * START.beta.cos() / 1.1;
         let rates = EulerRates { alpha: 1.0, beta: 0.0, gamma: 0.2 / 1.3 * spin };
@@ -236,8 +236,7 @@ mod tests {
         assert!(!resolved(&on, &off, 0.9) && !resolved(&off, &on, 0.9) && !resolved(&off, &off, 0.9));
     }
 
-    /// A prolate body that spins about its axis: the Z axis moves in it by the bound given above, whose terms are tested one by
-    /// one.
+    /// A prolate body that spins about its axis. The Z axis moves in it by the bound given above, whose terms are tested one by one.
     #[test]
     fn the_path_of_z_in_the_body_is_bounded_by_rate_torque_and_spin() {
         let star = RigidSpheroid { inertia_xx: 2.0, inertia_zz: 0.64, constant_c: 3.4 };

@@ -23,7 +23,7 @@ pub struct SampledProblem<'t> {
     pub tolerance: f64,
 }
 
-/// States of many motions at the requested times of each: those of [`Problem::taylor_states`] within the tolerance, in a
+/// States of many motions, each at its requested times. They agree with those of [`Problem::taylor_states`] within the tolerance, and take a
 /// fraction of the time if the processor has vectors of doubles (AVX2: 4 motions at once, AVX-512: 8).
 ///
 /// On such a processor each motion is computed with the splitting scheme that a model of cost and error chooses for it, as in

@@ -57,8 +57,8 @@ pub trait Motion<S: Scalar> {
     /// at the start plus the contribution of the torque), at time `t` of the span.
     fn error_estimate(&self, t: f64) -> f64;
 
-    /// The law by which the body rotates: [`Turning::Equations`] of a rigid spheroid unless a motion overrides it, as for a star with a bulge, or the
-    /// rates of another law with their bounds. A search for pulses misses none if this is correct.
+    /// The law by which the body rotates. It is [`Turning::Equations`] of a rigid spheroid unless a motion overrides it: a star with a bulge does,
+    /// and a motion by another law gives its rates with their bounds. A search for pulses misses none if the law is correct.
     fn turning(&self) -> Turning<'_> {
         Turning::Equations { bulge: 0.0 }
     }

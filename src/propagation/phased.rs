@@ -1,4 +1,4 @@
-//! Motions by phases that grow in proportion to time.
+//! Motions described by phases that grow linearly in time.
 //!
 //! ```
 //! use nalgebra::{Matrix3, Vector3};
@@ -132,7 +132,7 @@ impl PhasedMotion {
         }
     }
 
-    /// The same in turns, to 32 digits where the rates are known to that precision.
+    /// The rates in turns per unit of time, to 32 digits where they are known to that precision.
     pub(crate) fn turns_per_time(&self) -> [DoubleDouble; 3] {
         match &self.solution {
             Solution::Torus(torus) => torus.turns_per_time(),
@@ -141,8 +141,8 @@ impl PhasedMotion {
         }
     }
 
-    /// Rate (rad per unit of time) at which the averaged `L` circles the [pole](Self::pole), in the right-handed sense; `None` on a torus, whose
-    /// angles may be any basis of it.
+    /// Rate (rad per unit of time) at which the averaged `L` circles the [pole](Self::pole), in the right-handed sense; `None` on a torus, where any
+    /// basis may serve for the angles.
     pub(crate) fn precession_of_momentum(&self) -> Option<f64> {
         match &self.solution {
             // Avoids minus zero if `L` stays fixed.
@@ -159,7 +159,7 @@ impl PhasedMotion {
         axis * direction_of(&axis)
     }
 
-    /// The same axis, with arbitrary direction.
+    /// The axis of the [pole](Self::pole), in either direction.
     fn axis(&self) -> Vector3<f64> {
         match &self.solution {
             Solution::Averaged(motion) => motion.given_from_principal.column(motion.mean.top().axis()).into(),

@@ -47,8 +47,8 @@ pub fn free_precession_rates<S: Real>(spheroid: &RigidSpheroid<S>, spin: S, beta
     })
 }
 
-/// The free motion from any state after the time `t`: `n` and `e_x` rotate about the constant `L` at the rate `|L| / I^xx`,
-/// and `e_x` rotates about `n` at the rate `-epsilon Omega^z`. Regular for every orientation and for `L = 0`.
+/// The state after free motion over the time `t` from any state: `n` and `e_x` rotate about the constant `L` at the rate `|L| / I^xx`, and `e_x`
+/// rotates about `n` at the rate `-epsilon Omega^z`. Regular for every orientation and for `L = 0`.
 ///
 /// Error: a few ulp of one plus the rounding of the angle `|L| t / I^xx`, which must be below 1e150 rad.
 pub fn free_rotation<S: Real>(spheroid: &RigidSpheroid<S>, initial: &BodyState<S>, t: S) -> BodyState<S> {
@@ -96,7 +96,7 @@ mod tests {
     type Seventh = Dual3<Fourth>;
     type Tenth = Dual3<Seventh>;
 
-    /// At angle zero only the last terms of both series determine these derivatives: those of sine and cosine.
+    /// At angle zero only the last terms of both series, those of sine and cosine, determine these derivatives.
     #[test]
     fn a_rotation_by_nothing_has_ten_derivatives() {
         let inner = Fourth::from_re(Dual64::from(0.0).derivative()).derivative();

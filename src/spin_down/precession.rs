@@ -57,7 +57,7 @@ struct Averages<S> {
     rate: S,
     /// Average of `sin^2 theta - sin^2 theta_0`.
     square: S,
-    /// Average of the same, weighted with the remaining time: half of it for a constant.
+    /// Average as for `square`, weighted with the remaining time; for a constant it is half of that.
     square_twice: S,
 }
 
@@ -120,8 +120,8 @@ impl<S: Real> Precession<S> {
         within(self.rate * tau, turn) + self.ahead(tau)
     }
 
-    /// Phase advance of `psi` due to damping (rad): a smaller wobble precesses faster. To rounding within two damping times of the time zero, for a
-    /// wobble from 0 to pi that is no right angle.
+    /// Phase advance of `psi` due to damping (rad): a smaller wobble precesses faster. The result is accurate to rounding within two damping times
+    /// of the time zero, for a wobble from 0 to pi that is no right angle.
     pub fn ahead(&self, tau: S) -> S {
         if self.is_undamped() {
             let [rate, tau, sine] = [self.rate.re(), tau.re(), self.squares[0].re()];
@@ -162,7 +162,7 @@ impl<S: Real> Precession<S> {
         sum
     }
 
-    /// Computed by partial integration, to second order in the damping over the rate.
+    /// The effect of damping on the oscillating torque, by partial integration to second order in the damping over the rate.
     pub(super) fn damped_torque(&self, tau: S) -> DampedTorque<S> {
         let number = S::from_f64;
         let (x, [sin, cos]) = (self.damping * tau, self.squares);
@@ -250,8 +250,7 @@ impl Precession {
         Error::ensure(goes_round(wobble) == goes_round(self.wobble), "damped wobble (rad)", wobble, allowed)
     }
 
-    /// A bound on the error, from the time zero to a stretched one, of the timing delay over `kappa g` for the damped
-    /// torque.
+    /// A bound on the error of the timing delay over `kappa g` for the damped torque, from the time zero to a stretched time.
     ///
     /// The next terms of the partial integration have coefficients of `y^3` that are polynomials in `u`: at most 1 and 1/2 in the first integral of
     /// `a_1 cos psi` and `a_2 cos 2 psi`, 6 and 1.6 in the second. Those of `y^4` are at most four times as large, and `y` is at most 0.1. The first

@@ -133,7 +133,7 @@ impl StretchedTime {
         self.time(stretched.into()).into()
     }
 
-    /// The stretched time at the sum of two doubles, in any order.
+    /// The stretched time at a time given as the sum of two doubles, in any order.
     ///
     /// # Errors
     /// [`Error::Domain`] for times so long that the star loses or gains a tenth of its rotation; for braking indices above 3 or below 1, a tenth over
@@ -363,7 +363,7 @@ mod tests {
         }
     }
 
-    /// Compared with differences of the map, and the law of its rate with a quadrature of the torque.
+    /// The slowing is compared with differences of the map, and the law of its rate with a quadrature of the torque.
     #[test]
     fn the_slowing_is_the_rate_of_the_map() {
         for (index, share) in [(3.0, 1.0), (2.0, 0.5), (5.0, 1.0), (1.0, 0.4)] {
@@ -413,7 +413,7 @@ mod tests {
         assert_eq!([still.truncation(1e4), still.error_by_angles(0.25)], [0.0; 2]);
     }
 
-    /// A wobble that friction raises close to a right angle, where the precession becomes slow.
+    /// A wobble that friction raises close to a right angle, where the precession becomes slow, is refused from then on.
     #[test]
     fn a_wobble_that_is_damped_in_a_few_turns_at_a_later_time_is_refused_there() {
         let precession = Precession::new([1.4, 0.2, 0.7], 0.013, -3e-4);
@@ -500,8 +500,8 @@ mod tests {
         }
     }
 
-    /// A wobble is followed for two damping times of the stretched time, `t = tau + kappa tau^2 / 2`: a star that slows down has more time for it, one
-    /// that spins up less.
+    /// A wobble is followed for two damping times of the stretched time, `t = tau + kappa tau^2 / 2`. For a star that slows down this is a longer
+    /// time `t`, for one that spins up a shorter one.
     #[test]
     fn two_damping_times_are_of_the_stretched_time() {
         let precession = Precession::new([0.2, 1.3, 0.7], 0.013, 1e-5);
@@ -512,7 +512,7 @@ mod tests {
         }
     }
 
-    /// The delay grows in proportion to a small share of the torque: its derivative at none is that proportion.
+    /// The delay grows in proportion to a small share of the torque: its derivative at a share of zero is that proportion.
     #[test]
     fn the_delay_has_a_derivative_by_the_share_where_that_is_zero() {
         use num_dual::Dual64;

@@ -219,8 +219,8 @@ fn degree_seven<S: Real>(e2: S, e3: S, e4: S, e5: S) -> S {
 mod tests {
     use super::*;
 
-    /// `R_J(1, 1, 1, 4)` is `(3/2) int_1^inf u^(-3/2) du / (u + 3)`, with u = v^2 an arc tangent: `1 - pi / (3 sqrt 3)`. With 1/4 for 4 it has
-    /// the inverse of the hyperbolic tangent instead.
+    /// `R_J(1, 1, 1, 4)` is `(3/2) int_1^inf u^(-3/2) du / (u + 3)`, with u = v^2 an arc tangent: `1 - pi / (3 sqrt 3)`. With 1/4 for 4 the
+    /// integral is an inverse hyperbolic tangent instead.
     #[test]
     fn three_equal_arguments_of_the_third_kind_have_a_closed_form() {
         let root_three = 3f64.sqrt();

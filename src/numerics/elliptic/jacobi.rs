@@ -50,7 +50,7 @@ pub struct ArithmeticGeometricMean<S> {
 /// The values `sn(u | m)`, `cn(u | m)`, `dn(u | m)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JacobiFunctions<S> {
-    /// Sine amplitude; from [`ArithmeticGeometricMean::functions`] that over `a`.
+    /// Sine amplitude; divided by `a` in the result of [`ArithmeticGeometricMean::functions`].
     pub sn: S,
     /// Cosine amplitude.
     pub cn: S,
@@ -102,8 +102,8 @@ impl<S: Real> ArithmeticGeometricMean<S> {
             let share = c2 * f.sn * f.sn * 0.25;
             let denominator = S::one() + share;
             let (sn, cn) = (f.sn / denominator, f.cn * f.dn / denominator);
-            // If computed from `cn`, which has a factor `dn` of the previous step, an error would double at each step; but for small `dn` the
-            // other form cancels.
+            // If `dn` were computed from `cn`, which has a factor `dn` of the previous step, an error would double at each step; but for small
+            // `dn` the other form cancels.
             let dn = if share.re() < SMALL_SHARE {
                 (S::one() - share) / denominator
             } else {

@@ -130,8 +130,8 @@ mod tests {
             assert!(slope.norm() > 1e-2 && (found.map(|x| x.eps) - slope).norm() < 1e-7, "{found:?} {slope:?}");
         }
     }
-    /// With two equal eigenvalues `L` rests in their plane, and next to it moves slowly: neighbours separate in proportion to time. Compared with
-    /// the elliptic solution, which is exact.
+    /// With two equal eigenvalues `L` rests in their plane and moves slowly next to it: neighbouring solutions separate in proportion to time. The
+    /// motion is compared with the elliptic solution, which is exact.
     #[test]
     fn the_error_in_the_plane_of_two_equal_eigenvalues_is_estimated() {
         for (off_plane, values) in

@@ -16,8 +16,8 @@ use crate::solutions::symmetric::SymmetricSolution;
 
 /// A motion by [`SymmetricSolution`] for a tensor given in any frame.
 ///
-/// Two eigenvalues that differ are replaced by their mean. The effect of the neglected torque is part of the error estimate.
-/// Derivatives (duals) are those within tensors of the same symmetry axis.
+/// Two eigenvalues that differ are replaced by their mean. The effect of the neglected torque is part of the error estimate. Derivatives (duals)
+/// are correct for changes of the tensor that keep its symmetry axis.
 #[derive(Debug, Clone, Copy)]
 pub struct SymmetricMotion<S> {
     problem: Problem<S>,
@@ -112,9 +112,9 @@ impl<S: Real> SymmetricMotion<S> {
         momentum.max((axis * (1.0 + self.turning_rate * t)).min(2.0))
     }
 
-    /// Rounding error: that of the initial values and parameters, amplified by the derivatives of the solution itself, and that of the phase,
-    /// including cancellation in the turning points of the inclination and near the poles. If the two eigenvalues are equal within rounding, their
-    /// remaining difference is included here.
+    /// Rounding error of the state after the time `elapsed`. It consists of the rounding of the initial values and parameters, amplified by the
+    /// derivatives of the solution itself, and of the rounding of the phase, including cancellation in the turning points of the inclination and
+    /// near the poles. If the two eigenvalues are equal within rounding, their remaining difference is included here.
     pub fn rounding(&self, elapsed: f64) -> f64 {
         let by = |seed: fn(&mut EulerAngles<Dual64>, &mut EulerRates<Dual64>)| self.sensitivity(elapsed, seed);
         let by_angle = by(|angles, _| angles.beta.eps = 1.0);
@@ -216,7 +216,7 @@ mod tests {
             Err(Error::Domain { quantity, .. }) if quantity.starts_with("least distance") => true,
             Err(other) => panic!("{other}"),
         };
-        // Spinning about an axis near the pole; swinging through it.
+        // The star spins about an axis near the pole, or swings through the pole.
         assert!(!refused(motion([0.1, 0.1, -0.2], 3e-8, [0.5, 0.0, 2.0])));
         assert!(refused(motion([0.1, 0.1, -0.2], 5e-10, [0.5, 0.0, 2.0])));
         assert!(refused(motion([0.1, 0.1, -0.2], 0.3, [0.0, 0.1, 0.0])));

@@ -106,7 +106,8 @@ mod tests {
         assert!(motion.elapsed([90.0, 20.0]).is_err() && motion.elapsed([60.0, -70.0]).is_err());
     }
 
-    /// The solution takes any tolerance that is one, the motion those of every other motion.
+    /// The solution accepts zero and large tolerances, too; the motion accepts only the tolerances that every other motion
+    /// accepts.
     #[test]
     fn tolerances_that_are_none_are_refused() {
         let problem = problem([0.2, 0.1, -0.3]);

@@ -362,7 +362,7 @@ mod tests {
         assert_eq!((quarter.axis, quarter.momentum), (axis, axis * 2.2));
     }
 
-    /// Also for a slow motion, about any axis, in either sense.
+    /// The pole is found also for a slow motion, about any axis, in either sense.
     #[test]
     fn the_pole_is_what_the_momentum_goes_round() {
         let turn = nalgebra::Rotation3::from_euler_angles(0.3, 1.1, -0.4).into_inner();
@@ -370,7 +370,7 @@ mod tests {
             let (problem, rate) = steady_precession(spin, beta);
             let motion = UniformMotion::steady(&problem.rotated(&turn), (0.0, 1.0)).unwrap();
             assert!((motion.pole() - turn.column(2) * rate.signum()).amax() < 1e-12, "{rate}");
-            // A quarter of a turn about it.
+            // After a quarter of a turn about the pole.
             let start = motion.problem.initial();
             let quarter = motion.state_after_turns([0.25, 0.0]).axis;
             let along = motion.pole() * motion.pole().dot(&start.axis);

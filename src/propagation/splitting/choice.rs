@@ -118,13 +118,13 @@ impl Goal {
         }
     }
 
-    /// Largest step, as an angle (rad), for which that error is within the tolerance.
+    /// Largest step, as an angle (rad), for which this error is within the tolerance.
     fn step(self, model: &Model, epsilon: f64, turn: f64, tolerance: f64) -> f64 {
         model.longest(|step| self.error(model, epsilon, turn, step) <= tolerance)
     }
 
-    /// Fraction of random motions whose error stays below it: 0.6 % and 3.5 % of 10,000 motions with strong torques were above, and 0.5 % and 0.9 %
-    /// of 3,000 of every kind (`docs/plans.md`).
+    /// Fraction of random motions whose error stays below the tolerance: for the state and for derivatives, 0.6 % and 3.5 % of 10,000 motions with
+    /// strong torques were above, and 0.5 % and 0.9 % of 3,000 of every kind (`docs/plans.md`).
     fn coverage(self) -> f64 {
         match self {
             Self::State => 0.99,
@@ -142,10 +142,10 @@ pub struct SplittingForecast {
     pub step: f64,
     /// Number of its steps.
     pub steps: f64,
-    /// Error at the end, excluding rounding, that the fraction [`coverage`](Self::coverage) of random motions stays below: a multiple of the
-    /// model's error for these steps. Zero without torque, where the flows are exact.
+    /// Error at the end, excluding rounding: a multiple of the model's error for these steps, which the fraction [`coverage`](Self::coverage) of
+    /// random motions stays below. Zero without torque, where the flows are exact.
     pub truncation: f64,
-    /// This fraction.
+    /// Fraction of random motions whose error stays below `truncation`.
     pub coverage: f64,
     /// The rounding error that [`error_estimate`](crate::propagation::Motion::error_estimate) will report at the end, without
     /// its growth by an instability.
@@ -161,7 +161,7 @@ impl<X: RotationState<f64>> Problem<f64, X> {
         self.splitting_forecast_for(Goal::State, span, tolerance)
     }
 
-    /// The same for a given goal.
+    /// As [`splitting_forecast`](Self::splitting_forecast), for a given goal.
     ///
     /// # Errors
     /// As for [`splitting_forecast`](Self::splitting_forecast), and for derivatives on a processor without the instructions for tangent maps.

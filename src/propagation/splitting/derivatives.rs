@@ -23,7 +23,7 @@ struct Seed<const V: usize> {
     tensor: Matrix3<f64>,
 }
 
-/// Register for four directions; the number of registers follows from that of the directions.
+/// Number of directions in one register.
 const LANES: usize = 4;
 
 /// The states at `times` (in the order in which the motion reaches them) with their derivatives with respect to the parameter of each of the

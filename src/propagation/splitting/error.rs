@@ -17,12 +17,14 @@ const SAFETY: f64 = 6.0;
 /// Displacement of the start of the more accurate motion, in roundings, in an arbitrary direction.
 const OFF: [f64; 3] = [8.3, -6.1, 7.7];
 
-/// The same for another motion with the same steps, in a direction normal to it, because an instability may leave one of them unchanged. In
-/// its field the eigenvalues of `s` are displaced by their own roundings, which are large relative to the difference of nearly equal ones.
+/// Displacement of the start of a second motion with the same steps, in a direction normal to the first: an instability may leave one of the
+/// two unchanged. In the field of this second motion the eigenvalues of `s` are displaced by their own roundings, which are large relative to
+/// the difference of nearly equal eigenvalues.
 const OFF_ACROSS: [f64; 3] = [9.4, 8.9, -3.1];
 const EIGENVALUES_OFF: [f64; 3] = [3.7, -5.3, 4.1];
 
-/// Components of `s` off the diagonal of that field, in roundings: they turn the principal axes, by much for nearly equal eigenvalues.
+/// Off-diagonal components of `s` in the field of the second motion, in roundings. They turn the principal axes, by a large angle for nearly
+/// equal eigenvalues.
 const OFF_DIAGONAL: [f64; 3] = [4.3, -3.9, 5.1];
 
 /// Rounding of `s`, of the initial state and of the step, which both motions share, in units in the last place for each radian of
@@ -40,14 +42,15 @@ const LONGEST_STEP: f64 = 1.0;
 /// estimate is infinite.
 const MOST_FINER: f64 = 1e4;
 
-/// The error at the end of a motion, with what continues it in a motion that starts there.
+/// The error at the end of a motion, with the data from which a motion that starts there continues the estimate.
 #[derive(Debug, Clone)]
 pub(crate) struct ErrorAtEnd {
     /// The largest difference so far, times [`SAFETY`].
     largest: f64,
     /// The rounding that all motions share.
     shared_rounding: f64,
-    /// `n`, `L` and, if it is followed, `e_x` of the more accurate motion, and of the one beside this.
+    /// `n`, `L` and, if it is followed, `e_x` of the more accurate motion, and of the second one, whose start is displaced in another
+    /// direction.
     others: [[Vector3<f64>; 3]; 2],
 }
 
@@ -86,7 +89,7 @@ impl ErrorEstimate {
                 (*largest, *shared_rounding, others.each_ref().map(|vectors| scene.moving(vectors)))
             }
         };
-        // Each has its own w.n: near rest, where `w` is small, that of the motion would turn `n` by much more than the displacement.
+        // Each has its own w.n: near rest, where `w` is small, the w.n of the motion would turn `n` by much more than the displacement.
         let casimirs = starts.each_ref().map(|of| {
             let n = Vector3::from(of.vectors[AXIS]);
             n.dot(&Vector3::from(of.vectors[RATE])) / n.norm()
@@ -226,7 +229,8 @@ mod tests {
         axis_problem(s).splitting_by(scheme, (3.0, 3.0 + step * count), step).unwrap()
     }
 
-    /// The tensor with these eigenvalues along the turned axes has the components off the diagonal; for equal eigenvalues the axes are at 45 degrees.
+    /// The tensor with these eigenvalues along the turned axes has the given off-diagonal components; for equal eigenvalues the axes are at 45
+    /// degrees.
     #[test]
     fn axes_are_turned_by_the_rounding_of_the_tensor() {
         let eigenvalues = [0.3, 0.3 - 1e-7, -0.4];
@@ -291,7 +295,7 @@ mod tests {
         }
     }
 
-    /// Each is displaced by some roundings of the largest, whatever its own size, and each difference by more than one.
+    /// Each eigenvalue is displaced by some roundings of the largest, whatever its own size, and each difference by more than one rounding.
     #[test]
     fn eigenvalues_are_off_by_roundings_of_the_largest() {
         for size in [1.0, 1e-9] {

@@ -117,8 +117,8 @@ pub(super) struct Angles {
 const MOST_HALVINGS: f64 = 512.0;
 
 impl Angles {
-    /// For angles up to `longest` (rad). Fewer than eight terms are used if the omitted ones are below 1e-19. Angles without any
-    /// significant digit, including infinite ones, give no finite result.
+    /// The evaluation for angles up to `longest` (rad). Fewer than eight terms are used if the omitted ones are below 1e-19. Angles
+    /// without any significant digit, including infinite ones, give no finite result.
     pub(super) fn up_to(longest: f64) -> Self {
         let halvings = (longest / LARGEST_ANGLE).log2().ceil().clamp(0.0, MOST_HALVINGS) as u32;
         let terms = match longest {
@@ -153,7 +153,7 @@ pub(super) fn dot<S: Ring>(a: &[S; 3], b: &[S; 3]) -> S {
 }
 
 impl<S> Kick<S> {
-    /// Whether it has a force gradient.
+    /// Whether the kick has a force gradient.
     #[inline(always)]
     pub(super) fn has_gradient(&self) -> bool {
         self.gradient.is_some()
@@ -161,7 +161,7 @@ impl<S> Kick<S> {
 }
 
 impl<S: Ring> Turn<S> {
-    /// About `w` by the angle `|w| tau`, which must be among the `angles`.
+    /// The rotation about `w` by the angle `|w| tau`, which must be among the `angles`.
     #[inline(always)]
     pub(super) fn new(rate: [S; 3], tau: S, angles: Angles) -> Self {
         let Angles { halvings, terms } = angles;
@@ -301,7 +301,7 @@ pub(super) struct Field<S> {
 }
 
 impl Field<f64> {
-    /// From `2 C / I^xx` and the eigenvalues of `s^IJ`. An isotropic part exerts no torque and is subtracted.
+    /// The field from `2 C / I^xx` and the eigenvalues of `s^IJ`. An isotropic part exerts no torque and is subtracted.
     pub(super) fn new(strength: f64, s: [f64; 3]) -> Self {
         let mean = (s[0] + s[1] + s[2]) / 3.0;
         let torque = [s[1] - s[2], s[2] - s[0], s[0] - s[1]].map(|difference| difference * strength);

@@ -85,7 +85,7 @@ struct Progress<'r, 't> {
 
 /// Carries at most as many motions as there are lanes; a lane that has finished runs on, and its results are ignored.
 ///
-/// The steps of a motion, and the steps after which its rounding is removed, are counted from its own start, which all share.
+/// All motions start at the same step, so that the rounding of each is removed after the same steps as for the motion alone.
 #[inline(always)]
 fn propagate_side_by_side<R: Register, const N: usize>(
     register: R,

@@ -301,7 +301,7 @@ impl<const V: usize> KeptStates<V> {
         self.estimate.get_or_init(|| ErrorEstimate::new(self))
     }
 
-    /// By how much `e_x` turns more slowly about `n` for a `w.n` that is larger.
+    /// Decrease of the rate at which `e_x` turns about `n` if `w.n` is larger by `casimir`.
     pub(super) fn rate_about_axis_for(&self, casimir: f64) -> f64 {
         let RigidSpheroid { inertia_xx, inertia_zz, .. } = self.spheroid;
         self.spheroid.oblateness() * inertia_xx / inertia_zz * casimir

@@ -36,13 +36,13 @@ pub(super) fn angles(scheme: &Scheme, turn: f64) -> Angles {
 }
 
 impl<S: Ring> Steps<S> {
-    /// With the [`angles`] of its rotations, or smaller ones.
+    /// The steps of a scheme. `angles` must cover its rotations: see [`angles`].
     #[inline(always)]
     pub(super) fn turning(scheme: &Scheme, field: &Field<S>, step: S, angles: Angles) -> Self {
         let stages = scheme.stages();
         let still = field.kick(0.0, 0.0, step);
         let mut pairs = [(step, still); MOST_STAGES];
-        // With kicks at the ends the first is half of the last.
+        // With kicks at the ends the first kick is half of the last.
         let offset = if scheme.ends == Ends::Kicks { 1 } else { 0 };
         for (index, pair) in pairs[..stages].iter_mut().enumerate() {
             let kick = field.kick(scheme.kicks[index + offset], scheme.gradient(index + offset), step);

@@ -27,12 +27,12 @@ use crate::propagation::splitting::scheme::Scheme;
 pub struct Splitting {
     scene: PrincipalProblem,
     steps: DoubleSteps,
-    /// Open.
+    /// The current state, open: see `Steps`.
     state: Moving<f64>,
 }
 
 impl Splitting {
-    /// From the initial state of a problem; a negative step goes backwards in time.
+    /// Starts from the initial state of a problem; a negative step goes backwards in time.
     ///
     /// # Errors
     /// As for [`Problem::splitting_by`], and for a step that is zero or not finite.

@@ -219,8 +219,8 @@ mod tests {
 
     use super::*;
 
-    /// Uses `d/dx sin(t)/t = (cos(t) - sin(t)/t) / (2 x)` and `d/dx (1 - cos(t))/x = (sin(t)/t - 2 (1 - cos(t))/x) / (2 x)`,
-    /// `x = t^2`.
+    /// The exact slopes are `d/dx sin(t)/t = (cos(t) - sin(t)/t) / (2 x)` and
+    /// `d/dx (1 - cos(t))/x = (sin(t)/t - 2 (1 - cos(t))/x) / (2 x)`, `x = t^2`.
     #[test]
     fn slopes_of_the_sine_and_the_versine_meet_where_the_series_end() {
         for angle in [0.2, 0.5, 0.699_999, 0.700_001, 0.9, 1.7, 3.0, 7.0_f64] {

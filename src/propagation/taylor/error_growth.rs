@@ -8,8 +8,8 @@ use crate::propagation::taylor::linearised_flow::LinearMap;
 /// some per cent.
 const KNOWN_SAFETY: f64 = 3.0;
 
-/// Number of standard deviations for errors known only by their size: 2e-9 is the probability of more for an error in one direction,
-/// and a growing error approaches one direction.
+/// Number of standard deviations for errors known only by their size. An error in one direction exceeds it with the probability 2e-9, and a
+/// growing error approaches one direction.
 const UNKNOWN_SAFETY: f64 = 6.0;
 
 /// Rounding of the covariance in a step, relative.
@@ -93,8 +93,8 @@ impl ErrorGrowth {
         Self { momentum_unit, known, covariance, lost: false }
     }
 
-    /// The errors accumulated so far of a state that has been made orthonormal, in a unit of time `longer` times as long and with `momentum_unit`
-    /// for `L / I^xx` in it.
+    /// The errors accumulated so far, for a state that has been made orthonormal: converted to a unit of time `longer` times as long, in which
+    /// `momentum_unit` is the unit of `L / I^xx`.
     pub(super) fn of_orthonormal_state(mut self, longer: f64, momentum_unit: f64) -> Self {
         self.momentum_unit = momentum_unit;
         (self.known.length, self.known.off_frame) = (0.0, [0.0; 2]);
@@ -171,12 +171,12 @@ impl ErrorGrowth {
         KNOWN_SAFETY * known.abs() + UNKNOWN_SAFETY * variance.max(0.0).sqrt()
     }
 
-    /// An error of this size, added now, in the way [`estimate`](Self::estimate) would count it.
+    /// What an error of this size, added now, contributes to [`estimate`](Self::estimate).
     pub(super) fn counted(size: f64) -> f64 {
         KNOWN_SAFETY * size
     }
 
-    /// The same for an error with this standard deviation.
+    /// What an error with this standard deviation, added now, contributes.
     pub(super) fn counted_deviation(deviation: f64) -> f64 {
         UNKNOWN_SAFETY * deviation
     }
@@ -242,7 +242,7 @@ mod tests {
         );
     }
 
-    /// In a unit of time twice as long a rate is twice the number. What orthonormal vectors cannot have is gone.
+    /// In a unit of time twice as long, a rate is twice the number. Errors that orthonormal vectors cannot have are gone.
     #[test]
     fn the_error_of_an_orthonormal_state_has_no_lengths() {
         let mut growth = ErrorGrowth::none(1.5);

@@ -20,8 +20,8 @@ pub(super) const ROUNDING: f64 = 0.5;
 /// Fraction of the truncation of a step that its leading term misses.
 const UNCERTAIN: f64 = 0.04;
 
-/// Factor by which an error carried has shrunk when its square, which does not shrink with it, is added. Errors of the phases of a regular motion
-/// vary by less over a period.
+/// When the carried error has shrunk by this factor, the square of its largest value is added, because that square does not shrink with the error.
+/// Errors of the phases of a regular motion vary by less over a period.
 const SHRUNK: f64 = 8.0;
 
 /// Relative rounding, at evaluation, of the angle by which `e_x` has turned about `n`: half a unit in the last place.
@@ -45,7 +45,7 @@ impl StepError {
     }
 }
 
-/// The estimated error of a motion at its end, as it goes on growing in a motion that starts there.
+/// The estimated error of a motion at its end, from which the error of a motion that starts there continues to grow.
 #[derive(Debug, Clone)]
 pub(crate) struct ErrorAtEnd {
     growth: ErrorGrowth,
@@ -71,8 +71,8 @@ pub(super) struct TaylorErrors<const V: usize> {
     before: f64,
     /// The largest error carried since it last shrank by [`SHRUNK`].
     largest: f64,
-    /// Bound of the error of the angle of `e_x` about `n`, which is computed apart from the series: of its rounding, and of its rate since the start of
-    /// the motion.
+    /// Bound on the error of the angle of `e_x` about `n`, which is computed apart from the series. The bound contains the rounding of the angle and
+    /// the error of its rate, which is that since the start of the motion.
     of_angle: f64,
     rate_of_angle: f64,
     /// Rate of `e_x` about `n`, in the unit of time of the series; zero if only the axis is followed.
@@ -82,7 +82,7 @@ pub(super) struct TaylorErrors<const V: usize> {
 }
 
 impl<const V: usize> TaylorErrors<V> {
-    /// The state at the start of a motion, where a motion before it ends with the error `earlier`.
+    /// The errors at the start of a motion. `earlier` is the error at the end of the motion before it, if there is one.
     pub(super) fn of<S: Real>(setup: &ScaledProblem<S, V>, earlier: Option<&ErrorAtEnd>) -> Self {
         let (scale, spheroid) = (&setup.scale, setup.spheroid.map(S::re));
         let tensor = setup.frame.tensor.map(S::re);
@@ -97,7 +97,7 @@ impl<const V: usize> TaylorErrors<V> {
         let (mut growth, of_angle, largest) = match earlier {
             None => (ErrorGrowth::none(momentum_unit), 0.0, 0.0),
             Some(ErrorAtEnd { growth, unit: of_earlier, of_angle, largest }) => {
-                // A sum with a length of n that is not one turns e_x by at most half of what is missing.
+                // `e_x` is a sum that contains `n x u`: if the length of n is not one, it is turned by at most half of the difference.
                 let of_lengths = if V > COMPANION { growth.of_length() / 2.0 } else { 0.0 };
                 let mut growth = growth.clone().of_orthonormal_state(unit / of_earlier, momentum_unit);
                 // The state at the end was rounded.
@@ -107,7 +107,7 @@ impl<const V: usize> TaylorErrors<V> {
             }
         };
         let start = setup.start.map(|v| v.vector().map(S::re));
-        // The rate of e_x about n is that of the start, of which `w.n` may have an error.
+        // The rate of e_x about n is computed from the start, whose `w.n` may have an error.
         let of_spin = growth.of_spin(&start[AXIS], &(start[MOMENTUM] * rate));
         let rate_of_angle = spheroid.oblateness().abs() * spheroid.inertia_xx / spheroid.inertia_zz * of_spin;
         let rate_of_angle = if V > COMPANION { rate_of_angle } else { 0.0 };
@@ -289,7 +289,7 @@ mod tests {
         series.iter().rev().fold(Columns::zeros(), |sum, term| sum * h + term)
     }
 
-    /// Each coefficient has an excess from the excess of the factors of all previous ones, here of the first two: `h c_1 e_1 + h^2 c_2 e_2`.
+    /// Each coefficient has an excess because of the excess of the factors of all previous ones, here of the first two: `h c_1 e_1 + h^2 c_2 e_2`.
     #[test]
     fn rounded_factors_add_to_the_coefficients() {
         let (mut errors, series) = rotating::<3>(Vector3::new(0.3, -0.5, 1.2));
@@ -326,7 +326,7 @@ mod tests {
         assert_relative_eq!(with_twice - twice, ANGLE_ROUNDING * 2e5, max_relative = 1e-9);
     }
 
-    /// An error of `L.n` at the start, where `e_x` has its rate of rotation about `n` from, turns `e_x` by more with every step.
+    /// The rate of `e_x` about `n` is computed from `L.n` at the start: an error of this `L.n` turns `e_x` by more with every step.
     #[test]
     fn the_rate_about_the_axis_has_the_error_of_the_start() {
         fn with_error<const V: usize>(momentum: Vector3<f64>) -> [f64; 2] {
@@ -352,7 +352,7 @@ mod tests {
         assert_eq!(with_error::<2>(momentum)[1], 0.0);
     }
 
-    /// A step of a free star makes no truncation; an error of `e` that has shrunk to less than an eighth leaves deviations of `e^2`, once.
+    /// A step of a free star has no truncation error; an error of `e` that has shrunk to less than an eighth leaves deviations of `e^2`, once.
     #[test]
     fn the_square_of_an_error_that_shrank_is_added() {
         let momentum = Vector3::new(0.0, 0.0, 1.3);
@@ -369,7 +369,7 @@ mod tests {
         let after = errors.before;
         errors.step_of_columns(&series, h, &end(&series, h));
         assert!(errors.before < 2.0 * after, "{:e} {after:e}", errors.before);
-        // Of the rotation but for that about n, of the length and of the momentum: six components.
+        // Deviations of the rotation except for that about n, of the length and of the momentum: six components.
         let expected = ErrorGrowth::counted_deviation(largest * largest) * 6.0_f64.sqrt();
         assert_relative_eq!(after - before, expected, max_relative = 0.05);
     }

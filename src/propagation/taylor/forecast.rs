@@ -96,8 +96,8 @@ mod tests {
         assert_eq!((found.steps, found.rounding), (1.0, READING));
     }
 
-    /// At rest on an unstable axis of `s`, where all terms of the series vanish, steps are as long as a growing deviation allows, here `e^80` of it:
-    /// those that are predicted are those that the motion takes.
+    /// At rest on an unstable axis of `s`, where all terms of the series vanish, steps are as long as a growing deviation allows, here `e^80` of it.
+    /// The motion takes as many steps as predicted.
     #[test]
     fn a_star_at_rest_that_may_leave_takes_the_steps_predicted() {
         let rest = AxisState { axis: Vector3::x(), momentum: Vector3::zeros() };

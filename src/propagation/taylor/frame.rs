@@ -17,7 +17,7 @@ pub(super) struct SeriesFrame<S> {
 }
 
 impl<S: Real> SeriesFrame<S> {
-    /// The principal frame, by real parts, or the given one.
+    /// The principal frame, computed from real parts, or the given one.
     pub(super) fn of(anisotropic: &Matrix3<S>, principal: bool) -> Result<Self, Error> {
         let off_diagonal = [(0, 1), (0, 2), (1, 2)].iter().any(|&place| anisotropic[place].re() != 0.0);
         if !principal || !off_diagonal {
@@ -51,7 +51,7 @@ impl<S: Real> SeriesFrame<S> {
         self.given_from_series.map_or(*v, |back| back.map(S::from_f64) * v)
     }
 
-    /// The same, with the instructions of the series.
+    /// As [`turned_back`](Self::turned_back), with the instructions of the series.
     #[inline(always)]
     pub(super) fn turned_to_given<A: LoadStore<Scalar = S>>(&self, a: A, v: A::Vector) -> A::Vector {
         match &self.given_from_series {

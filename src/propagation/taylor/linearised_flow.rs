@@ -8,8 +8,9 @@ use nalgebra::{Matrix3, Vector3};
 use crate::dynamics::RigidSpheroid;
 use crate::propagation::taylor::shared_rounding::SharedRounding;
 
-/// Longest part of a step, in radians of the rotation. The maps of successive steps do not fit exactly, which makes estimates grow exponentially in
-/// the end: after 2e5 t_c of tp-I at a tolerance of 1e-12 the estimate is 2e-9 with these parts, and lost with parts of half a radian.
+/// Longest part of a step, in radians of the rotation. The maps of successive steps do not fit together exactly, so that estimates grow
+/// exponentially after a long time. For tp-I at a tolerance of 1e-12 the estimate after 2e5 t_c is 2e-9 with these parts, and lost with parts of
+/// half a radian.
 const LONGEST_PART: f64 = 0.25;
 
 /// A linear map of differences `(theta, w, rho)`: the small rotation `theta` of the vectors that rotate with `L / I^xx`
@@ -34,7 +35,7 @@ pub(super) struct LinearisedFlow {
 }
 
 impl LinearisedFlow {
-    /// For the body in the unit of time `unit`; `tensor` is `s^IJ` without its trace.
+    /// The equations for a body in the unit of time `unit`; `tensor` is `s^IJ` without its trace.
     pub(super) fn new(spheroid: &RigidSpheroid<f64>, tensor: &Matrix3<f64>, unit: f64, shared: SharedRounding) -> Self {
         let RigidSpheroid { inertia_xx, constant_c, .. } = *spheroid;
         let pull = tensor * (2.0 * unit * (constant_c / inertia_xx) * unit);
@@ -77,7 +78,7 @@ impl LinearisedFlow {
         }
     }
 
-    /// The same for a small part of a step, between two given states.
+    /// As [`over`](Self::over), for a small part of a step between two given states.
     pub(super) fn over_little(
         &self,
         ends: [(Vector3<f64>, Vector3<f64>); 2],
@@ -198,7 +199,7 @@ mod tests {
         assert_relative_eq!(found, exact, max_relative = 3e-11);
     }
 
-    /// Five maps for each part of a quarter of a radian of `|w|` and the root of the pull together, from one part to 128 of them.
+    /// A step has five maps for each part of a quarter of a radian of `|w|` and the root of the pull together, from one part to 128 of them.
     #[test]
     fn a_step_has_a_part_for_every_quarter_of_a_radian() {
         let flow = flow();
@@ -231,8 +232,8 @@ mod tests {
         }
     }
 
-    /// Compared with derivatives of `n' = w x n`, `w' = (S n) x n` by the Runge-Kutta method with small steps: the remainder is of the fifth
-    /// order in the step, and would be of the third with another correction of the middle kick.
+    /// The maps are compared with derivatives of `n' = w x n`, `w' = (S n) x n` by the Runge-Kutta method with small steps. The remainder is of the
+    /// fifth order in the step, and would be of the third with another correction of the middle kick.
     #[test]
     fn maps_are_those_of_the_linearised_equations_to_the_fourth_order() {
         let pull = Matrix3::from_diagonal(&Vector3::new(0.9, -0.2, -0.7));

@@ -52,8 +52,8 @@ pub const TOLERANCE_RANGE: (f64, f64) = (1e-16, 1e-2);
 /// Largest number of stored steps of one motion: each has about 2 kB of coefficients for `f64`.
 pub const STEP_LIMIT: usize = 500_000;
 
-/// Memory is reserved for as many steps as the span has of the first one's length, times this. Memory that no step reaches costs nothing; too
-/// little means that all series are copied.
+/// Memory is reserved for this many times the number of steps that the span would have if all were as long as the first. Memory that no step
+/// reaches costs nothing; with too little, all series are copied.
 pub(crate) const ROOM_FOR_STEPS: f64 = 1.5;
 
 const LIMIT: StepLimit = StepLimit {
@@ -228,7 +228,7 @@ impl<S: Real, const V: usize> Steps<S, V> {
         low + starts[low..high].partition_point(|start| start.high <= elapsed).max(1) - 1
     }
 
-    /// The same, fast if it is the step `near` or one close to it.
+    /// As [`index_at`](Self::index_at), fast if it is the step `near` or one close to it.
     fn index_near(&self, near: usize, elapsed: f64, duration: f64) -> usize {
         let starts = &self.starts;
         let mut step = near;
@@ -426,7 +426,7 @@ mod tests {
     use super::*;
     use crate::dynamics::fixture::{AXIS_STATE, axis_problem};
 
-    /// Also for a time that rounding puts before the first of the stored steps.
+    /// The step is found also for a time that rounding puts before the first of the stored steps.
     #[test]
     fn the_step_of_a_time_does_not_depend_on_that_before() {
         let starts = [3.0, 5.0, 6.0, 9.0].map(Compensated::new).to_vec();
@@ -464,8 +464,7 @@ mod tests {
         assert!(motion.error_estimate(second) < 3.0 * at(1.0 - 1e-9), "{:e}", motion.error_estimate(second));
     }
 
-    /// A start that is lost in the rounding of the time since it: the steps are the same, and the estimate adds the rotation
-    /// in the lost time.
+    /// The start is lost in the rounding of the time since it. The steps are the same, and the estimate adds the rotation in the lost time.
     #[test]
     fn what_rounding_makes_of_the_time_is_in_the_estimated_error() {
         let problem = axis_problem([0.02, 0.01, -0.03]);

@@ -247,7 +247,7 @@ mod tests {
         }
     }
 
-    /// Where two terms are sufficient, and where they no longer are.
+    /// The times lie where two terms are sufficient, and where they no longer are.
     #[test]
     fn just_after_the_start_of_a_series_the_projection_is_that_of_the_state() {
         let motion = tumbling((0.0, 8.0));

@@ -12,7 +12,7 @@ use crate::propagation::taylor::scaled_problem::ScaledProblem;
 use crate::propagation::taylor::{fused_for, work_of};
 use crate::propagation::third_angle::body_state;
 
-/// About an hour.
+/// Largest number of steps of a motion that is not stored: they take about an hour.
 pub(super) const LIMIT: StepLimit =
     StepLimit { steps: 10_000_000_000, allowed: "at most 1e10 steps: take earlier times or a larger tolerance" };
 
@@ -48,7 +48,7 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
     }
 }
 
-/// The span from the start to the last of the times, which must be in the order in which a motion reaches them.
+/// The span from the start to the last of the times. The times must be in the order in which a motion reaches them.
 pub(in crate::propagation) fn span_of(start: f64, times: &[f64]) -> Result<(f64, f64), Error> {
     let Some(&last) = times.last() else {
         return Err(Error::Domain { quantity: "number of times", value: 0.0, allowed: "at least one" });

@@ -17,8 +17,8 @@ pub(super) const COMPANION: usize = 2;
 /// Largest order of a series.
 pub(super) const MAX_ORDER: usize = 40;
 
-/// Number of first coefficients to which the rounding error of their factors `rate / (k + 1)` is added back. It is the same in every step, so that
-/// the energy would drift linearly in time. Later coefficients are too small to matter.
+/// Number of first coefficients to which the rounding error of their factors `rate / (k + 1)` is added back. This error is the same in every step,
+/// so that without the correction the energy would drift linearly in time. Later coefficients are too small to matter.
 pub(super) const MENDED: usize = 8;
 
 /// Capacity for coefficients: a power of two, so that a masked index is within bounds without a comparison.

@@ -15,8 +15,8 @@ use crate::propagation::taylor::series::{AXIS, COMPANION, MENDED, MOMENTUM};
 /// Number of coefficients for which the rounding of the factors matters: the terms of the later ones are small.
 pub(super) const SHARES: usize = 12;
 
-/// Excess of the equations and the start that the series solve over the given ones, in real parts, in the frame and the unit
-/// of time of the series.
+/// Differences of the equations and the start that the series solve from the given ones. "Excess" is the value used minus the given one, in real
+/// parts, in the frame and the unit of time of the series.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SharedRounding {
     /// Relative excess of `1 / I^xx`.
@@ -75,7 +75,7 @@ impl SharedRounding {
         let inverse_inertia = (product - setup.scale.time + lost) / setup.scale.time;
         let (mut rate_about_axis, mut off_frame) = (0.0, 0.0);
         if V > COMPANION {
-            // By `|n|` times the angle that is used.
+            // The exact rotation about `n` is by `|n|` times the angle that is used.
             let (rate, n) = (setup.rate_about_axis.re(), &start[AXIS]);
             let length = sum_of_products(n, n, -1.0) / 2.0;
             rate_about_axis = (excess_of_rate_about_axis(&spheroid, &start, rate) - rate * length) * setup.scale.time;
@@ -89,7 +89,7 @@ impl SharedRounding {
         (Self { inverse_inertia, tensor, differences, rate_about_axis, off_frame }, at_start)
     }
 
-    /// Its effect on the rate of `L` at the axis `n`.
+    /// The excess of the rate of `L` at the axis `n`.
     pub(super) fn torque(&self, n: &Vector3<f64>) -> Vector3<f64> {
         let products = Vector3::new(n.y * n.z, n.z * n.x, n.x * n.y);
         (self.tensor * n).cross(n) + self.differences.component_mul(&products)
@@ -135,7 +135,7 @@ fn sum_of_products(a: &Vector3<f64>, b: &Vector3<f64>, c: f64) -> f64 {
     high + low
 }
 
-/// The same with its rounding error (Ogita, Rump and Oishi 2005).
+/// The sum of [`sum_of_products`] with its rounding error (Ogita, Rump and Oishi 2005).
 fn sum_of_products_with_rest(a: &Vector3<f64>, b: &Vector3<f64>, c: f64) -> (f64, f64) {
     let (mut sum, mut rest) = (c, 0.0);
     for i in 0..3 {
@@ -234,8 +234,8 @@ mod tests {
         }
     }
 
-    /// Compared with fused multiplication, for the last of twelve coefficients: the earlier ones are corrected. A rate of one is not exact in its
-    /// parts; a rate of zero is.
+    /// The excess is compared with fused multiplication for the last of twelve coefficients: the earlier ones are corrected. A rate of one is
+    /// not exact in its parts; a rate of zero is.
     #[test]
     fn shares_of_the_rates_are_rounded() {
         let tensor = Matrix3::from_diagonal(&Vector3::new(0.021, 0.021, -0.042));

@@ -22,8 +22,8 @@ pub(super) struct Scale {
     pub(super) growth_rate: f64,
 }
 
-/// Longest step, in steps that a growing exponential of size one would need. Steps for the absolute size of a deviation follow it up to `2^-order`
-/// with a relative truncation of some `2^order` times that of a motion of size one.
+/// Longest step, in units of the step for an exponential of size one that grows at the largest rate. Steps chosen for the absolute size of a
+/// deviation reach this length at a deviation of `2^-order`; its relative truncation is then some `2^order` times that of a motion of size one.
 const LONGEST: f64 = 2.0;
 
 impl Scale {
@@ -102,8 +102,8 @@ pub(super) fn step_size(sizes: [f64; 2], order: usize, scale: &Scale, budget: f6
     if exponent == f64::NEG_INFINITY { 0.0 } else { coarse_exp2(exponent) * scale.time }
 }
 
-/// Longest step of any motion. Near a state of rest the coefficients are as small as the deviation from it, and steps by their size would not resolve
-/// its growth `exp(rate t)`, with which it may leave an unstable rest.
+/// Longest step of any motion. Near a state of rest the coefficients are as small as the deviation from it. Steps chosen by their size would not
+/// resolve the growth `exp(rate t)` of the deviation, with which it may leave an unstable rest.
 pub(super) fn longest_step(order: usize, scale: &Scale, budget: f64) -> f64 {
     let size = |k: usize| (1..=k).fold(1.0, |size, j| size * scale.growth_rate * scale.time / j as f64);
     LONGEST * step_size([size(order), size(order - 1)], order, scale, budget)
@@ -145,7 +145,7 @@ mod tests {
         assert_eq!(coarse_exp2(0.0), 1.0);
     }
 
-    /// `(2 rate h)^k / k!` of the last term kept is `budget h` for a step of `2 h`, but for powers and logarithms without all digits.
+    /// For a step of `2 h` the last term kept, `(2 rate h)^k / k!`, is `budget h`, up to the missing digits of powers and logarithms.
     #[test]
     fn the_longest_step_is_two_steps_of_an_exponential() {
         for (order, budget) in [(10, 1e-6_f64), (22, 1e-13)] {
@@ -159,7 +159,8 @@ mod tests {
         }
     }
 
-    /// The bound is met by `n` and `L` of a star at rest that turns in the plane of the largest and the smallest of two eigenvalues of opposite signs.
+    /// The bound is reached by `n` and `L` of a star at rest that turns in the plane of the largest and the smallest of two eigenvalues of opposite
+    /// signs.
     #[test]
     fn a_deviation_grows_at_most_at_the_growth_rate() {
         let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };

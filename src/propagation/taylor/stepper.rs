@@ -25,7 +25,7 @@ pub(super) struct Stepper<'a, S, const V: usize> {
     pub(super) direction: f64,
     /// Truncation error per unit of time.
     pub(super) budget: f64,
-    /// No step is longer, whatever the coefficients.
+    /// Upper limit of every step, whatever the coefficients.
     pub(super) longest_step: f64,
 }
 

@@ -5,7 +5,7 @@ use crate::numerics::scalar::Real;
 /// Relative difference of the means at which the next step makes them equal, including their derivatives.
 const NEARLY_EQUAL: f64 = 1e-12;
 
-/// Mean of `cn^2`, from `k^2` and `k'`, the smaller of which determines the digits of the result and of its derivatives.
+/// Mean of `cn^2`, from `k^2` and `k'`. The smaller of the two determines the digits of the result and of its derivatives.
 pub(crate) fn mean_of_cn2<S: Real>(parameter: S, complement: S) -> S {
     let one = S::one();
     if parameter.re() > 0.5 {
@@ -66,8 +66,8 @@ pub(super) fn mean_of_ratio<S: Real>(complement: S, p: S, [a, b]: [S; 2]) -> S {
 mod tests {
     use super::*;
 
-    /// Compared with the sum over the amplitude, which converges exponentially, and close to the separatrix with `1 / ln(4 / k')`, to
-    /// the last digits.
+    /// The mean is compared with the sum over the amplitude, which converges exponentially, and close to the separatrix with
+    /// `1 / ln(4 / k')`, to the last digits.
     #[test]
     fn the_mean_of_cn_squared_has_its_digits_at_any_parameter() {
         for parameter in [0.0, 1e-9, 0.2, 0.49, 0.51, 0.8, 0.93_f64] {

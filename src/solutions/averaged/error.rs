@@ -1,22 +1,25 @@
 //! Estimated difference between the averaged motion and the exact motion.
 //!
-//! With `x = |C| (s_max - s_min) I^xx / G^2` and the rotation angle `theta = G t / I^xx`, the averaged motion of order `p`
-//! neglects
+//! With `x = |C| (s_max - s_min) I^xx / G^2` and the rotation angle `theta = G t / I^xx`, the averaged motion of order `p` neglects terms of the
+//! following orders:
 //!
 //! ```text
-//! periodic parts, in the transformation both ways     of x^2
-//! of the rates, and of the torque on l                of x^(p + 1) G / I^xx
-//! of the tensor that moves l, relative                of x^p
+//! periodic parts, in the transformation both ways           x^2
+//! terms of the rates, and of the torque on l                x^(p + 1) G / I^xx
+//! terms of the tensor that moves l, relative to it          x^p
 //! ```
 //!
-//! The motion of a bulge alone is exact ([`bulge`](crate::dynamics::bulge)): with one, of strength `y = |b| (s_max - s_min) I^xx`, a power `x^k` becomes `x (x + y)^(k - 1)`.
+//! The motion of a bulge alone is exact ([`bulge`](crate::dynamics::bulge)): with one, of strength `y = |b| (s_max - s_min) I^xx`, a
+//! power `x^k` becomes `x (x + y)^(k - 1)`.
 //!
-//! The effect on `l` after a time is the smallest of three estimates. Neighbouring solutions separate at most at the rate `kappa = (k_1 - k_3) / 2`
-//! (half the largest `l.(d x k d)`, for unit `d`). With two nearly equal values, of difference `g`, they separate about the third axis in proportion
-//! to time, at `K = k_1 - k_3` times their difference along it, and this changes at most at `g` times their distance: to
-//! `(1 + K t) exp(t (sqrt(K g) + g))` times themselves, where `g` contains the error of the tensor. Because they stay near their own closed curves, they separate by the difference of their
-//! periods. This is computed from two neighbouring tops, shifted towards either axis, and is valid only if they are on the same side of the
-//! separatrix.
+//! The effect on `l` after a time `t` is estimated in three ways, of which the smallest result counts.
+//!
+//! * Neighbouring solutions separate at most at the rate `kappa = (k_1 - k_3) / 2` (half the largest `l.(d x k d)`, for unit `d`).
+//! * If two values differ only by `g`, neighbouring solutions shear about the third axis: they separate at the rate `K = k_1 - k_3` times
+//!   their difference along that axis, and this difference changes at most at the rate `g` times their distance. A distance therefore grows
+//!   at most by the factor `(1 + K t) exp(t (sqrt(K g) + g))`, where `g` contains the error of the tensor.
+//! * Neighbouring solutions stay near their own closed curves, and separate because their periods differ. The difference of the periods is
+//!   computed from two neighbouring tops, shifted towards either axis. This is valid only if they are on the same side of the separatrix.
 
 use nalgebra::Vector3;
 
@@ -31,13 +34,13 @@ const PERIODIC: f64 = 4.0;
 const SECULAR: f64 = 4.0;
 const TENSOR: f64 = 1.0;
 
-/// An error of a motion, whose consequence is to be estimated.
+/// Errors of an averaged motion, from which the error of its state is estimated.
 struct Fault {
     /// Error at any time.
     constant: f64,
-    /// Growth of the angle of the body about `L`, per unit of time.
+    /// Error of the rate at which the body turns about `L` (rad per unit of time).
     rate: f64,
-    /// Change of the tensor and of the start that separates neighbours.
+    /// Error of the tensor and of the start, by which neighbouring solutions are displaced.
     neighbour: f64,
 }
 
@@ -68,9 +71,9 @@ impl<S: Real> AveragedSolution<S> {
         self.consequence(&fault, t.abs())
     }
 
-    /// Rounding of the initial state and of the contribution of Lorentz violation to the phases, at the time `t`. The free rotation itself is
-    /// known to 32 digits, except for the length of `n`, which for an axis given in doubles is one only to rounding: the rate about `n` changes
-    /// by as much.
+    /// Rounding of the initial state and of the contribution of Lorentz violation to the phases, at the time `t`. The free rotation itself is known
+    /// to 32 digits, with one exception: an axis `n` given in doubles has length one only to rounding, and the rate about `n` has a relative error of
+    /// that size.
     pub fn rounding(&self, t: f64) -> f64 {
         // The contribution to the phases, which includes the slow rate; at c^2 = 1/3 the slow rate is small.
         let added = self.tensor().map(S::re).amax() + self.relative_strength.re() * self.turning_rate();
@@ -89,7 +92,7 @@ impl<S: Real> AveragedSolution<S> {
         let l = real_part(&self.direction());
         let kappa = (k.max() - k.min()) / 2.0;
         let middle = k.sum() - k.max() - k.min();
-        // e^(kappa t) - 1 over kappa, also if nothing moves.
+        // (e^(kappa t) - 1) / kappa, and its limit if nothing moves.
         let grown = kappa * elapsed;
         let integral = if grown > 0.0 { grown.exp_m1() / grown * elapsed } else { elapsed };
         let by_growth = (fault.constant + fault.rate * integral) + fault.constant * (integral * kappa);
@@ -106,7 +109,7 @@ impl<S: Real> AveragedSolution<S> {
 
 /// Rates at which two neighbours on the sphere separate: along their curves, and in the angle about `l`.
 fn neighbouring_rates(k: &Vector3<f64>, l: &Vector3<f64>, distance: f64) -> [f64; 2] {
-    // Normalised as its neighbours are, so that no distance has no difference of rates.
+    // Normalised like its neighbours, so that the rates do not differ if the distance is zero.
     let here = Top::new((*k).into(), &l.normalize());
     let speed = k.component_mul(l).cross(l).norm().max(here.largest_speed());
     let mut most = [0.0_f64; 2];

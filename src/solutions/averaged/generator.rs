@@ -19,7 +19,7 @@ use crate::numerics::scalar::{Real, length};
 /// Symmetry axis, angular momentum and an equatorial axis of the body.
 pub(super) type Axes<S> = [Vector3<S>; 3];
 
-/// The generator `W`, in the principal frame of `s`, which has the principal values `s`. Its unit is that of an action.
+/// The generator `W`, an action, for `axis` and `momentum` in the principal frame of the tensor with the principal values `s`.
 pub fn generator<S: Real>(spheroid: &RigidSpheroid<S>, s: &Vector3<S>, axis: &Vector3<S>, momentum: &Vector3<S>) -> S {
     let size = length(momentum);
     let l = momentum / size;
@@ -60,8 +60,8 @@ fn rates<S: Real>(strength: S, s: &Vector3<S>, axes: &Axes<S>) -> Axes<S> {
     [by_momentum.cross(n), by_momentum.cross(momentum) + by_axis.cross(n), by_momentum.cross(equatorial)]
 }
 
-/// Change of the axes under the flow of `W` over the `time` 1, from mean to osculating ones, or -1, back: one step of the midpoint rule, whose
-/// error is of third order in `s`.
+/// Change of the axes under the flow of `W`, for the `time` 1 from mean to osculating axes, for -1 back. It is one step of the midpoint rule,
+/// whose error is of third order in `s`.
 pub(super) fn transformation<S: Real>(strength: S, s: &Vector3<S>, axes: &Axes<S>, time: f64) -> Axes<S> {
     let half = rates(strength, s, axes);
     let middle = core::array::from_fn(|i| axes[i] + half[i] * S::from_f64(0.5 * time));

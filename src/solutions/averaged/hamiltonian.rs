@@ -41,9 +41,9 @@ pub fn mean_potential<S: Real>(
     slopes_along(spheroid, s, size, c, direction, order).value
 }
 
-/// The angular velocity `w = <H>_L` with which the averaged motion rotates every axis of the body, apart from the spin about `n`. It is a function
-/// of the components of `l` in the principal frame of `s`, given by its component along `l`, the tensor (principal values) that is applied to `l`,
-/// and its component along `n`:
+/// The angular velocity `w = <H>_L` with which the averaged motion rotates every axis of the body, apart from the spin about `n`. It depends on the
+/// components of `l` in the principal frame of `s`. The function returns the component `Lambda` of `w` along `l`, the principal values of the tensor
+/// `k` that is applied to `l`, and the component `nu` along `n`, all in rad per unit of time:
 ///
 /// ```text
 /// w = Lambda l + k l + nu n,    k = (2 / G) (v_h s + v_m s^2),    nu = v_c / G,    Lambda = G / I^xx + v_G - c v_c / G - l.(k l)

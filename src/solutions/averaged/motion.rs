@@ -20,13 +20,13 @@ const LARGEST_STRENGTH: f64 = 0.2;
 /// Maximum number of corrections of `G`; each squares its error.
 const MOST_CORRECTIONS: usize = 12;
 
-/// A motion of a spheroid to a given order in `s^IJ`, at any time with the same cost.
+/// A motion of a spheroid to a given order in `s^IJ`. The state costs the same at any time.
 ///
 /// Averaged over the fast rotation of `n` about `L`, the direction `l` of `L` moves like that of a free asymmetric top with the tensor
-/// `(2 / G) (by_h s + by_m s^2)`, the slopes of the mean potential with respect to `h = l.(s l)` and `m = |s l|^2`. The body rotates with
-/// the frame that `l` carries along, about `l` and about `n`. To second order the slopes are evaluated at the start: the neglected term,
-/// `(h - h_0)^2`, is of fourth order in the energy and of third order in the rates. Everything is in the principal frame of `s`. The state
-/// at the time zero is the initial one up to the neglected periodic part, which is of the next higher order.
+/// `(2 / G) (by_h s + by_m s^2)`, where `by_h` and `by_m` are the slopes of the mean potential with respect to `h = l.(s l)` and `m = |s l|^2`.
+/// The body rotates with the frame that `l` carries along, about `l` and about `n`. To second order the slopes are evaluated at the start: the
+/// neglected term, `(h - h_0)^2`, is of fourth order in the energy and of third order in the rates. All vectors are in the principal frame of `s`.
+/// The state at the time zero is the initial one up to the neglected periodic part, which is of the next higher order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AveragedSolution<S> {
     /// `C I^xx`.
@@ -35,7 +35,7 @@ pub struct AveragedSolution<S> {
     s: Vector3<S>,
     momentum: S,
     top: Top<S>,
-    /// The axis at the start, in the frame of the shape there.
+    /// Symmetry axis of the body at the start, in the frame of the top there.
     axis: Vector3<S>,
     equatorial_axis: Vector3<S>,
     start: TopShape<S>,
@@ -103,8 +103,8 @@ impl<S: Real> AveragedSolution<S> {
         Self::with_free_rotation_of(problem.initial(), problem, order)
     }
 
-    /// As [`new`](Self::new), for an initial state that was `given` in another frame. In that frame `|L|` and `L.n` have all their digits,
-    /// whereas a rotation loses the last one, and 1e10 turns ten more.
+    /// As [`new`](Self::new), for an initial state that was `given` in another frame. In that frame `|L|` and `L.n` have all their digits. A
+    /// rotation to the principal frame loses the last one, and over 1e10 turns this costs ten more digits of the phases.
     ///
     /// # Errors
     /// As for [`new`](Self::new).
@@ -200,8 +200,8 @@ impl<S: Real> AveragedSolution<S> {
             about_momentum: free[0] + added.about_momentum,
             about_axis: free[1] + added.about_axis,
         };
-        // dh and dm are those of the integral of the top, times v_m and -v_h and the product: their direct sums cancel where v_m is
-        // small.
+        // The periodic parts of h and m are the integral of the top times the product, times v_m and -v_h. Sums over their components would cancel
+        // where v_m is small.
         let product = top.product_of_differences(&s) * 2.0 / g;
         let (by_h, by_m) = (here.by_m * product, -(here.by_h * product));
         let periodic = [
@@ -364,7 +364,7 @@ mod tests {
     /// A tensor so weak that `L` keeps its bits in the transformation to the averaged motion.
     const WEAK: [f64; 3] = [1e-17, 0.0, -1e-17];
 
-    /// Compared with central differences of states.
+    /// The derivatives are compared with central differences of states.
     #[test]
     fn derivatives_by_the_time_are_rates() {
         let (values, momentum) = ([0.02, 0.01, -0.03], [0.3, -0.5, 2.0]);
@@ -398,7 +398,8 @@ mod tests {
         }
     }
 
-    /// `16 eps` of a rotation, divided by the root of `k'`, which is taken to be at least `1e-16`; for `n` and for `L`.
+    /// The rounding at the start is `16 eps` of a rotation, divided by the root of `k'`, which is taken to be at least `1e-16`; once for `n` and
+    /// once for `L`.
     #[test]
     fn rounding_is_magnified_near_the_separatrix() {
         let motion = motion(WEAK, [1.0, 1.0, 1.0]);
@@ -413,8 +414,7 @@ mod tests {
         };
         assert_eq!(refused(about([0.0, 0.0, 1.0], [0.02, 0.01, -0.03], [0.0, 0.0, 2.0])), Some(0.0));
         assert_eq!(refused(motion([0.02, 0.01, -0.03], [0.3, -0.5, 2.0])), None);
-        // The remainders of the traceless part of equal values after rounding are equal: there is no difference, whatever
-        // its sign.
+        // Equal values leave equal remainders, of either sign, when their rounded mean is subtracted: the traceless values do not differ.
         let left = [0.1, 0.2, 0.3, 0.7, 1.1, 1.7, -0.1, -0.7].map(|value: f64| {
             assert_eq!(refused(motion([value; 3], [0.3, -0.5, 2.0])), Some(0.0), "{value}");
             value - (value + value + value) / 3.0

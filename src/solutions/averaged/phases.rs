@@ -61,7 +61,7 @@ pub struct OfRotations<T> {
 }
 
 impl<T: Copy> OfRotations<T> {
-    /// The values of a function of the values of both.
+    /// Applies `f` to each value and to the value for the same rotation in `other`.
     pub(crate) fn with<U: Copy, V>(&self, other: &OfRotations<U>, f: impl Fn(T, U) -> V) -> OfRotations<V> {
         OfRotations {
             slow: f(self.slow, other.slow),
@@ -72,13 +72,14 @@ impl<T: Copy> OfRotations<T> {
 }
 
 impl<S: Real> OfRotations<S> {
-    /// These phases after an additional time.
+    /// These phases after the additional `time`, for the given `rates`.
     pub(crate) fn later(&self, rates: &Self, time: S) -> Self {
         self.with(rates, |phase, rate| phase + rate * time)
     }
 }
 
-/// Rates in turns: `|L| / I^xx` and `-epsilon Omega^z` to 32 digits, plus those that Lorentz violation adds; the slow rate is added whole.
+/// Rates in turns per unit of time: those of free rotation, `|L| / I^xx` and `-epsilon Omega^z`, to 32 digits, plus those that Lorentz
+/// violation adds. The slow rate has no free part.
 pub(super) fn turning<S: Real>(
     spheroid: &RigidSpheroid<S>,
     initial: &BodyState<S>,

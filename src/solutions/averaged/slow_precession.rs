@@ -38,10 +38,9 @@ pub struct SlowPrecession<S> {
 /// AGM the arithmetic-geometric mean; for `h > s2` the same with `s1` and `s3` exchanged and the opposite sign (Landau and
 /// Lifshitz, Mechanics, section 37; this is the analogue of their `Omega`).
 ///
-/// `momentum` and `axis` (`n`) are those of the averaged motion. With the osculating values at any time the result is
-/// correct to the same order, with a relative error of the order of `C |s| I^xx / G^2` (for tp-II 5%). It is exact, for the
-/// averaged equation, in the symmetric limits: `kappa (s1 - s3) cos` of the inclination if two eigenvalues are equal, zero
-/// if all are.
+/// `momentum` and `axis` (`n`) are those of the averaged motion. With the osculating values at any time the result is correct to
+/// the same order, with a relative error of the order of `C |s| I^xx / G^2` (for tp-II 5%). For the averaged equation the result
+/// is exact in the symmetric limits: `kappa (s1 - s3) cos` of the inclination if two eigenvalues are equal, zero if all three are.
 ///
 /// # Errors
 /// [`Error::Domain`] for `L = 0`, and on the separatrix, `h = s2` (to rounding) with three different eigenvalues.
@@ -99,8 +98,8 @@ mod tests {
         assert!(of(Vector3::new(1e-3, 1.0, 0.0)).is_ok_and(|found| found.axis == 0));
     }
 
-    /// With two equal eigenvalues only the axis of the third is distinguished: `L` circles it, and rests if it is normal to
-    /// it.
+    /// With two equal eigenvalues only the axis of the third is distinguished: `L` circles that axis, and stays at rest if it is
+    /// normal to it.
     #[test]
     fn about_an_axis_of_symmetry_it_goes_round_that_axis() {
         let spheroid = RigidSpheroid::in_units_of_tc(1.1);

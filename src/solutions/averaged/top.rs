@@ -37,7 +37,8 @@ pub struct Top<S> {
     course: Course<S>,
     /// Principal axes in the order of `m`.
     places: [usize; 3],
-    /// Signs of `m_2`, for a right-handed order; of the side of `m_3` on which `l` is; and, on a separatrix, of `m_1`.
+    /// Three signs: that of `m_2` makes the order of the axes right-handed; that of `m_3` is the side on which `l` is; that of `m_1` counts on a
+    /// separatrix.
     signs: [f64; 3],
     amplitudes: [S; 3],
     /// `A_2 / A_1`.
@@ -57,9 +58,9 @@ pub struct Top<S> {
 enum Course<S> {
     /// Neither `l` nor the quantities on which it depends change.
     Still { direction: Vector3<S> },
-    /// `l` circles an axis; with `k^2` and `k'^2`, `pi / (2 K)` and the mean of `cn^2`.
+    /// `l` circles an axis. `parameter` is `k^2`, `complement_squared` is `k'^2`, `mean` is `pi / (2 K)` and `mean_cn2` the mean of `cn^2`.
     Round { theta: ThetaSeries<S>, nome: Nome<S>, parameter: S, complement_squared: S, mean: S, mean_cn2: S },
-    /// From one end of the middle axis to the other; `sqrt(a / b)`.
+    /// `l` moves from one end of the middle axis to the other. `root_ratio` is `sqrt(a / b)`.
     Separatrix { root_ratio: S },
 }
 
@@ -106,10 +107,10 @@ fn series<S: Real>(nome: &Nome<S>, mean: S, a: S, b: S, elongated: S) -> ThetaSe
 impl<S: Real> Top<S> {
     /// The motion from the unit vector `l`, for the principal values `k` of the tensor.
     ///
-    /// Up to `k'^2 = 1e-32`, which is within the rounding of the start, the motion is taken for that on the separatrix.
+    /// For `k'^2` up to 1e-32, which is within the rounding of the start, the motion is taken to be on the separatrix.
     ///
-    /// First derivatives exist if `l` circles an axis at a distance ([`goes_round`](Self::goes_round)), also for two equal principal
-    /// values; on an axis, at rest and on the separatrix there are none.
+    /// First derivatives exist if `l` circles an axis at a distance from it ([`goes_round`](Self::goes_round)), also for two equal principal values.
+    /// On an axis, at rest and on the separatrix there are none.
     pub fn new(k: [S; 3], l: &Vector3<S>) -> Self {
         let (zero, one) = (S::zero(), S::one());
         let mut order = [0, 1, 2];
@@ -224,7 +225,7 @@ impl<S: Real> Top<S> {
         }
     }
 
-    /// Whether both circle the same axis on the same side, or rest.
+    /// Whether both tops circle the same axis on the same side, or both are at rest.
     pub(super) fn is_beside(&self, other: &Self) -> bool {
         let same_side = self.places[2] == other.places[2] && self.signs[1] == other.signs[1];
         match (&self.course, &other.course) {
@@ -412,7 +413,7 @@ mod tests {
         assert_relative_eq!(top.largest_speed(), fastest * (1.0 + third * third).sqrt(), max_relative = 1e-12);
     }
 
-    /// Long before and after, `l` is at the ends of the middle axis to the last bit.
+    /// Long before and long after its passage, `l` is at the ends of the middle axis to the last bit.
     #[test]
     fn on_the_separatrix_the_top_ends_on_the_middle_axis() {
         let l = Vector3::new((K[1] - K[2]).sqrt(), 0.3, (K[0] - K[1]).sqrt()).normalize();

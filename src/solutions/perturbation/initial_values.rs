@@ -13,7 +13,7 @@ use crate::numerics::angle::whole_turns;
 use crate::numerics::scalar::{Real, Scalar};
 use crate::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
-/// Constants of integration of the perturbation solution with given initial values: the inverse of [`Perturbation::at`] zero, in the
+/// Constants of integration of the perturbation solution with given initial values: the inverse of [`Perturbation::at`] at time zero, in the
 /// printed form of Eq. (34) `[integraltoinitial]`.
 ///
 /// `A cos phi` and `A sin phi` follow directly from the rates; `alpha_0`, `beta_0` are found by Newton's method with exact derivatives,
@@ -191,7 +191,7 @@ mod tests {
         Perturbation::new(Form::Printed, kind, spheroid, s, S::one(), constants).unwrap().at(S::zero())
     }
 
-    /// The constants for these initial values, which are again the constants.
+    /// The constants of integration for these initial values.
     fn constants(kind: Precession, body: &Body<f64>, initial: [f64; 4]) -> Constants<f64> {
         let initial = angles(initial);
         let found = constants_from_initial_values(Form::Printed, kind, &body.0, &body.1, 1.0, &initial).unwrap();
@@ -207,8 +207,8 @@ mod tests {
         found
     }
 
-    /// Here the solution of the smallest `|A|` is found only from the first, and from the last, of the inclinations of the grid; the
-    /// next ones have 0.26 and 0.88.
+    /// Here only one inclination of the grid leads to the solution of the smallest `|A|`: the first in one case, the last in the other. The
+    /// solutions with the next larger `|A|` have 0.26 and 0.88.
     #[test]
     fn the_grid_of_starts_reaches_both_poles() {
         for (inertia_zz, s, initial, amplitude) in [
@@ -256,7 +256,7 @@ mod tests {
         }
     }
 
-    /// There the root and the angle have no derivatives, and none are returned.
+    /// Where `A` vanishes, the root and the angle have no derivatives, and none are returned.
     #[test]
     fn a_vanishing_amplitude_has_no_phase_and_no_derivatives() {
         // With omega equal to one the quotients of duals are those of doubles.
@@ -296,7 +296,7 @@ mod tests {
         }
     }
 
-    /// Constants that are linear in one variable are recovered without second and third derivatives.
+    /// Constants that are linear in one variable are recovered with vanishing second and third derivatives.
     #[test]
     fn derivatives_hold_up_to_the_third_order() {
         let linear = |value: f64, slope: f64| Dual3_64::new(value, slope, 0.0, 0.0);

@@ -9,8 +9,8 @@ use crate::solutions::perturbation::Precession;
 /// First-order parts of the angles and their time derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FirstOrderMotion<S> {
-    /// `beta1` itself, without its homogeneous part for single precession (of the order `s` times the rest); `alpha1` does
-    /// not enter.
+    /// `beta1` itself, for single precession without its homogeneous part, which is of the order `s` times the rest.
+    /// `alpha1` does not enter the equations.
     pub beta: S,
     /// Rate of `alpha1`, the constant `-+a^(1)` included.
     pub alpha_rate: S,

@@ -136,9 +136,9 @@ impl<S: Real> Perturbation<S> {
     /// | printed, single | `cos b0` | `sin b0` | `omega` | `-1 / sin b0` |
     /// | corrected, single | `(1 + cos^2 b0) / (2 cos b0)` | `sin b0` | `omega` | `-1 / sin b0` |
     ///
-    /// Errors. Twofold: as printed of first order in `s` and in `A / omega`, corrected of second order; both grow with time.
-    /// Single, over one forced period: of first order in `r = (s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)` as printed, of second
-    /// order in `r` corrected; both also have an error of first order in `s`. `r` is the size of `alpha1` and `beta1`.
+    /// Errors. Twofold: of first order in `s` and in `A / omega` as printed, of second order corrected; both grow with time. Single,
+    /// over one forced period: of first order in `r = (s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)` as printed, of second order in `r`
+    /// corrected; both also have an error of first order in `s`. `r` is the size of `alpha1` and `beta1`.
     ///
     /// # Errors
     /// [`Error::Domain`] where `sin beta_0` or `cos beta_0` is not above 2.2e-16 in size, where the spin is zero,

@@ -3,7 +3,8 @@
 use crate::euler_angles::{EulerAngles, EulerRates};
 use crate::numerics::scalar::Real;
 
-/// Constant inclination. The terms in addition to the rates are zero up to rounding; they carry the first derivatives.
+/// Motion at constant inclination. The terms in addition to the rates are zero up to rounding; they carry the first
+/// derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Steady<S> {
     pub(super) rates: EulerRates<S>,

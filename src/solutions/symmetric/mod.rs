@@ -278,7 +278,7 @@ mod tests {
         }
     }
 
-    /// With respect to the initial rate, compared with central differences of nutating motions.
+    /// The derivatives with respect to the initial rate are compared with central differences of nutating motions.
     #[test]
     fn mean_rates_of_a_steady_precession_have_their_derivatives() {
         let found = precession(Dual64::from(0.0).derivative(), 0.0).mean_rates();

@@ -21,7 +21,7 @@ pub(super) struct Nutating<S> {
     /// Integrals at `t = 0`.
     pub(super) north_start: S,
     pub(super) south_start: S,
-    /// Factor by which rounding is amplified: in the turning points, and near the poles.
+    /// Factor by which rounding is amplified, by the turning points and near the poles.
     pub(super) condition: f64,
 }
 
@@ -59,7 +59,8 @@ impl<S: Real> Nutating<S> {
         let start = oscillation.place(S::zero());
         let north_start = oscillation.integral(&north_term, Pole::North, &start, S::zero());
         let south_start = oscillation.integral(&south_term, Pole::South, &start, S::zero());
-        // The rounding of the angles of a state near a pole is divided by its distance, and a passage carries it along.
+        // Near a pole the rounding of the angles of a state is divided by the distance from the pole; the error remains
+        // after the passage.
         let sine = |distance: S| (distance.re() * (2.0 - distance.re())).abs().sqrt();
         let least_sine = sine(north_near).min(sine(south_near));
         let period = oscillation.half_period.re();

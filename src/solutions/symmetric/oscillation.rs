@@ -173,13 +173,13 @@ impl<S: Real> Oscillation<S> {
         }
     }
 
-    /// `1 / sqrt x` at a time after a turning point of at most a quarter of the period: `sn / (a cn dn)`.
+    /// `1 / sqrt x` at the given time after a turning point, at most a quarter of the period: `sn / (a cn dn)`.
     fn inverse_root(&self, time: S) -> S {
         let f = self.ladder.functions(time);
         f.sn / (f.cn * f.dn)
     }
 
-    /// `(xi, eta)` from the turning point that is farther away, with `x = (H w)^2`.
+    /// `(xi, eta)` counted from the turning point that is farther away, with `x = (H w)^2`.
     fn seen_from_the_other(&self, w: S, time: S) -> (S, S) {
         let sign = if time.re() < 0.0 { -1.0 } else { 1.0 };
         (-(self.root_of_product * w) * sign, S::from_f64(sign))

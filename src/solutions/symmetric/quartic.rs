@@ -35,14 +35,15 @@ pub(super) struct TurningPoints<S> {
     /// `Q(low)` and `Q(high)`.
     pub(super) at_low: S,
     pub(super) at_high: S,
-    /// Sum of the magnitudes of the terms of each, divided by their sum, the larger one: the loss by rounding.
+    /// Factor by which rounding is amplified: the sum of the magnitudes of the terms of `Q` divided by their sum, the larger of its
+    /// values at the two points.
     pub(super) condition: f64,
 }
 
 impl<S: Real> InclinationQuartic<S> {
     /// Turning points next to `v = 0`, within the ends of the sphere `south = -1 - u0` and `north = 1 - u0`, where `P <= 0`.
     ///
-    /// Bracketed by real parts between the extrema of `P`, then polished by Newton steps that carry the derivatives.
+    /// They are bracketed by real parts between the extrema of `P`, then polished by Newton steps that carry the derivatives.
     pub(super) fn turning_points(&self, south: f64, north: f64) -> TurningPoints<S> {
         let p = self.coefficients.map(S::re);
         let (low, high) = if p[0] > 0.0 {
@@ -69,7 +70,7 @@ impl<S: Real> InclinationQuartic<S> {
     }
 
     /// `Q` at a turning point, from its coefficients or as `P'(low) / (high - low)`, `-P'(high) / (high - low)`, whichever cancels
-    /// less; and the sum of magnitudes divided by the sum.
+    /// less; and the sum of the magnitudes of the terms used divided by their sum.
     fn quotient_at(&self, points: &TurningPoints<S>, v: S, other: S) -> (S, f64) {
         let (of_powers, powers) = (points.quotient(v, v), points.lost_at(v));
         let (_, slope, terms) = self.value_and_slope(v);

@@ -12,7 +12,8 @@ use crate::error::Error;
 use crate::numerics::angle::about;
 use crate::numerics::scalar::Scalar;
 
-/// Rounding of derivatives that do not grow along the flow, for a torus of the largest width: that of some ten steps of the flow, and of their sum.
+/// Rounding of derivatives that do not grow along the flow, for a torus of the largest width: the rounding of some ten steps of the flow and of their
+/// sum.
 const ROUNDING: f64 = 3e-14;
 
 /// Number of parts of a closed orbit at whose ends the growth of a change is sampled.
@@ -171,8 +172,8 @@ mod tests {
         state.vectors().map(|v| v.map(|x| x.eps))
     }
 
-    /// Also with two equal or nearly equal eigenvalues, whose axes rotate with any change, and where the frame of `s` rotates by 1e7 rad per unit
-    /// change.
+    /// Derivatives also with two equal or nearly equal eigenvalues, whose axes rotate with any change, and where the frame of `s` rotates by 1e7 rad
+    /// per unit change.
     #[test]
     fn derivatives_are_those_of_the_series_in_time() {
         for s in [[0.02, 0.01, -0.03], [0.2, 0.2, -0.4], [0.2, 0.2 + 1e-11, -0.4], [2e-7, 1e-7, -3e-7]] {
@@ -226,8 +227,8 @@ mod tests {
         }
     }
 
-    /// Near principal axes and separatrices, where derivatives lose digits, for any change of the star, of `s` and of the start: compared with Taylor
-    /// series.
+    /// Derivatives near principal axes and separatrices, where they lose digits, for any change of the star, of `s` and of the start. They are
+    /// compared with Taylor series.
     #[test]
     fn derivatives_are_as_exact_as_told() {
         let (mut random, mut judged) = (ChaCha8Rng::seed_from_u64(7), 0);

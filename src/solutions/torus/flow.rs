@@ -11,8 +11,7 @@ use crate::numerics::scalar::{Real, cast};
 /// Maximum number of steps of a path; a full circuit of a torus takes some ten.
 const MOST_STEPS: usize = 300;
 
-/// `n`, `L` and a vector `u` of the body, which rotates with the part of the angular velocity across `n` that the flow
-/// determines.
+/// `n`, `L` and a vector `u` of the body. The flow determines the angular velocity only across `n`, and `u` rotates with this part.
 pub(super) type Axes<S> = [Vector3<S>; 3];
 
 /// `H = L.L / (2 I^xx) + C n.(s n)` and `K / (I^xx D)`, `D` the spread of the principal values. The middle principal value is subtracted in both,
@@ -20,14 +19,15 @@ pub(super) type Axes<S> = [Vector3<S>; 3];
 /// values are diagonal; derivatives need not be.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Integrals<S> {
-    /// Slopes of both with respect to `L`, over `L`, and with respect to `n`, over `n`.
+    /// Matrices whose products with `L` are the slopes of both integrals with respect to `L`, and those whose products with `n` are the slopes with
+    /// respect to `n`.
     by_momentum: [Matrix3<S>; 2],
     by_axis: [Matrix3<S>; 2],
     precision: Precision,
 }
 
 impl<S: FlowScalar> Integrals<S> {
-    /// For a tensor whose middle principal value is zero, and the spread of these values.
+    /// The integrals for a tensor `s` whose middle principal value is zero, and for the `spread` of its principal values.
     pub(super) fn new(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, spread: S, precision: Precision) -> Self {
         let (c, inertia) = (spheroid.constant_c, spheroid.inertia_xx);
         Self {

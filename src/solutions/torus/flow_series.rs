@@ -199,7 +199,7 @@ impl<S: FlowScalar> FlowSeries<S> {
             let first = (0..3).map(|order| size(order, derivative) * step.min(1.0).powi(order as i32));
             step = step.min(least_of_both(last_terms * first.fold(0.0, f64::max), derivative));
         }
-        // With so few bits that steps add up exactly.
+        // Rounded to so few bits that steps add up exactly.
         (step * STEPS_IN_ONE).floor().max(1.0) / STEPS_IN_ONE
     }
 
@@ -323,8 +323,9 @@ mod tests {
         size(order + 1..=order + 16, step) / size(0..=order, step.min(1.0))
     }
 
-    /// The terms after the last fall by a ratio `q`, starting from about the size of the last, so `q / (1 - q)` of it is neglected. At these steps
-    /// `q` is 0.02 to 0.05: the step is a fraction of the radius of convergence, so small that its last term is rounding.
+    /// The terms after the last fall by a ratio `q`, starting from about the size of the last, so that the fraction `q / (1 - q)` of the last term
+    /// is neglected. At these steps `q` is 0.02 to 0.05: the step is a fraction of the radius of convergence, so small that its last term is
+    /// rounding.
     #[test]
     fn steps_are_as_long_as_the_precision_allows() {
         let slopes = SLOPES.map(|m| Matrix3::from_diagonal(&Vector3::from(m).map(DoubleDouble::from)));

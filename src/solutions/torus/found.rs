@@ -16,8 +16,8 @@ const EXACT: f64 = 2e-15;
 /// A torus narrower than this is treated as a circle or a point.
 pub(super) const THINNEST: f64 = 1e-8;
 
-/// Distance of `n` and `L / unit` from a state of rest within which an unstable one is refused: `K` and `E` differ from those at rest by the square of
-/// the distance, which is then above 1e-12.
+/// A motion within this distance (in `n` and `L / unit`) of an unstable state of rest is refused. `K` and `E` differ from their values at rest by the
+/// square of the distance, which for other motions is above 1e-12.
 const AT_REST: f64 = 1e-6;
 
 /// Eigenvalues that differ by less than this fraction of the largest difference count as equal near a state of rest.
@@ -94,7 +94,7 @@ impl Torus {
         let (spheroid, initial) = (*problem.spheroid(), principal.initial());
         let pull = (2.0 * spheroid.inertia_xx * spheroid.constant_c.abs() * spread).sqrt();
         let unit = initial.momentum.norm().max(pull);
-        // If L is large it circles the axis on whose side of the separatrix it is.
+        // A large `L` circles the axis on whose side of the separatrix it is.
         let level = values.dot(&initial.momentum.component_mul(&initial.momentum));
         let [x, z] = if level > 0.0 { [low, high] } else { [high, low] };
         let in_frame = |x: usize| {

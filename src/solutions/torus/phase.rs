@@ -38,7 +38,7 @@ impl Phase {
 }
 
 /// Both angles of the torus, from the state in the plane, and the angle by which `e_x` is behind the vector of the torus. `rate_about_axis` is
-/// what the method of [`RigidSpheroid`](crate::dynamics::RigidSpheroid) with this name gives.
+/// the value of the method with this name of [`RigidSpheroid`](crate::dynamics::RigidSpheroid).
 pub(super) fn phases<S: Real + Into<DoubleDouble>>(rate_about_axis: S, ways: &ClosedWays<S>) -> [Phase; 3] {
     let whole = |half: &HalfWay<S>| (half.times.map(|time| time * 2.0), half.turn * 2.0);
     let (([t1, k1], psi1), ([t2, k2], psi2)) = (whole(&ways.fast), whole(&ways.slow));

@@ -159,8 +159,8 @@ impl Wanted {
         TOLERANCE * size * s.amax()
     }
 
-    /// Angles `b` between which `K` has an extremum in a plane, where `L` is along its second axis: as far as the torque, for a given spread of `s`,
-    /// can move it.
+    /// Range of the angle `b` in which `K` has an extremum in a plane: about the angle at which `L` is along the second axis, as far as the torque
+    /// can move it for a given spread of the principal values of `s`.
     pub(super) fn about_second_axis(&self, spread: f64) -> [f64; 2] {
         let square = (2.0 * self.inertia * self.hamiltonian).max(0.0);
         let middle = self.along.atan2((square - self.along * self.along).max(0.0).sqrt());
@@ -217,7 +217,7 @@ pub(super) mod tests {
     pub(in crate::solutions::torus) const S: PrincipalCoefficients<f64> =
         PrincipalCoefficients { xx: 0.21, yy: -0.04, zz: 0.09 };
 
-    /// In a plane, with `n` at the angle `b`, and the component of `L` perpendicular to `n` in it.
+    /// The state in a plane with `n` at the angle `b`, and with the components `along` of `L` along `n` and `across` perpendicular to it.
     fn in_plane(axes: [usize; 2], b: f64, along: f64, across: f64) -> BodyState<f64> {
         let (mut axis, mut momentum, mut equatorial_axis) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
         let (sin, cos) = b.sin_cos();

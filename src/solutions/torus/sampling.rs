@@ -11,8 +11,8 @@ pub(super) const ROUNDING: f64 = 2e-16;
 /// Largest allowed rounding of a coefficient: flows near the separatrix amplify theirs.
 const LARGEST_ROUNDING: f64 = 1e-12;
 
-/// Points of the first angle and of a quarter turn of the second one, for the first grid; the largest allowed numbers, also
-/// of both together, follow.
+/// Numbers of points of the first grid: for the first angle, and for a quarter turn of the second one. The largest allowed numbers follow, also
+/// for both together.
 pub(super) const FIRST_GRID: QuarterGrid = QuarterGrid { points: 16, quarter: 4 };
 const LARGEST_GRID: QuarterGrid = QuarterGrid { points: 1024, quarter: 512 };
 const MOST_POINTS: usize = 1 << 17;
@@ -28,7 +28,7 @@ pub(super) struct Sampled {
     /// Coefficients of `Re V_X, Im V_Y, Re V_Y, Im V_X, Re V_Z, Im V_Z`, where
     /// `V = (u + i n x u) exp i (theta_1 psi_1 + theta_2 psi_2) / (2 pi)`.
     pub(super) vector: [Coefficients; 6],
-    /// Rounding of the states from which they are computed.
+    /// Rounding of the states from which the coefficients are computed.
     pub(super) open: f64,
     /// States between the points of the grid, half-way in both angles: they reveal aliasing of the coefficients by the grid.
     pub(super) between: [OnTorus; 4],
@@ -109,8 +109,8 @@ fn sampled(torus: &Torus, starts: &[Axes<f64>], grid: &QuarterGrid) -> (Vec<Coef
     (functions.map(|(values, (reflection, parity))| grid.coefficients(values, reflection, parity)).collect(), open)
 }
 
-/// The state half-way between points of the grid: some eighths of a quarter turn of the second angle onwards, and as many of a turn of the first from
-/// its half.
+/// The state half-way between points of the grid: `eighth` eighths of a quarter turn of the second angle onwards, and as many eighths of a turn of
+/// the first angle, counted from minus half a turn.
 fn between(torus: &Torus, starts: &[Axes<f64>], grid: &QuarterGrid, eighth: usize) -> OnTorus {
     let [i, m] = [eighth * grid.points / 8, eighth * grid.quarter / 8];
     let half = 0.5 / (4 * grid.quarter) as f64;
@@ -161,8 +161,8 @@ fn finer(functions: &[Coefficients], grid: &QuarterGrid, smallest: f64) -> Optio
     (next.points > points || next.quarter > quarter).then_some(next)
 }
 
-/// Number of coefficients needed until they are below the smallest one required: they fall as a power of their multiple, estimated from their last
-/// half.
+/// Number of coefficients needed until they are below the smallest one required. They are taken to fall as a power of their multiple, which is
+/// estimated from their last half.
 fn needed(sizes: &[f64], smallest: f64) -> usize {
     let count = sizes.len();
     let largest_from = |from: usize| sizes[from..].iter().copied().fold(0.0, f64::max);

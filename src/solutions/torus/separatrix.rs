@@ -8,10 +8,11 @@ use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::PrincipalCoefficients;
 
-/// The unstable periodic motion of given energy and spin, in which `L` oscillates about the middle principal axis of `s`: a state in which `n` and
-/// `L` lie in the plane of the axes of the largest and the middle eigenvalue, where its `K` is an extremum. This is the `K` of the separatrix.
+/// A state of the unstable periodic motion of given energy and spin, in which `L` oscillates about the middle principal axis of `s`. In this state
+/// `n` and `L` lie in the plane of the axes of the largest and the middle eigenvalue, and `K` has an extremum in that plane. This is the `K` of
+/// the separatrix.
 ///
-/// A spin along the axis itself, `L = L.n n`, is another one, with `E` fixed by the spin.
+/// The spin along the middle axis itself, `L = L.n n`, is another unstable motion; its `E` is fixed by the spin.
 ///
 /// # Errors
 /// [`Error::Domain`] for values that are not finite or positive, two equal eigenvalues, and an energy at which there is no extremum of `K` nearby:

@@ -352,7 +352,8 @@ mod tests {
         }
     }
 
-    /// About the axis of the highest energy a fast star is stable, and a slow one leaves it by a rounding of its start; about the middle one each does.
+    /// About the axis of the highest energy a fast star is stable, and a slow one leaves the axis because its start is rounded. About the middle axis
+    /// every star does.
     #[test]
     fn an_unstable_rest_has_no_torus() {
         let at = |s: [f64; 3], spin: f64, off: f64| {

@@ -104,8 +104,9 @@ impl Table {
         Self::without_smallest(functions, smallest)
     }
 
-    /// The table without the coefficients after those above the smallest, and the sum of the omitted ones. The table keeps those of them that come
-    /// before the longest of four rows; for a row that ends with the grid the sum also represents the coefficients beyond the grid.
+    /// The table without the coefficients after those above the smallest, and the sum of the omitted ones. Four rows have the length of the longest
+    /// of them, so that the shorter rows keep some of the small coefficients. For a row that ends with the grid the sum also represents the
+    /// coefficients beyond the grid.
     fn without_smallest(functions: &[Vec<Vec<Pair>>; 6], smallest: f64) -> (Self, f64) {
         let mut left = 0.0;
         let mut table = Self::default();

@@ -25,8 +25,8 @@ const MOVED: f64 = 1e-3;
 /// Two predictions of a state are identical if they differ by less than this fraction of the path to it.
 const SAME: f64 = 0.3;
 
-/// States are identical if their times differ by less than this fraction, or if the difference of the times changes them by less than this (rad): on
-/// a thin torus rounding changes the times.
+/// Two states are identical if their times differ by less than the fraction `ONE`, or if the difference of the times moves the state by less than
+/// `HERE` (rad): on a thin torus rounding changes the times.
 const ONE: f64 = 1e-6;
 const HERE: f64 = 1e-5;
 
@@ -36,8 +36,8 @@ const CELL: usize = 6;
 /// The search stops after this many states in the plane: some are missing, or are found repeatedly.
 const MOST_FOUND: usize = 64;
 
-/// For a torus as thin as this relative to its length a neighbouring one is searched; one as thin as the first number is not searched with few
-/// digits, some of which are lost to the thinness.
+/// Widths of a torus, relative to its length, below which it is not searched: with few digits, some of which are lost to the thinness, and with all
+/// digits. Below the second a neighbouring torus is searched instead.
 const THIN: [f64; 2] = [1e-3, 1e-7];
 
 /// Paths at a smaller angle, in terms of the change of `n` and `L`, are parallel.
@@ -57,7 +57,7 @@ pub(super) struct Lattice {
     pub(super) about_x: bool,
 }
 
-/// States in the plane of the torus through a state. `None` if they are not found within so many steps.
+/// States in the plane of the torus through the state `start`. `None` if they are not found within so many steps.
 pub(super) fn lattice(integrals: &Integrals<f64>, unit: f64, start: &Axes<f64>) -> Option<Lattice> {
     // A few digits suffice, except near the separatrix.
     [integrals.with(COARSE), *integrals].into_iter().zip(THIN).find_map(|(integrals, thin)| {

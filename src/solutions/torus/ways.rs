@@ -192,8 +192,8 @@ impl<'a, S: FlowScalar> Search<'a, S> {
         None
     }
 
-    /// The path near given times to a state in the plane, with its rotation angle relative to the vector of the plane there or, if slow, relative to
-    /// the half turn of the start's.
+    /// The path near given times to a state in the plane. Its rotation angle is relative to the vector of the plane there or, if `slow`, relative to
+    /// the vector of the start after half a turn about Z.
     fn half_way(&self, start: &Axes<S>, times: [S; 2], slow: bool) -> Option<(HalfWay<S>, Axes<S>)> {
         let (times, end) = self.end_in_plane(start, times)?;
         let from = if slow { half_turn(&start[2]) } else { end[0].cross(&Vector3::y()) };
@@ -201,8 +201,8 @@ impl<'a, S: FlowScalar> Search<'a, S> {
     }
 }
 
-/// Changes of the times that cancel the distances, from the change of the distances with each time. If a distance does not change with them it is
-/// rounding, or the motion does not depend on that angle, and it is ignored.
+/// Changes of the times that cancel the distances, from the changes of the distances with each time. A distance that does not change with the times
+/// is rounding, or the motion does not depend on that angle; it is ignored.
 fn step_to_zero<S: Real>([by_h, by_k]: [Vector2<S>; 2], left: Vector2<S>, rate: f64) -> Vector2<S> {
     let norm = |row: &Vector2<S>| row.map(S::re).norm();
     // One flow may be much slower than the other.

@@ -34,7 +34,7 @@ use transformed::Transformed;
 /// The nome above which the transformed series are used: there `theta_4(0)`, an alternating sum, is 0.4.
 const TRANSFORMED: f64 = 0.3;
 
-/// The nome `q = exp(-pi K'/K)` of a parameter `m`, with the ratio of both, which stays finite where they vanish.
+/// The nome `q = exp(-pi K'/K)` of a parameter `m`, with the ratio of `q` to `m`, which stays finite where both vanish.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nome<S> {
     /// `q`.
