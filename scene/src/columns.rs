@@ -40,7 +40,7 @@ pub fn header(group: Output, units: &Units) -> Vec<String> {
     }
 }
 
-/// As many values as the [`header`] has names, in the units of the output; `None` if they do not exist.
+/// The values of a group at a sample, one for each name in the [`header`], in the units of the output; `None` if they do not exist.
 pub fn values(group: Output, scene: &Scene, sample: &Sample) -> Option<Vec<f64>> {
     let (body, s, units) = (scene.problem.spheroid(), scene.problem.coefficients(), &scene.units);
     let bulge = scene.problem.bulge();
@@ -103,7 +103,7 @@ pub fn values(group: Output, scene: &Scene, sample: &Sample) -> Option<Vec<f64>>
     })
 }
 
-/// Angles that grow without limit or jump by a turn: their spectrum would be that of the growth or of the jumps.
+/// Angles that grow without limit or jump by a turn: the spectrum of such an angle would be that of the growth or of the jumps.
 const TURNING: [&str; 5] = ["alpha", "gamma", "alpha_printed", "Phi", "psi"];
 
 /// The strain of a rotation perpendicular to the symmetry axis, `eps |L|^2` since `I^xx = 1`, plus the torque, `|s|` since `C = 1`. Each term of a

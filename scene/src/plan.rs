@@ -15,8 +15,8 @@ impl Scene {
         self.since_start_in_parts(time)[0]
     }
 
-    /// The same as a sum of two doubles, of which the first is the rounded sum: after 1e10 turns the rounding of one is a noticeable fraction of a
-    /// turn.
+    /// The time since the start, in t_c, as a sum of two doubles, of which the first is the rounded sum: after 1e10 turns the rounding of a single
+    /// double is a noticeable fraction of a turn.
     pub fn since_start_in_parts(&self, time: f64) -> [f64; 2] {
         let (start, unit) = (self.times.start(), self.units.time);
         // Knuth's exact difference, followed by the remainder of the quotient.
@@ -37,7 +37,7 @@ impl Scene {
         self.times.start() + since_start * self.units.time
     }
 
-    /// Length of the span in t_c, negative backwards.
+    /// Length of the span in t_c, negative for a span backwards in time.
     pub fn duration(&self) -> f64 {
         self.since_start(self.times.last())
     }

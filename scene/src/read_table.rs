@@ -6,11 +6,11 @@ const WORDS: [&str; 3] = ["cut", "status", "combination"];
 /// A column of a table.
 #[derive(Debug)]
 pub struct Column {
-    /// Its name, without the unit.
+    /// Name of the column, without the unit.
     pub name: String,
-    /// Its unit; empty if the table has none.
+    /// Unit of the column; empty if the table has none.
     pub unit: String,
-    /// Its values.
+    /// Values of the column.
     pub values: Values,
 }
 

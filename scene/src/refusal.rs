@@ -1,13 +1,13 @@
-//! Reasons why something cannot be computed of a scene.
+//! Reasons why something cannot be computed for a scene.
 
 use std::fmt;
 
 use twofold::Error;
 
-/// Reasons why something cannot be computed of a scene as requested.
+/// Reasons why something cannot be computed for a scene as requested.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Refusal {
-    /// The request or the scene does not allow it; a sentence.
+    /// The request or the scene does not allow the computation; a sentence.
     Input(String),
     /// The model cannot compute it.
     Model(Error),

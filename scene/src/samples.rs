@@ -8,7 +8,7 @@ use twofold::propagation::{ContinuousAngles, Motion, TOLERANCE_RANGE};
 
 use crate::scene_file::Scene;
 
-/// Rotation, in rad, up to which a motion is one series: its memory is got from the system once.
+/// Rotation, in rad, up to which a motion is one series: memory for it is requested from the system only once.
 const ROTATION_AS_A_WHOLE: f64 = 5e4;
 
 /// Rotation per segment of a longer motion, in rad. Its series take some 14 MB; segments ten times as long took five times
@@ -184,7 +184,7 @@ impl SegmentState for BodyState<f64> {
 pub(crate) struct Segments<'s, X> {
     scene: &'s Scene,
     method: Method,
-    /// Length of the span in t_c, negative backwards.
+    /// Length of the span in t_c, negative for a span backwards in time.
     total: f64,
     count: usize,
     next: usize,
@@ -217,7 +217,7 @@ fn segments_of(scene: &Scene, plan: &Plan, most: f64) -> usize {
     (integrated_rotation(scene, plan) / most).ceil().max(1.0) as usize
 }
 
-/// Rotation over the span of a plan, in rad; none for a method that goes to any time at once.
+/// Rotation over the span of a plan, in rad; zero for a method that reaches any time directly.
 fn integrated_rotation(scene: &Scene, plan: &Plan) -> f64 {
     if plan.costs_the_same_at_any_time() { 0.0 } else { plan.span.1.abs() * scene.turning_rate() }
 }
@@ -252,7 +252,7 @@ impl<'s, X: SegmentState> Segments<'s, X> {
         self.next += 1;
         let (from, to) = (self.from, self.total * (self.next as f64 / self.count as f64));
         let motion = if self.method.is_closed_form() {
-            // Starts at the beginning of the scene, so that no error accumulates from segment to segment.
+            // The motion starts at the beginning of the scene, so that no error accumulates from segment to segment.
             self.problem.motion_by(self.method, (0.0, self.total), self.scene.tolerance)?
         } else {
             let problem = self.problem.starting_from(self.state)?;
@@ -284,8 +284,8 @@ impl<'s, X: SegmentState> Segments<'s, X> {
     }
 }
 
-/// Converts a time of the output to the time since the start, in t_c, in two doubles; restricted to the segment: the end of one may be a rounding
-/// before a time that belongs to it.
+/// Converts a time of the output to the time since the start, in t_c, in two doubles. The result is restricted to the segment, because the end of
+/// a segment may be a rounding before a time that belongs to it.
 fn since_start_within(scene: &Scene, time: f64, from: f64, to: f64) -> [f64; 2] {
     let parts = scene.since_start_in_parts(time);
     let t = parts[0].clamp(from.min(to), from.max(to));

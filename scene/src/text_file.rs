@@ -9,7 +9,7 @@ pub const LARGEST_FILE: u64 = 64 << 20;
 /// The text of a file. Its size is bounded while reading, so that a device or a pipe cannot fill the memory.
 ///
 /// # Errors
-/// The file cannot be read, has more than 64 MiB, or is not UTF-8. The message goes after the name of the file.
+/// The file cannot be read, has more than 64 MiB, or is not UTF-8. The message is meant to follow the name of the file.
 pub fn read_text(file: File) -> Result<String, String> {
     let mut bytes = Vec::new();
     file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(|error| format!("cannot be read: {error}"))?;
@@ -22,7 +22,7 @@ pub fn read_text(file: File) -> Result<String, String> {
 /// Bytes as text.
 ///
 /// # Errors
-/// They are not UTF-8.
+/// The bytes are not UTF-8.
 pub fn text_of(bytes: Vec<u8>) -> Result<String, String> {
     String::from_utf8(bytes).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];

@@ -29,7 +29,7 @@ pub struct AxisAngles<S> {
     pub beta_rate: S,
 }
 
-/// Residuals (left side minus right side) of the two equations of Eq. (25) `[eleq]`, `gamma` eliminated by
+/// Residuals (left side minus right side) of the two equations of Eq. (25) `[eleq]`, with `gamma` eliminated by
 /// `Omega^z = a' cos b + g'` (`spin`):
 ///
 /// ```text
@@ -58,7 +58,7 @@ pub fn euler_angle_residuals<S: Scalar>(
 /// Accelerations `(a'', b'')` from Eq. (25) `[eleq]`.
 ///
 /// Divides by `sin b`: at the poles, where `alpha` is undefined, the result is not finite. The regular equations of
-/// [`equations_of_motion`](crate::dynamics::equations_of_motion) have no such points; numerical motion uses those.
+/// [`equations_of_motion`](crate::dynamics::equations_of_motion) have no such points; numerical motion uses them.
 pub fn euler_angle_accelerations<S: Scalar>(
     spheroid: &RigidSpheroid<S>,
     s: &PrincipalCoefficients<S>,

@@ -69,9 +69,9 @@ impl<S: Scalar> RigidSpheroid<S> {
 }
 
 impl<S: Real> RigidSpheroid<S> {
-    /// Rate at which `e_x` rotates about `n` relative to a vector that rotates with `L / I^xx` like `n`: `-epsilon Omega^z`,
-    /// from `Omega = L / I^xx - epsilon Omega^z n`. It is constant, since `Omega^z = L.n / I^zz` is. `n` and `L` are those given, not in another frame:
-    /// the rounding of `L.n` for an `L` almost normal to `n` is multiplied by `1 / I^zz`, which is large for a needle.
+    /// Rate at which `e_x` rotates about `n` relative to a vector that rotates with `L / I^xx` like `n`: `-epsilon Omega^z`, from
+    /// `Omega = L / I^xx - epsilon Omega^z n`. It is constant, since `Omega^z = L.n / I^zz` is. `n` and `L` must be taken as they are given and not
+    /// from another frame: the rounding of `L.n` for an `L` almost normal to `n` is multiplied by `1 / I^zz`, which is large for a needle.
     pub(crate) fn rate_about_axis(&self, axis: &Vector3<S>, momentum: &Vector3<S>) -> S {
         -(self.oblateness() * S::inner_product(momentum, axis) / self.inertia_zz)
     }

@@ -17,7 +17,7 @@ use crate::dynamics::{PrincipalInertia, RigidSpheroid};
 use crate::euler_angles::EulerRates;
 use crate::numerics::scalar::Scalar;
 
-/// `T = (1/2) I^ij Omega^i Omega^j` from the body-frame angular velocity, for three moments of inertia.
+/// `T = (1/2) I^ij Omega^i Omega^j` from the body-frame angular velocity, for any three principal moments of inertia.
 pub fn kinetic_energy_of_body<S: Scalar>(inertia: &PrincipalInertia<S>, omega_body: &Vector3<S>) -> S {
     (inertia.xx * omega_body.x * omega_body.x
         + inertia.yy * omega_body.y * omega_body.y

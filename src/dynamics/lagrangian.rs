@@ -18,7 +18,7 @@ use crate::euler_angles::{EulerAngles, EulerRates};
 use crate::lorentz_violation::PrincipalCoefficients;
 use crate::numerics::scalar::Scalar;
 
-/// `L = T_rot - delta U` with Eqs. (23) and (21) `[anisopot]`, above Eq. (24).
+/// The Lagrangian `L = T_rot - delta U` of a spheroid, with Eqs. (23) and (21) `[anisopot]`; the paper gives it above Eq. (24).
 pub fn lagrangian<S: Scalar>(
     spheroid: &RigidSpheroid<S>,
     s: &PrincipalCoefficients<S>,

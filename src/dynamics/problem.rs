@@ -93,7 +93,7 @@ impl<S: Scalar, X: RotationState<S>> Problem<S, X> {
         }
     }
 
-    /// From parts that have already been checked, or are checked by what is built from them.
+    /// The problem of parts that have already been checked, or that are checked later by what is built from them.
     pub(crate) fn unchecked(spheroid: RigidSpheroid<S>, coefficients: Matrix3<S>, initial: X) -> Self {
         Self { spheroid, coefficients, bulge: S::zero(), initial }
     }
@@ -140,7 +140,7 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
         Self::new(self.spheroid, self.coefficients, initial)?.with_bulge(self.bulge)
     }
 
-    /// The problem with `e_x`; an arbitrary `e_x` if the state has none.
+    /// The problem for a state with `e_x`, which is chosen arbitrarily if the state has none.
     pub(crate) fn with_equatorial_axis(&self) -> Problem<S> {
         let mut problem: Problem<S> = self.carrying();
         if X::VECTORS < 3 {

@@ -32,10 +32,10 @@ pub trait RotationState<S: Scalar>: Copy + Debug + PartialEq + 'static {
     /// The same state in another number type.
     type In<T: Scalar>: RotationState<T>;
 
-    /// `n`, `L` and `e_x`; the last is zero if the state does not have it.
+    /// `n`, `L` and `e_x`; `e_x` is zero if the state does not have it.
     fn vectors(&self) -> [Vector3<S>; 3];
 
-    /// From `n`, `L` and `e_x`; the last is ignored if the state does not have it.
+    /// The state with the given `n`, `L` and `e_x`; `e_x` is ignored if the state does not have it.
     fn from_vectors(vectors: [Vector3<S>; 3]) -> Self;
 
     /// The same state in another inertial frame: every vector multiplied by the rotation `other_from_this`.

@@ -42,8 +42,8 @@ pub fn rotation_rate<S: Scalar>(rotation: &Matrix3<S>, omega: &Vector3<S>) -> Ma
     Matrix3::from_rows(&[row(0), row(1), row(2)])
 }
 
-/// Body-frame tensor `A^{ij}` with `ddot I^{IJ} = R^{iI} R^{jJ} A^{ij}`, Eqs. (64), (65) `[gwa]`, for three moments of inertia
-/// and any torque.
+/// Body-frame tensor `A^{ij}` with `ddot I^{IJ} = R^{iI} R^{jJ} A^{ij}`, Eqs. (64), (65) `[gwa]`, for any three principal
+/// moments of inertia and any torque.
 ///
 /// With zero torque it is the free result of Zimmermann (1980).
 pub fn wave_tensor<S: Scalar>(
@@ -66,7 +66,7 @@ pub fn wave_tensor<S: Scalar>(
 /// ddot I = (I^zz - I^xx) (n'' n + 2 n' n' + n n''),    n' = L x n / I^xx,    n'' = (Gamma x n + L x n') / I^xx
 /// ```
 ///
-/// since `I^{IJ} = I^xx delta^{IJ} + (I^zz - I^xx) n^I n^J`. The third angle does not enter.
+/// since `I^{IJ} = I^xx delta^{IJ} + (I^zz - I^xx) n^I n^J`. The angle of rotation about the symmetry axis does not enter.
 pub fn spheroid_inertia_acceleration<S: Scalar>(
     spheroid: &RigidSpheroid<S>,
     s: &Matrix3<S>,

@@ -44,7 +44,7 @@ fn rounded(x: f64) -> String {
 }
 
 /// A unit vector this close to the null space counts as part of it. A named symmetry is exact, so only rounding separates it
-/// from the space: the rounding of the smallest singular values over that of the next.
+/// from the space: the rounding of the smallest singular values divided by the next singular value.
 const NEAR: f64 = 1e-5;
 
 /// Sine of the smallest angle allowed between a symmetry and the span of those before it.
@@ -80,7 +80,7 @@ impl<'a, U: Unknown> Directions<'a, U> {
             if (&vector - &null * (null.transpose() * &vector)).norm() > NEAR {
                 continue;
             }
-            // Only the part not already spanned by the previous ones. A linear combination of them says nothing new.
+            // Only the part that the previous symmetries do not span counts: a linear combination of them says nothing new.
             let new = &left * (left.transpose() * &vector);
             if left.ncols() > 0 && new.norm() > INDEPENDENT {
                 found.push(self.direction(&vector, Some(symmetry.words)));
@@ -264,8 +264,8 @@ mod tests {
         assert!((a - b).abs() < 1e-14 && (a + b + f).abs() < 1e-14 && (f - 1.0).abs() < 1e-14, "{found:?}");
     }
 
-    /// Also with a direction removed that is given by a short vector, such as the part of a symmetry that others do not
-    /// have.
+    /// This holds also if the removed direction is given by a short vector, such as the part of a symmetry that others
+    /// do not have.
     #[test]
     fn what_is_left_over_is_exact() {
         let null = DMatrix::from_column_slice(3, 3, &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
@@ -281,7 +281,7 @@ mod tests {
     #[test]
     fn small_parts_of_named_directions_are_kept() {
         let part = 1e-7;
-        // The sum of the columns of a and b, and a ten-millionth of that of f, is zero.
+        // The columns of a and b and a ten-millionth of the column of f add up to zero.
         let rows = [[1.0, -1.0, 0.0], [0.0, -part, 1.0], [0.0, 0.0, 0.0]];
         let model = with_symmetries(&[("all", &[(A, 1.0), (B, 1.0), (Fraction, part)])]);
         let found = told(&rows, &model).degenerate;

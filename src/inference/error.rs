@@ -31,11 +31,11 @@ pub enum InferenceError {
         /// Largest cosine of the angle between the residuals and the derivative by an unknown: zero at a minimum.
         cosine: f64,
     },
-    /// An unknown, as a double, moves in steps that are not small compared with its standard deviation.
+    /// The spacing of doubles at the value of an unknown is not small compared with the standard deviation of the unknown.
     Coarse {
         /// The unknown.
         unknown: &'static str,
-        /// Its last digit, in standard deviations.
+        /// This spacing, in standard deviations.
         step: f64,
     },
     /// The residuals are rounding errors, and the stated errors are too small for a fit to them.

@@ -7,8 +7,8 @@ use super::signal::turning_rate;
 use super::{Datum, Event, Fisher, InferenceError, Jacobian, Observable, Place, Signal, jacobian};
 use crate::parameters::{Parameter, Parameters};
 
-/// The pulses of a signal in the turns of the data, where each turn is given with the approximate time of its pulse. Turns are numbered as
-/// in the data: the pulse nearest to the first of them is assigned its turn.
+/// The pulses of a signal in the turns of the data; each turn is given with the approximate time of its pulse. Turns are numbered as in
+/// the data: the pulse nearest to the first of these times gets the number of that turn.
 fn events_as_counted(signal: &Signal, turns: &BTreeMap<i64, f64>) -> Result<Vec<Event>, InferenceError> {
     let Some((&turn, &near)) = turns.iter().min_by(|a, b| a.1.total_cmp(b.1)) else { return Ok(Vec::new()) };
     let mut events = signal.events()?;
@@ -94,10 +94,10 @@ pub fn fit(start: &Parameters<f64>, data: &[Datum], unknowns: &[Parameter], end:
 }
 
 /// Departure of `chi^2` from the parabola that error bars assume: the largest of `|chi^2 - chi^2_min - 1|` one standard deviation up and down
-/// each principal axis of the correlations. Error bars are reliable where it is well below one. It takes two motions for each unknown.
+/// each principal axis of the correlations. Error bars are reliable where this is well below one. Two motions are computed for each unknown.
 ///
 /// # Errors
-/// The displaced parameters belong to a star that has no such data.
+/// The displaced parameters belong to a star that lacks some of the data.
 pub fn nonlinearity(fisher: &Fisher, data: &[Datum], end: f64) -> Result<f64, InferenceError> {
     least_squares::nonlinearity(fisher, &DataOfStar { data, end })
 }

@@ -23,12 +23,12 @@ use crate::plan::{Gradient, Method, Output, Request, gradient_in_parts};
 pub struct Jacobian {
     /// A row for each datum, a column for each unknown.
     pub matrix: DMatrix<f64>,
-    /// The same matrix with the magnitudes of the terms of each sum; rounding is relative to these.
+    /// For each entry of the matrix, which is a sum, the sum of the magnitudes of its terms; rounding is relative to these.
     pub magnitudes: DMatrix<f64>,
     /// Relative error of the terms.
     pub relative_error: f64,
-    /// How much each datum changes if the directions of the star are off by [`relative_error`](Self::relative_error). What an unknown changes by less
-    /// over its whole range is rounding.
+    /// How much each datum changes if the directions of the star are off by [`relative_error`](Self::relative_error). If an unknown changes a datum
+    /// by less than this over its whole range, the change is rounding.
     pub rounding: DVector<f64>,
 }
 
@@ -170,8 +170,9 @@ impl Term {
         }
     }
 
-    /// How much the datum changes, in proportion, if the directions of the star change: a time by the sine of the beam over the rate at which `m.n`
-    /// crosses the edge; a strain by the size of the terms of which it is a sum.
+    /// Change of the datum per radian by which the directions of the star are off. For the time of an edge of a pulse it is the sine of the
+    /// semi-open angle of the beam over the rate at which `m.n` crosses the edge; for a strain it is the size of the terms of which the strain is a
+    /// sum.
     fn per_radian(
         &self,
         parameters: &Parameters<Dual64>,

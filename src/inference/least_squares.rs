@@ -18,7 +18,7 @@ pub(super) trait Comparison<M: Model> {
     /// The same residuals with their derivatives.
     fn linearised(&self, model: &M, unknowns: &[M::Unknown]) -> Result<(Vec<f64>, Jacobian), InferenceError>;
 
-    /// The reason why a fit ended away from a minimum, or with residuals that are too large, if all residuals are rounding.
+    /// If all residuals are rounding, the error that says so. It explains why a fit ended away from a minimum, or with residuals that are too large.
     fn rounding(&self, found: &Fit<M>) -> Result<Option<InferenceError>, InferenceError>;
 }
 
@@ -42,11 +42,11 @@ pub struct Fit<M: Model = Parameters<f64>> {
 /// Whether the residuals agree with the stated errors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Residuals {
-    /// They agree.
+    /// They agree with the stated errors.
     AsStated,
-    /// They are larger.
+    /// They are larger than the stated errors.
     Larger,
-    /// They are smaller.
+    /// They are smaller than the stated errors.
     Smaller,
 }
 

@@ -72,8 +72,8 @@ fn event(pulse: &ClockPulse) -> Event {
     Event { turn: pulse.number, epoch, start: rest - half, end: rest + half, closest: f64::NAN }
 }
 
-/// The pulse of the turn nearest to each of the given times up to `end`, in their order. Turns without a pulse give none, each turn is used once, and
-/// pulses before the start are left out.
+/// The pulse of the turn nearest to each of the given times up to `end`, in their order. A turn without a pulse gives none, each turn is used once,
+/// and pulses before the start are left out.
 ///
 /// # Errors
 /// As for [`check_span`] and [`PulsarClock`].

@@ -1,4 +1,4 @@
-//! What can be fitted: a model with named parameters.
+//! Models that can be fitted: models with named parameters.
 
 use core::f64::consts::PI;
 use core::fmt::Debug;
@@ -35,7 +35,7 @@ pub trait Model: Clone {
         self.value(unknown) - other.value(unknown)
     }
 
-    /// The last digit of a parameter.
+    /// The last digit of a parameter as it is stored, in the unit of the parameter.
     fn last_digit(&self, unknown: Self::Unknown) -> f64 {
         f64::EPSILON * self.value(unknown).abs()
     }
@@ -46,7 +46,7 @@ pub trait Model: Clone {
     /// The changed values do not make a valid model.
     fn moved(&self, unknowns: &[Self::Unknown], changes: &[f64]) -> Result<Self, Error>;
 
-    /// Largest possible deviation of a value from a known one: a radian, the rate of rotation, one.
+    /// Largest possible change of a parameter: a radian for an angle, the rate of rotation for a rate, one for other parameters.
     fn range(&self, unknown: Self::Unknown) -> f64;
 
     /// Changes of the parameters that no data can show.
@@ -88,7 +88,7 @@ impl Model for Parameters<f64> {
         use Parameter::{AlphaRate, BetaRate, GammaRate, Spin};
         match unknown {
             Spin | GammaRate | AlphaRate | BetaRate => {
-                // The torque makes a star librate that is at rest.
+                // A star at rest is made to librate by the torque.
                 let torque = self.spheroid.constant_c.abs() * traceless(&self.coefficients).norm();
                 let by_torque = (2.0 * torque / self.spheroid.inertia_xx).sqrt();
                 self.alpha_rate.abs().max(self.spin().abs()).max(self.beta_rate.abs()).max(by_torque)
@@ -136,7 +136,7 @@ impl Model for TimingModel {
         self.value(unknown) - other.value(unknown)
     }
 
-    /// F0 has two doubles.
+    /// F0 is stored in two doubles.
     fn last_digit(&self, unknown: TimingParameter) -> f64 {
         let digit = if unknown == TimingParameter::F0 { f64::EPSILON.powi(2) } else { f64::EPSILON };
         digit * self.value(unknown).abs()

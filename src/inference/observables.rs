@@ -1,4 +1,4 @@
-//! Kinds of data, and single data.
+//! Kinds of data, and measured values.
 
 use super::{Event, Signal};
 use crate::error::Error;
@@ -26,7 +26,7 @@ impl Observable {
     pub const ALL: [Self; 6] =
         [Self::Arrivals, Self::ClosestApproaches, Self::Widths, Self::Periods, Self::StrainPlus, Self::StrainCross];
 
-    /// Name for commands.
+    /// Name in commands.
     pub fn key(self) -> &'static str {
         match self {
             Self::Arrivals => "arrivals",
@@ -38,7 +38,7 @@ impl Observable {
         }
     }
 
-    /// Whether it is a time, taken from the pulses of a beam.
+    /// Whether data of this kind are times taken from the pulses of a beam.
     pub fn is_of_pulses(self) -> bool {
         !matches!(self, Self::StrainPlus | Self::StrainCross)
     }

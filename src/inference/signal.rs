@@ -19,12 +19,12 @@ use crate::propagation::Motion;
 pub struct Event {
     /// Number of its turn, counted from an arbitrary origin.
     pub turn: i64,
-    /// Time from which the others are counted: zero, except for a pulse in a span so long that a single double is not precise
-    /// enough for its times.
+    /// Time from which the other times of the pulse are counted: zero, except for a pulse in a span so long that a single
+    /// double is not precise enough for its times.
     pub epoch: f64,
     /// Time at which the line of sight enters the beam.
     pub start: f64,
-    /// Time at which it leaves.
+    /// Time at which it leaves the beam.
     pub end: f64,
     /// Time of the closest approach.
     pub closest: f64,
@@ -55,7 +55,7 @@ impl Event {
 pub struct Signal {
     /// The star, its beam and its observer.
     pub parameters: Parameters<f64>,
-    /// Last time.
+    /// End of the span.
     pub end: f64,
     pub(super) is_long: bool,
     motion: PlannedMotion,
@@ -125,7 +125,7 @@ impl Signal {
     /// time, with the number of the turn.
     ///
     /// # Errors
-    /// As for [`events`](Self::events); of a long span those of [`check_span`](super::check_span).
+    /// As for [`events`](Self::events); for a long span as for [`check_span`](super::check_span).
     pub fn events_after(&self, times: &[f64]) -> Result<Vec<Event>, Error> {
         if self.is_long {
             return long_span::pulses_near(&self.parameters, self.end, times);

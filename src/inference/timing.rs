@@ -21,7 +21,8 @@ pub struct MeasuredArrival {
 }
 
 impl MeasuredArrival {
-    /// In standard deviations, from the phase and its rate at the time of arrival: a pulse that arrives late has passed its turn.
+    /// The residual in standard deviations, from the phase and its rate at the time of arrival. For a pulse that arrives late the phase is then already above
+    /// the number of the pulse.
     fn residual(&self, phase: &Turns, rate: f64) -> f64 {
         let turns = (phase.whole - self.number.unwrap_or(phase.whole)) as f64 + phase.fraction;
         -turns / rate / self.sigma
@@ -50,7 +51,7 @@ impl MeasuredWidth {
 pub struct Prior {
     /// The parameter.
     pub parameter: TimingParameter,
-    /// Its mean.
+    /// Mean of the distribution.
     pub mean: f64,
     /// Its standard deviation.
     pub sigma: f64,
@@ -208,7 +209,7 @@ pub fn fit_timing(
     least_squares(start, &data.numbered(start)?, unknowns)
 }
 
-/// Constraints of timing data on unknowns, at a model: uncertainties and correlations.
+/// Constraints that timing data place on unknowns, evaluated at a given model: uncertainties and correlations.
 ///
 /// # Errors
 /// As for [`Fisher::of`].

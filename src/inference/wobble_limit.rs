@@ -17,8 +17,8 @@ pub struct WobbleLimit {
     pub precession_rate: f64,
     /// Wobble angle at the minimum of `chi^2` (rad).
     pub best: f64,
-    /// Reduction of `chi^2` there relative to no wobble. With two extra parameters, values of 6 or more occur by chance at one in
-    /// twenty periods.
+    /// Reduction of `chi^2` at this minimum relative to no wobble. With two extra parameters, values of 6 or more occur by chance
+    /// at one in twenty periods.
     pub gain: f64,
     /// Upper limit on the wobble at the requested probability (rad).
     pub limit: f64,
@@ -30,10 +30,10 @@ const NO_WOBBLE: f64 = 1e-12;
 /// Upper limits on the wobble at each precession rate, for a star that was fitted to the arrival times without a wobble. `unknowns` are the fitted
 /// parameters and must not include those of the wobble or of the torque.
 ///
-/// Residuals of a small wobble are `theta (D_c cos psi_0 + D_s sin psi_0)`, with the derivatives of the phase with respect to the wobble at two
-/// phases: `theta cot chi sin psi / (2 pi f)` from geometry, with the rate `f` of the phase, plus the timing delay due to the torque. The other unknowns are projected out. The
-/// limit is the quantile of the posterior of `theta`, with a flat prior for `theta` and for `psi_0`. Where it is above 0.1 rad, or the wider standard
-/// deviation of the wobble is, the data do not limit the wobble, and it is infinite.
+/// Residuals of a small wobble are `theta (D_c cos psi_0 + D_s sin psi_0)`, where `D_c` and `D_s` are derivatives with respect to the wobble at two phases of
+/// the precession: `theta cot chi sin psi / (2 pi f)` from geometry, with the rate `f` of the phase, plus the timing delay due to the torque. The other
+/// unknowns are projected out. The limit is the quantile of the posterior of `theta`, with a flat prior for `theta` and for `psi_0`. Where this quantile or the
+/// wider standard deviation of the wobble is above 0.1 rad, the data do not limit the wobble, and the limit is infinite.
 ///
 /// # Errors
 /// [`InferenceError::TooFew`] if there are no more arrivals than unknowns; as for [`fit_timing`](super::fit_timing) for the model; [`Error::Domain`]

@@ -40,8 +40,8 @@ pub struct WobblePosterior {
 }
 
 impl WobblePosterior {
-    /// From the linear model `residuals + columns x` in standard deviations. The columns are the derivatives with respect to the wobble at the phases
-    /// 0 and a quarter of a turn, both after projecting out the other unknowns.
+    /// The posterior for the linear model `residuals + columns x`, in standard deviations. The columns are the derivatives with respect to the wobble
+    /// at the phases 0 and a quarter of a turn, both after projecting out the other unknowns.
     ///
     /// # Errors
     /// [`Error::Domain`] for a number that is not finite.
@@ -66,19 +66,19 @@ impl WobblePosterior {
         Ok(Self { widths, offset: offset.into(), best, rule: unit_rule(NODES) })
     }
 
-    /// The wobble at the minimum of `chi^2`, as `theta (cos psi_0, sin psi_0)` (rad); NaN if one of the two has no effect.
+    /// The wobble at the minimum of `chi^2`, as `theta (cos psi_0, sin psi_0)` (rad); NaN if one of the two components has no effect on the data.
     pub fn best(&self) -> [f64; 2] {
         self.best.into()
     }
 
-    /// Reduction of `chi^2` there relative to no wobble.
+    /// Reduction of `chi^2` at the best wobble relative to no wobble.
     pub fn gain(&self) -> f64 {
         if self.widths[0].is_finite() { self.offset.norm_squared() } else { 0.0 }
     }
 
     /// Upper limit on the wobble (rad) at this probability, accurate to 1e-12 of probability (or to 1e-14 of the distance of the best wobble from
-    /// zero in standard deviations, if that is more). Infinite above 0.1 rad, where residuals are not linear, and for every probability where the
-    /// wider standard deviation is above 0.1 rad: residuals are then not linear over the posterior.
+    /// zero in standard deviations, if that is more). The limit is infinite above 0.1 rad, where residuals are not linear, and for every
+    /// probability where the wider standard deviation is above 0.1 rad: residuals are then not linear over the posterior.
     ///
     /// # Errors
     /// [`Error::Domain`] unless `0 <= probability < 1`.
@@ -114,7 +114,7 @@ impl WobblePosterior {
         Ok(if limit <= LARGEST { limit } else { f64::INFINITY })
     }
 
-    /// Proportional to the probability of a wobble below `largest`, in standard deviations of the wider axis.
+    /// A number proportional to the probability of a wobble below `largest`, in standard deviations of the wider axis.
     ///
     /// In standard deviations `x / widths = R (sin phi, cos phi)` the posterior is round and `theta = R g`,
     /// `g^2 = sin^2 phi + (fine / wide)^2 cos^2 phi`; `d theta d psi_0` is proportional to `dR d phi / g`. Over `R` of both signs the integral is a
@@ -122,7 +122,7 @@ impl WobblePosterior {
     /// as the ratio of the widths; the direction of the best wobble; and the place where `largest` and the best `R` meet. Panels end at the first
     /// two, and are halved until they resolve all three.
     ///
-    /// The error is of the order of [`TOLERANCE`] times `all`, the value for any wobble; without it, times the result.
+    /// `all` is the value for a wobble of any size. The error is of the order of [`TOLERANCE`] times `all` or, if `all` is not given, times the result.
     fn below(&self, largest: f64, all: Option<f64>) -> f64 {
         let (ratio, best) = (self.widths[1] / self.widths[0], self.offset.norm());
         let towards = if self.offset.y == 0.0 { FRAC_PI_2 } else { (self.offset.x / self.offset.y).atan() };

@@ -19,11 +19,11 @@ use crate::error::Error;
 use crate::lorentz_violation::squared_velocity;
 use crate::numerics::scalar::{Real, Scalar};
 
-/// An observed limit on the motion of the spin axis of a star: the largest change of `cos lambda`, and the time that it
-/// took.
+/// An observed limit on the motion of the spin axis of a star: the largest change of `cos lambda` that the observations
+/// allow, and the time between them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpinAxisDrift<S> {
-    /// `I^zz / C`, a time squared; [`inertia_over_c_estimate`](crate::star::estimates::inertia_over_c_estimate).
+    /// `I^zz / C`, a time squared; for an estimate see [`inertia_over_c_estimate`](crate::star::estimates::inertia_over_c_estimate).
     pub polar_inertia_over_c: S,
     /// Spin `Omega^z`, an angular frequency in rad per unit of time.
     pub spin: S,
@@ -36,10 +36,11 @@ pub struct SpinAxisDrift<S> {
 impl<S: Real> SpinAxisDrift<S> {
     /// Bound `|2 s^ZZ - s^XX - s^YY| <~ eta |I^zz Omega^z Delta cos lambda / (C Delta t)|`, Eq. (41) `[est1]`.
     ///
-    /// The paper's estimate sets the factors by which Eq. (38) depends on the directions to one: `eta` is
-    /// [`eta_from_inclination`] for `beta_0` up to about 1.1 and, according to the paper, at most 10. The `eta` of
-    /// the root mean square of the drift follows from [`eta`](super::eta), the value that it does not exceed with a given
-    /// probability from [`eta_distribution`](super::eta_distribution); it has no mean.
+    /// The paper's estimate sets the factors by which Eq. (38) depends on the directions to one. Then `eta` is
+    /// [`eta_from_inclination`] for `beta_0` up to about 1.1; according to the paper it is at most 10.
+    /// [`eta`](super::eta) gives the `eta` that corresponds to the root mean square of the drift, and
+    /// [`eta_distribution`](super::eta_distribution) the value that `eta` does not exceed with a given probability. `eta`
+    /// has no mean.
     ///
     /// # Errors
     /// [`Error::Domain`] for an interval of zero.
@@ -50,7 +51,7 @@ impl<S: Real> SpinAxisDrift<S> {
     }
 }
 
-/// `eta = 1 / |cos b0|`, with which Eq. (41) `[est1]` is the estimate (40) `[est]`, with `beta_0` the angle (rad) between the symmetry axis
+/// `eta = 1 / |cos b0|`; with it Eq. (41) `[est1]` becomes the estimate (40) `[est]`. `beta_0` is the angle (rad) between the symmetry axis
 /// and the principal axis of `s^IJ` about which it precesses.
 ///
 /// # Errors
@@ -67,9 +68,10 @@ pub fn eta_from_inclination<S: Real>(beta_0: S) -> Result<S, Error> {
 /// This is the virial relation `T_rot = 2 C` of a fluid star in equilibrium, which the paper derives from Eq. (14), with
 /// `T_rot = I^zz (Omega^z)^2 / 2`: density profile, radius and the size of the oblateness do not matter. The errors are those of
 /// Newtonian gravity and of treating the star as a fluid. Eq. (43) with Eq. (20) `[epf]` gives the same to first order in the
-/// oblateness for a uniform star, whose `eps = (5/4) (Omega^z)^2 R^3 / M` (Eq. (20) sets the coefficient 5/4 to one). With it and
-/// Eq. (5) `[replace]` the spin axis precesses about `w` with the right-handed rate `-(alpha_2 / 2) |w|^2 Omega^z cos(beta)`, in size
-/// that of Nordtvedt. The result is a time squared, with `spin` in rad per unit of time.
+/// oblateness for a uniform star, whose `eps = (5/4) (Omega^z)^2 R^3 / M` (Eq. (20) sets the coefficient 5/4 to one). With this
+/// `I^zz / C` and Eq. (5) `[replace]` the spin axis precesses about `w` at the right-handed rate
+/// `-(alpha_2 / 2) |w|^2 Omega^z cos(beta)`, which has the magnitude of Nordtvedt's rate. The result is a time squared, with `spin`
+/// in rad per unit of time.
 pub fn fluid_inertia_over_c<S: Scalar>(spin: S) -> S {
     S::from_f64(4.0) / (spin * spin)
 }
@@ -78,8 +80,8 @@ pub fn fluid_inertia_over_c<S: Scalar>(spin: S) -> S {
 /// preferred frame (units of c): `|alpha_2| <= combination / (2 |w|^2)`.
 ///
 /// With the replacement (5) `[replace]` the tensor `-alpha_2 w w` is symmetric about `w` and the star precesses about `w`.
-/// So Z lies along `w` and the combination is `-2 alpha_2 |w|^2`. The bound on it must be taken with `beta_0` the angle
-/// between the spin axis and `w`.
+/// So Z lies along `w` and the combination is `-2 alpha_2 |w|^2`. The bound on the combination must be computed with
+/// `beta_0` equal to the angle between the spin axis and `w`.
 ///
 /// # Errors
 /// [`Error::Domain`] for `|w|` below 1e-75.
@@ -104,7 +106,7 @@ pub fn cos_opening_angle<S: Scalar>(zeta: S, chi: S, width: S) -> S {
 /// Delta lambda = (1/2) sin(W/2) / (cot lambda cos(W/2) + cot chi) Delta W
 /// ```
 ///
-/// If `lambda` of Eq. (37) is taken with `n-hat` of Eq. (46), it is `zeta`, with [`zeta_change_terms`].
+/// If `lambda` of Eq. (37) is counted from `n-hat` of Eq. (46), it is `zeta`, and [`zeta_change_terms`] applies.
 ///
 /// # Errors
 /// [`Error::Domain`] where the denominator vanishes to rounding: there the width is stationary and does not constrain
@@ -120,8 +122,8 @@ pub fn lambda_change<S: Real>(lambda: S, chi: S, width: S, width_change: S) -> R
     Ok(sine / turning * width_change)
 }
 
-/// Numerator and denominator of `d zeta / d W` for the angle `zeta` between the spin axis and the direction from the star **to** the observer,
-/// the derivative of [`cos_opening_angle`] set to zero, multiplied by `sin chi sin zeta`, for exact fields:
+/// Numerator and denominator of `d zeta / d W` for the angle `zeta` between the spin axis and the direction from the star **to** the observer.
+/// They follow from a constant [`cos_opening_angle`]; multiplied by `sin chi sin zeta`, they hold in an exact field:
 /// `(1/2) sin chi sin zeta sin(W/2)` and `sin chi cos zeta cos(W/2) - cos chi sin zeta`.
 pub fn zeta_change_terms<S: Scalar>(zeta: S, chi: S, width: S) -> [S; 2] {
     let ((sz, cz), (sc, cc)) = (zeta.sin_cos(), chi.sin_cos());
@@ -129,8 +131,8 @@ pub fn zeta_change_terms<S: Scalar>(zeta: S, chi: S, width: S) -> [S; 2] {
     [sc * sz * sin_half / 2.0, sc * cz * cos_half - cc * sz]
 }
 
-/// Numerator and denominator of `d lambda / d W` in Eq. (42) `[dela]`, multiplied by `sin chi sin lambda`, for exact fields:
-/// `(1/2) sin chi sin lambda sin(W/2)` and `sin chi cos lambda cos(W/2) + cos chi sin lambda`.
+/// Numerator and denominator of `d lambda / d W` in Eq. (42) `[dela]`; multiplied by `sin chi sin lambda`, they hold in an
+/// exact field: `(1/2) sin chi sin lambda sin(W/2)` and `sin chi cos lambda cos(W/2) + cos chi sin lambda`.
 pub fn lambda_change_terms<S: Scalar>(lambda: S, chi: S, width: S) -> [S; 2] {
     let ((sl, cl), (sc, cc)) = (lambda.sin_cos(), chi.sin_cos());
     let (sin_half, cos_half) = (width / 2.0).sin_cos();

@@ -1,7 +1,8 @@
 //! The factor `eta` of Eq. (41) `[est1]`, derived from the averaged motion of the spin axis in single precession.
 //!
 //! The symmetry axis stays within a nutation, of first order in `s`, of the direction `l` of the angular momentum. Averaged
-//! over many turns of the star, the remaining motion is [`secular_axis_rate`]. A direction `n-hat` to the observer then sees
+//! over many turns of the star, the remaining motion is [`secular_axis_rate`]. An observer in the direction `n-hat` then
+//! sees
 //!
 //! ```text
 //! |d cos lambda / dt| = |n-hat . dl/dt|,      eta = C |2 s^ZZ - s^XX - s^YY| / (I^zz Omega^z |n-hat . dl/dt|)
@@ -43,7 +44,7 @@ use crate::solutions::averaged::mean_of_cn2;
 /// Mean rate of the spin axis `l` (unit vector) in single precession, `dl/dt = (2 C / (I^zz Omega^z)) (s l) x l`, from
 /// `I^zz / C` and the spin `Omega^z`: the torque on a star that spins about its symmetry axis, divided by its angular momentum.
 ///
-/// For `s^XX = s^YY` it is a rotation about Z with the rate `a^(1)` of Eq. (31) `[consdef]`, as in Eq. (32) `[precangvel]`. Error: of
+/// For `s^XX = s^YY` it is a rotation about Z at the rate `a^(1)` of Eq. (31) `[consdef]`, as in Eq. (32) `[precangvel]`. Error: of
 /// second order in `s`, plus the nutation, which averages out.
 pub fn secular_axis_rate<S: Scalar>(polar_inertia_over_c: S, spin: S, s: &Matrix3<S>, axis: &Vector3<S>) -> Vector3<S> {
     (s * axis).cross(axis) * (S::from_f64(2.0) / (polar_inertia_over_c * spin))

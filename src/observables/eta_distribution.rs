@@ -79,8 +79,8 @@ impl EtaDistribution {
         Ok(Self { inverse_speeds, directions: Directions::Isotropic })
     }
 
-    /// The same spin axes seen in a direction at the known angle `lambda` (rad) to them, or `pi - lambda`; every azimuth of the
-    /// direction about the spin axis is equally probable.
+    /// The distribution for the same spin axes if the direction to the observer is at the known angle `lambda` (rad) to the
+    /// spin axis, or at `pi - lambda`; every azimuth of that direction about the spin axis is equally probable.
     ///
     /// The axis moves perpendicular to itself: with the azimuth `psi` counted from `v`, `n-hat . v = |v| sin(lambda) cos(psi)`, and
     ///
@@ -89,7 +89,7 @@ impl EtaDistribution {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Domain`] for an angle whose sine is not above 2.2e-16: a motion across the line of sight is not observable.
+    /// [`Error::Domain`] for an angle whose sine is not above 2.2e-16: there the axis moves across the line of sight, and `cos lambda` does not change.
     pub fn seen_at(self, lambda: f64) -> Result<Self, Error> {
         let sine = lambda.sin();
         let allowed = "above 2.2e-16 in size: a motion across the line of sight is not seen";
@@ -210,8 +210,8 @@ pub fn root_mean_square_along_motion(asymmetry_ratio: f64, beta: f64) -> f64 {
     (3.0 * total / sum).sqrt()
 }
 
-/// The azimuth in the first quarter turn where `h = l.(s l)` equals the middle principal value, or the nearest end of the quarter turn:
-/// `h` is linear in the squared sine.
+/// The azimuth in the first quarter turn where `h = l.(s l)` equals the middle principal value, or the nearest end of the quarter turn.
+/// It follows from `h`, which is linear in the squared sine of the azimuth.
 fn separatrix(asymmetry_ratio: f64, beta: f64) -> f64 {
     let half = asymmetry_ratio / 2.0;
     let [_, middle, _] = {
@@ -241,7 +241,7 @@ fn quarter_turn() -> impl Iterator<Item = (f64, f64)> {
     nodes(NODES)
 }
 
-/// The same for a function with an inverse-logarithmic singularity at an edge: a double exponential of the node, on both sides.
+/// As `quarter_turn`, for a function with an inverse-logarithmic singularity at `edge`: on both sides the nodes approach it double-exponentially.
 fn about(edge: f64) -> impl Iterator<Item = (f64, f64)> {
     // Beyond this the weights are below 1e-16 of the largest.
     const LAST: f64 = 3.2;
@@ -290,8 +290,8 @@ mod tests {
         }
     }
 
-    /// Reference values from ball arithmetic (`verify/oracles/certified/eta.py`): no azimuth on the separatrix, some, and one at the end of
-    /// the quarter turn.
+    /// Reference values from ball arithmetic (`verify/oracles/certified/eta.py`): cases without an azimuth on the separatrix, with some,
+    /// and with one at the end of the quarter turn.
     #[test]
     fn the_mean_along_the_motion_is_right_across_the_separatrix() {
         for (ratio, beta, expected) in [

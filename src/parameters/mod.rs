@@ -1,7 +1,7 @@
 //! A star, its beam and its observer as named parameters, for derivatives and fits.
 //!
-//! A change of one [`Parameter`] keeps all other numbers of [`Parameters`] fixed. Of the rate of `gamma` and `Omega^z = gamma' + alpha' cos(beta)`
-//! the struct stores one, its [`ThirdRate`]: that one stays fixed when `beta` or `alpha'` change.
+//! A change of one [`Parameter`] keeps all other numbers of [`Parameters`] fixed. The struct stores either the rate of `gamma` or
+//! `Omega^z = gamma' + alpha' cos(beta)`, as its [`ThirdRate`]; the one that is stored stays fixed when `beta` or `alpha'` change.
 //!
 //! # Example
 //!
@@ -65,7 +65,7 @@ pub struct Parameters<S> {
     pub third_rate: ThirdRate<S>,
     /// Angle of the magnetic axis to the symmetry axis, Eq. (45).
     pub chi: S,
-    /// Its azimuth.
+    /// Azimuth of the magnetic axis in the body.
     pub delta: S,
     /// Semi-open angle of the beam.
     pub rho: S,
@@ -80,8 +80,8 @@ pub struct Parameters<S> {
 }
 
 impl<S: Scalar> Parameters<S> {
-    /// A body with its initial values and the rate of `gamma` held fixed. Beam and observer get placeholder values until their fields are set: a
-    /// motion does not depend on them.
+    /// The parameters of a body with its initial values, with the rate of `gamma` held fixed. Beam and observer get placeholder values until
+    /// their fields are set: a motion does not depend on them.
     pub fn new(
         spheroid: RigidSpheroid<S>,
         coefficients: Matrix3<S>,
@@ -108,12 +108,12 @@ impl<S: Scalar> Parameters<S> {
         }
     }
 
-    /// The same with `Omega^z` held fixed instead of the rate of `gamma`.
+    /// The same parameters with `Omega^z` held fixed instead of the rate of `gamma`.
     pub fn holding_spin(self) -> Self {
         Self { third_rate: ThirdRate::Spin(self.spin()), ..self }
     }
 
-    /// The same with the rate of `gamma` held fixed.
+    /// The same parameters with the rate of `gamma` held fixed.
     pub(crate) fn holding_gamma_rate(self) -> Self {
         Self { third_rate: ThirdRate::Gamma(self.rates().gamma), ..self }
     }
@@ -188,7 +188,7 @@ impl Parameters<f64> {
         }
     }
 
-    /// The same numbers as functions of one parameter, at its current value.
+    /// The same numbers as functions of one parameter: dual numbers with derivatives with respect to it, at its current value.
     pub fn seeded(&self, parameter: Parameter) -> Parameters<Dual64> {
         let mut seeded = self.lifted();
         parameter.add(&mut seeded, Dual64::new(0.0, 1.0));

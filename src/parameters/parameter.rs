@@ -106,8 +106,8 @@ impl Parameter {
     pub const OF_PULSES: [Self; 13] =
         [Oblateness, Spin, SAxial, SAsymmetry, Alpha, Beta, Gamma, AlphaRate, BetaRate, Chi, Rho, ThetaO, PhiO];
 
-    /// The parameters that the strain determines in the same frame if the distance is known. It does not depend on the beam or
-    /// on `gamma`.
+    /// The parameters that the strain determines in the same frame if the distance is known. The strain does not depend on the
+    /// beam or on `gamma`.
     pub const OF_STRAIN: [Self; 10] =
         [Oblateness, Spin, SAxial, SAsymmetry, Alpha, Beta, AlphaRate, BetaRate, ThetaO, PhiO];
 
@@ -143,7 +143,7 @@ impl Parameter {
         }
     }
 
-    /// Name for commands and files.
+    /// Name in commands and files.
     pub fn key(self) -> &'static str {
         self.names()[0]
     }
@@ -158,12 +158,12 @@ impl Parameter {
         Self::FITTED.into_iter().find(|parameter| parameter.key() == key)
     }
 
-    /// Whether it is a part of `s^IJ`.
+    /// Whether the parameter is a part of `s^IJ`.
     pub fn is_of_s(self) -> bool {
         matches!(self, S(..) | SScale | SAxial | SAsymmetry | STrace)
     }
 
-    /// Its value.
+    /// Value of the parameter.
     pub fn value<T: Scalar>(self, parameters: &Parameters<T>) -> T {
         let s = &parameters.coefficients;
         match self {
@@ -204,7 +204,7 @@ impl Parameter {
         }
     }
 
-    /// Adds `change` to it; all other numbers of the struct stay.
+    /// Adds `change` to the parameter; all other numbers of the struct stay fixed.
     ///
     /// # Panics
     /// For an index of `s^IJ` above 2.

@@ -15,13 +15,13 @@ use core::f64::consts::PI;
 use crate::numerics::scalar::Scalar;
 use crate::units::si;
 
-/// Coefficient of Eq. (20) `[epf]` as printed, in place of [`CENTRIFUGAL_COEFFICIENT`].
+/// The value that the paper prints for the coefficient of Eq. (20) `[epf]`; the computed one is [`CENTRIFUGAL_COEFFICIENT`].
 pub const PRINTED_CENTRIFUGAL_COEFFICIENT: f64 = 2.1e-3;
 
 /// Fluid oblateness `eps_f = |Omega|^2 R^3 / M`, Eq. (20) `[epf]`, first form: an order-of-magnitude estimate.
 ///
 /// `omega` [rad / time], `radius` and `mass` in units with G = 1. For a uniform star of small `e` the exact oblateness is
-/// 5/4 of it.
+/// 5/4 of this estimate.
 pub fn centrifugal_oblateness<S: Scalar>(omega: S, radius: S, mass: S) -> S {
     omega * omega * radius * radius * radius / mass
 }

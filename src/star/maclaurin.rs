@@ -25,7 +25,7 @@ pub struct MaclaurinSpheroid<S> {
     /// The body.
     pub spheroid: UniformSpheroid<S>,
     /// Squared rotation rate `|Omega|^2 = 2 pi rho (A_1 - (a3^2 / a1^2) A_3)`, Eq. (77); `(8 pi / 15) rho e^2` near the sphere. Its
-    /// derivatives are regular there, whereas the rate itself, proportional to `e`, has none.
+    /// derivatives are regular there, whereas the rate itself, proportional to `e`, has no derivative there.
     pub rotation_rate_squared: S,
     /// Kinetic energy `T_rot = I^zz |Omega|^2 / 2`, which is `2 C`, Eq. (78) `[estc]`.
     pub rotational_energy: S,
@@ -74,7 +74,7 @@ impl<S: Real> MaclaurinSpheroid<S> {
 mod tests {
     use super::*;
 
-    /// Central pressure at the centre, falling with the square of the distance relative to that of the surface.
+    /// The pressure is the central one at the centre and falls with the square of the distance, relative to the distance of the surface.
     #[test]
     fn the_pressure_falls_to_zero_at_the_surface() {
         let spheroid = UniformSpheroid::from_semi_axes(1.3, 0.8, 0.7).unwrap();

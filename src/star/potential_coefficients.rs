@@ -67,7 +67,7 @@ pub struct PotentialCoefficients<S> {
 ///
 /// With `D = A_1 - q^2 A_3` and the sum rule `2 A_1 + A_3 = 2`, all are sums of terms of one sign:
 /// `A_1 = (2 q^2 + D) / (1 + 2 q^2)`, `A_3 = 2 (1 - D) / (1 + 2 q^2)`, `A_0 = 2 (3 q^2 + e^2 D) / (1 + 2 q^2)`. For a
-/// prolate one `A_1 = 1 - A_3 / 2`, whose derivatives do not cancel.
+/// prolate spheroid `A_1 = 1 - A_3 / 2` is used, because its derivatives do not cancel.
 pub fn potential_coefficients<S: Real>(shape: &SpheroidShape<S>) -> PotentialCoefficients<S> {
     let (q, q2, e2) = (shape.axis_ratio, shape.axis_ratio_squared, shape.eccentricity_squared);
     let sum = q2 * 2.0 + S::one();
@@ -82,7 +82,7 @@ pub fn potential_coefficients<S: Real>(shape: &SpheroidShape<S>) -> PotentialCoe
     PotentialCoefficients { a0: (q2 * 3.0 + e2 * difference) * 2.0 / sum, a1, a3, difference }
 }
 
-/// `A_1 - q^2 A_3` and `A_0` of a needle: see the module.
+/// `A_1 - q^2 A_3` and `A_0` of a needle, by the formulas of the module documentation.
 fn needle<S: Real>(q: S, q2: S) -> (S, S) {
     let u = S::one() / (q2 - S::one());
     let root = (u + S::one()).sqrt();
@@ -91,7 +91,7 @@ fn needle<S: Real>(q: S, q2: S) -> (S, S) {
     ((u + S::one()) * 3.0 - (u * 3.0 + S::from_f64(2.0)) * p, p * 2.0)
 }
 
-/// The function `beta = (A_1 - q^2 A_3) / (q e^2)` of the module: positive, analytic, 4/15 for the sphere.
+/// The function `beta = (A_1 - q^2 A_3) / (q e^2)` of the module documentation: positive, analytic, 4/15 for the sphere.
 pub fn reduced_difference<S: Real>(shape: &SpheroidShape<S>) -> S {
     let (q, q2, e2) = (shape.axis_ratio, shape.axis_ratio_squared, shape.eccentricity_squared);
     if q.re() > NEEDLE { needle(q, q2).0 / (q * e2) } else { half_angle_step(q, q2, e2) }

@@ -115,7 +115,7 @@ impl<S: Real> UniformSpheroid<S> {
     /// found at 100,000 shapes, `e` from 1e-13 to 0.999 and `a3 / a1` from 1 to 10).
     pub fn c(&self) -> S {
         let surface_density = self.density * self.equatorial_radius * self.equatorial_radius;
-        // Three products of which only the last sum is rounded: with the errors of the factors themselves, more rounding
+        // Of the three products only the last sum is rounded: together with the errors of the factors, more rounding
         // would exceed 4 ulp.
         let (q2, e2) = (self.shape.axis_ratio_squared, self.shape.eccentricity_squared);
         let beta = reduced_difference(&self.shape);
@@ -134,7 +134,7 @@ impl<S: Real> UniformSpheroid<S> {
         self.density * potential_coefficients(&self.shape).difference * (0.5 * PI)
     }
 
-    /// Ratio `I^zz / C` [time^2], whose estimate is Eq. (43); negative for a prolate spheroid.
+    /// Ratio `I^zz / C` [time^2], which Eq. (43) estimates; negative for a prolate spheroid.
     ///
     /// # Errors
     /// [`Error::Domain`] for the sphere, where `C = 0`, and so near to it that the ratio overflows.
@@ -158,7 +158,7 @@ fn positive(value: f64, quantity: &'static str) -> Result<(), Error> {
     Error::ensure(value > 0.0 && value.is_finite(), quantity, value, "positive and finite")
 }
 
-/// For a positive number. The exponential has the rounding of its argument, a hundred ulp for `x = 1e90`; a Newton step removes it.
+/// Cube root of a positive number. The exponential has the rounding of its argument, a hundred ulp for `x = 1e90`; a Newton step removes it.
 fn cube_root<S: Real>(x: S) -> S {
     let root = (x.ln() / 3.0).exp();
     let square = root * root;

@@ -15,7 +15,7 @@ pub(super) const MOST_ROWS: usize = 100_000;
 /// Largest number of columns named in a message.
 const MOST_NAMED: usize = 30;
 
-/// Largest integer in size, for example of a turn: every integer up to it is a double.
+/// Largest absolute value of an integer, for example of a turn number: every integer up to it is a double.
 const LARGEST_TURN: i64 = 1_000_000_000_000_000;
 
 /// A table of measured numbers, with its name for messages.
@@ -109,7 +109,7 @@ impl DataFile {
     /// The data of the whole pulses of the first beam in a table of `twofold pulses`, in units of `t_c` from the start of the
     /// scene.
     ///
-    /// Pulses without a turn, and two of one turn, are left out; with the data comes the number of pulses that share a turn.
+    /// Pulses without a turn are left out, and so are pulses that share a turn; the number of the latter is returned with the data.
     ///
     /// # Errors
     /// A column that is missing, a field that is not a number, a duration that is not positive, a pulse that is there twice, or more than 100,000

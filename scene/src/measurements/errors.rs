@@ -6,16 +6,16 @@ use rand_distr::{Distribution, StandardNormal};
 use twofold::Error;
 use twofold::inference::{Datum, Fisher, Model, TimingData, Unknown};
 
-/// Draws of a start until one is within the limits of the unknowns.
+/// Largest number of draws of a start; it ends with the first that is within the limits of the unknowns.
 const DRAWS: usize = 100;
 
-/// The same data with a random error each, normal with its standard deviation.
+/// The data with a random error added to each, drawn from a normal distribution with the standard deviation of the datum.
 pub fn with_noise(data: &[Datum], random: &mut ChaCha8Rng) -> Vec<Datum> {
     let mut normal = || -> f64 { StandardNormal.sample(random) };
     data.iter().map(|datum| Datum { value: datum.value + datum.sigma * normal(), ..*datum }).collect()
 }
 
-/// Adds to every arrival time and width a random error, normal with its standard deviation.
+/// Adds a random error to every arrival time and width, drawn from a normal distribution with the standard deviation of the measurement.
 pub fn add_timing_noise(data: &mut TimingData, random: &mut ChaCha8Rng) {
     let mut normal = || -> f64 { StandardNormal.sample(random) };
     data.arrivals.iter_mut().for_each(|arrival| arrival.time[1] += arrival.sigma * normal());

@@ -16,7 +16,7 @@ use crate::scene_file::{Scene, nearest};
 pub struct Measurement {
     /// The scene.
     pub scene: Scene,
-    /// Its parameters.
+    /// The parameters of the scene.
     pub parameters: Parameters<f64>,
     /// The kinds of data, with standard deviations.
     pub noise: Vec<Noise>,
@@ -26,7 +26,7 @@ pub struct Measurement {
     pub end: f64,
 }
 
-/// What of the tables is not among the data.
+/// Numbers of entries of the tables that are not among the data.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct LeftOut {
     /// Data of the first turn: their pulse may be cut off in another model.
@@ -36,8 +36,8 @@ pub struct LeftOut {
 }
 
 impl Measurement {
-    /// The data are those named by `observe`, in the format of [`parse_noise`]. The unknowns are the `parameters` in a list of names, or all of them;
-    /// by default those that such data can determine.
+    /// The measurement of a scene. The data are those named by `observe`, in the format of [`parse_noise`]. The unknowns are the `parameters` in a
+    /// list of names, or all of them; by default those that such data can determine.
     ///
     /// # Errors
     /// [`Refusal::Input`] for unknown names, sections that the scene lacks, or a backward span; [`Refusal::Model`] for a scene without parameters.
@@ -209,7 +209,7 @@ impl Measurement {
     }
 }
 
-/// What identifies a datum: its kind, its number or time, and its value, to the last digit.
+/// The identity of a datum: its kind, its number or time, and its value, to the last digit.
 fn identity(datum: &Datum) -> (&'static str, i64, [u64; 2]) {
     let (number, time) = match datum.place {
         Place::Turn { number, near } => (number, near),

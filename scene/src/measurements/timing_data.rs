@@ -60,13 +60,14 @@ pub fn read_timing(
     Ok(data)
 }
 
-/// The sum of two doubles as the nearest double and the rest, however it was given.
+/// The sum of two doubles as the nearest double and the rest, whichever two doubles were given.
 fn same([time, rest]: [f64; 2]) -> [f64; 2] {
     let sum = time + rest;
     [sum + 0.0, (rest - (sum - time)) + 0.0]
 }
 
-/// The time (s) of an arrival at the time of another one, or of a width with time and length of another one: no two measurements agree to sixteen digits.
+/// The time (s) of an arrival that has the time of another one, or of a width that has the time and the length of another one; `None` if there is none. No two
+/// measurements agree to sixteen digits, so it is the same measurement twice.
 pub fn measured_twice(data: &TimingData) -> Option<[f64; 2]> {
     let (mut arrivals, mut widths) = (HashSet::new(), HashSet::new());
     let arrival =

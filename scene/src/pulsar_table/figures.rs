@@ -35,7 +35,7 @@ pub struct Figure {
     pub from_inputs: f64,
 }
 
-/// A value as it is computed, in any number type.
+/// A computed value, in any number type.
 struct Computed<S> {
     key: &'static str,
     label: String,
@@ -43,9 +43,9 @@ struct Computed<S> {
 }
 
 impl Pulsar {
-    /// The results for this pulse: the change of `lambda`; the bounds on `|2 s^ZZ - s^XX - s^YY|` by Eq. (41), over `eta`, with
-    /// `I^zz / C` from Eq. (43) if it is given in that form, (a), and with that of the star's own deformation, (b); and, if a speed is
-    /// given, the bound on `|alpha_2|`.
+    /// The results for this pulse: the change of `lambda`; the bounds on `|2 s^ZZ - s^XX - s^YY|` by Eq. (41), over `eta`, (a) with
+    /// `I^zz / C` from Eq. (43) if it is given in that form, and (b) with the `I^zz / C` of the star's own deformation; and, if a
+    /// speed is given, the bound on `|alpha_2|`.
     ///
     /// The change of width is used as given, as in the paper; the effect of its error is included in a
     /// [`Limit`](super::Limit). Uncertainties are linear, from automatic derivatives, for independent inputs.

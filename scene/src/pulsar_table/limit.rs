@@ -296,8 +296,8 @@ mod tests {
         }
     }
 
-    /// A change of 0.3 deg with an error of 0.02 deg is measured better than one of 0.001 deg with an error of 0.05 deg, though its limit is weaker: had
-    /// both been zero, its limit would be the stronger one.
+    /// A change of 0.3 deg with an error of 0.02 deg is measured better than one of 0.001 deg with an error of 0.05 deg, although the first gives the
+    /// weaker limit: had both changes been zero, it would give the stronger one.
     #[test]
     fn the_pulse_that_is_measured_best_is_recommended_whatever_was_measured() {
         let pulse = |name: &str, change: &str| {

@@ -107,7 +107,7 @@ pub struct Pulsar<T = Quantity> {
     pub spin: T,
     /// Pulse width `W` (deg).
     pub width: T,
-    /// Its change `Delta W` (deg) with its sign: measured, if an uncertainty is given with it, otherwise taken as a limit.
+    /// Change `Delta W` of the pulse width (deg) with its sign: measured, if an uncertainty is given with it, otherwise taken as a limit.
     pub width_change: T,
     /// `lambda` (deg) of Eq. (42), from the spin axis to the direction from the observer to the star: 180 - zeta.
     pub lambda: T,
@@ -124,7 +124,7 @@ pub struct Pulsar<T = Quantity> {
 }
 
 impl<T: Copy> Pulsar<T> {
-    /// The same pulsar with every number replaced; always in the same order.
+    /// The same pulsar with `f` applied to every number, always in the same order.
     pub fn map<U>(&self, mut f: impl FnMut(T) -> U) -> Pulsar<U> {
         Pulsar {
             name: self.name.clone(),

@@ -20,7 +20,7 @@ const PRINTED: [(&str, PrintedBounds); 3] = [
     ("PSR J1744-1134", PrintedBounds { lambda_change: "1.6", bound: "1", conservative: "10" }),
 ];
 
-/// The pulses of the paper's table with what is printed of them.
+/// The pulses of the paper's table with the values that it prints for them.
 pub fn printed_bounds() -> Vec<(Pulsar, PrintedBounds)> {
     let printed = |pulsar: Pulsar| {
         let (_, printed) = PRINTED.iter().find(|(name, _)| *name == pulsar.name).expect("a column for each pulse");
@@ -40,8 +40,8 @@ pub struct Published {
     pub meaning: &'static str,
     /// Authors, year and publication.
     pub source: &'static str,
-    /// What was seen of the source here: `abstract`, the number is in the abstract, which was read; `second-hand`, the number is known
-    /// from others, and the publication could not be opened.
+    /// How much of the source was seen when the table was made: `abstract`, the number is in the abstract, which was read;
+    /// `second-hand`, the number is known from others, and the publication could not be opened.
     pub seen: &'static str,
 }
 

@@ -116,7 +116,7 @@ fn quantity(entry: &Entry<'_>, allowed: &str, holds: impl Fn(f64) -> bool) -> Re
     quantity_within(entry, allowed, holds, f64::abs)
 }
 
-/// The same, with the largest standard uncertainty allowed for a number.
+/// As `quantity`, with the largest standard uncertainty that is allowed for a number.
 fn quantity_within(
     entry: &Entry<'_>,
     allowed: &str,

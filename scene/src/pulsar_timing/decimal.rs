@@ -3,7 +3,7 @@
 /// `x[0] + x[1]` with 24 decimals, for sums up to 1e13 in size.
 pub fn decimal(x: [f64; 2]) -> String {
     const DECIMALS: usize = 24;
-    // The decimal expansion of a double is exact; its digits make a whole number of 2^-24 and below.
+    // Each part becomes a whole number in units of its last decimal. The decimal expansion is exact for multiples of 2^-24.
     let scaled = |part: f64| format!("{part:.DECIMALS$}").replace('.', "").parse::<i128>().unwrap_or_default();
     let sum = scaled(x[0]) + scaled(x[1]);
     let (sign, digits) =

@@ -118,8 +118,8 @@ impl PulsarScene {
         self.residual_error(t).max(of_motion) + ROUNDINGS * f64::EPSILON / 2.0 * t.abs()
     }
 
-    /// The pulses nearest to given epochs, and their fit of F0 and a number of derivatives. Epochs in turns without a pulse
-    /// have none.
+    /// The pulses nearest to given epochs, and the fit of F0 and a number of derivatives to them. An epoch in a turn
+    /// without a pulse has none.
     ///
     /// # Errors
     /// [`Refusal::Input`] if there is no pulse at any epoch (with the closest approach); [`Refusal::Model`] as for [`PulsarClock::pulse_near`] and
@@ -141,7 +141,7 @@ impl PulsarScene {
             return Err(no_pulse::no_pulse(self, epochs));
         }
         let middle = epochs.iter().map(|at| at.day() as f64).sum::<f64>() / epochs.len() as f64;
-        // It may be later than the latest date that can be written.
+        // The middle may be later than the latest date that can be written.
         let epoch = Epoch::new(0, 0.0)?.after([middle.round() * DAY, 0.0])?;
         let points: Vec<_> =
             pulses.iter().map(|timed| (timed.pulse.number, timed.arrival.seconds_since(&epoch))).collect();
@@ -202,7 +202,7 @@ mod tests {
         scene
     }
 
-    /// Its pulses nearest to given times (s) since the epoch.
+    /// The pulses of a scene nearest to given times (s) since the epoch.
     pub(super) fn timed(scene: &Scene, times: &[f64]) -> (PulsarScene, Timing) {
         let pulsar = PulsarScene::new(scene).unwrap();
         let epochs: Vec<_> = times.iter().map(|time| pulsar.epoch.after([*time, 0.0]).unwrap()).collect();

@@ -16,7 +16,7 @@ use crate::text_file::read_text;
 type Names = fn() -> Vec<&'static str>;
 
 pub(crate) struct FileFormat {
-    /// Its name in messages, with the article: `a scene`.
+    /// Name of the kind in messages, with the article: `a scene`.
     pub(crate) name: &'static str,
     /// The names of the built-in files of this kind and the command that lists them, if there are any.
     pub(crate) built_in: Option<(Names, &'static str)>,
@@ -180,7 +180,7 @@ impl<'a> Section<'a> {
         Fault { span: (!self.name.is_empty()).then(|| self.span.clone()), message: message.into() }
     }
 
-    /// Refuses the second key of a pair if the first is given too: both mean the same in two forms.
+    /// Refuses the second key of a pair if the first is given too: both are forms of one quantity.
     pub(crate) fn not_both(&self, pairs: &[(&str, &str)]) -> Result<(), Fault> {
         for (first, second) in pairs {
             if let (Some(_), Some(value)) = (self.find(first), self.find(second)) {

@@ -24,9 +24,9 @@ use super::rotation::{Rotation, WobbleAngles, rotation};
 pub struct Units {
     /// `t_c` in the unit of time.
     pub time: f64,
-    /// The model's unit of angular momentum in that of the output: `I^xx / t_c`, but for a factor that is one to `2.2e-16 / oblateness`.
+    /// The model's unit of angular momentum in that of the output: `I^xx / t_c` times a factor that is one to `2.2e-16 / oblateness`.
     pub momentum: f64,
-    /// The model's unit of energy in that of the output: `C`, but for the same factor.
+    /// The model's unit of energy in that of the output: `C` times the same factor.
     pub energy: f64,
     /// Name of the unit of time.
     pub time_name: &'static str,
@@ -53,7 +53,7 @@ impl Units {
 }
 
 pub(super) struct Star {
-    /// In units of `I^xx` and `C`, or near them.
+    /// The body in units in which `I^xx` and `C` are one, or nearly one.
     pub(super) spheroid: RigidSpheroid<f64>,
     /// `Omega^z` in 1/t_c.
     pub(super) spin: f64,
@@ -150,7 +150,7 @@ fn rigid_spheroid(oblateness: f64) -> RigidSpheroid<f64> {
     RigidSpheroid { inertia_xx, inertia_zz: inertia_xx + difference, constant_c: inertia_xx }
 }
 
-/// For a fluid it is `1 / (4 I^xx)`: `C_f` is half of the rotational energy.
+/// The coefficient `b` of the bulge in units of one over `I^xx`. For a fluid it is `1 / (4 I^xx)`: `C_f` is half of the rotational energy.
 fn bulge(entry: &Entry<'_>) -> Result<f64, Fault> {
     let allowed = "\"fluid\", or the size of the bulge over that of a fluid, from 0 to 10";
     let size = match entry.string() {
@@ -222,7 +222,7 @@ fn tensor(entry: &Entry<'_>) -> Result<Violation, Fault> {
     Ok(Violation { tensor, coefficients: frame.coefficients, principal_from_given: frame.principal_from_given })
 }
 
-/// Eq. (5) `[replace]`. The principal axis Z is along `w`; X and Y are arbitrary normals to it.
+/// The tensor of a preferred frame, Eq. (5) `[replace]`. The principal axis Z is along `w`; X and Y are arbitrary normals to it.
 fn preferred_frame(section: &Section<'_>) -> Result<Violation, Fault> {
     let alpha_2_entry = section.required("alpha_2", "the PPN parameter")?;
     let alpha_2 = alpha_2_entry.number()?;

@@ -73,7 +73,7 @@ pub struct Sexagesimal {
 }
 
 impl Sexagesimal {
-    /// From an integer, minutes and decimal seconds, in total at most `most` units of `degrees` degrees each.
+    /// Reads an integer, minutes and decimal seconds, in total at most `most` units of `degrees` degrees each.
     fn read(text: &str, most: f64, degrees: f64) -> Option<Self> {
         let above = text.strip_prefix('+').unwrap_or(text);
         let (sign, size) = text.strip_prefix('-').map_or((1.0, above), |below| (-1.0, below));
@@ -154,7 +154,7 @@ pub(super) fn read_pulsar(section: &Section<'_>) -> Result<Pulsar, Fault> {
     })
 }
 
-/// The name in files for timing programs of a pulsar without a name.
+/// The name that files for timing programs give to a pulsar without a name.
 pub(crate) const NAMELESS: &str = "PULSAR";
 
 pub(super) fn read_catalogued(section: &Section<'_>) -> Result<Option<Catalogued>, Fault> {

@@ -14,7 +14,7 @@ pub(super) struct WobbleAngles {
 }
 
 impl WobbleAngles {
-    /// From `initial.wobble` and `pulsar.chi`.
+    /// Reads the angles from `initial.wobble` and `pulsar.chi`.
     pub(super) fn read(document: &Section<'_>) -> Result<Self, Fault> {
         let angle = |section: &str, key: &str| {
             let entry = document.section(section)?.and_then(|section| section.optional(key));

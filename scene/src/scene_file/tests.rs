@@ -61,7 +61,7 @@ fn assert_refused(base: &str, lines: &[&str], why: &str) {
     }
 }
 
-/// Both ends are accepted; the numbers beyond, which follow them, are refused.
+/// Both ends of a range are accepted; the next numbers, which are beyond them, are refused.
 fn assert_range(base: &str, others: &[&str], key: &str, ends: [&str; 2], beyond: [&str; 2]) {
     let line = |value| format!("{key} = {value}");
     for end in ends.map(line) {
@@ -381,7 +381,8 @@ fn a_braking_law_is_taken_up_to_the_ends_of_its_ranges() {
     assert!(law(1.49e-23).is_ok() && law(-1.49e-23).is_ok() && law(1.51e-23).is_err() && law(-1.51e-23).is_err());
 }
 
-/// However small it is; of 1.5e-15 a rounded `I^zz / I^xx` would leave one digit. `C t_c^2 = I^xx` in the units of the output as well.
+/// The oblateness keeps its digits however small it is; of 1.5e-15 a rounded `I^zz / I^xx` would leave one digit. `C t_c^2 = I^xx` in the units of the output
+/// as well.
 #[test]
 fn the_oblateness_has_all_its_digits() {
     for oblateness in [0.7, 0.1, 3.1e-5, 1.234_567_8e-9, 7e-13, 1.5e-15] {

@@ -25,7 +25,7 @@ const CHUNKS_PER_THREAD: usize = 8;
 pub enum Done {
     /// All scenes are in the table.
     All,
-    /// It was stopped, and the table is incomplete.
+    /// The computation was stopped, and the table is incomplete.
     Stopped,
 }
 

@@ -37,7 +37,7 @@ use parameters::Parameters;
 /// Largest number of scenes of a sweep: their numbers are exact as doubles.
 pub const MOST_SCENES: u64 = 1_000_000_000_000_000;
 
-/// Largest number of columns of its table.
+/// Largest number of columns of the table of a sweep.
 const MOST_COLUMNS: usize = 10_000;
 
 /// Name of the first column: the number of the scene, from zero.
@@ -90,7 +90,7 @@ impl Sweep<'_> {
     /// The scene with this number.
     ///
     /// # Errors
-    /// No star is like this: the reason that the table of errors gives.
+    /// The numbers do not describe a possible scene; the error is the reason that the table of errors gives.
     pub fn scene(&self, number: u64) -> Result<Scene, String> {
         self.scene_with(&self.parameters.of_scene(number))
     }

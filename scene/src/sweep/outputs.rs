@@ -45,7 +45,7 @@ impl Summary {
     pub(super) const ALL: [(&'static str, Self); 3] =
         [("lambda", Self::Lambda), ("pulses", Self::Pulses), ("slow_precession", Self::SlowPrecession)];
 
-    /// The output from which it is computed, in addition to the initial values.
+    /// The output from which the summary is computed, in addition to the initial values.
     pub(super) fn output(self) -> Option<Output> {
         match self {
             Self::Lambda => Some(Output::SpinAxisAngle),
@@ -221,7 +221,7 @@ fn count_pulses(scene: &Scene) -> Result<f64, String> {
 }
 
 /// Number of the principal axis that L circles, one for that of the largest eigenvalue and three for that of the smallest, and
-/// the rate about the end at which L is; NaN on a separatrix.
+/// the rate, counted about the end of the axis that is nearer to L; NaN on a separatrix.
 fn slow_precession_of(scene: &Scene) -> [f64; 2] {
     let problem = &scene.problem;
     let found = principal_frame(problem.coefficients()).and_then(|frame| {

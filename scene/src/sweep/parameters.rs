@@ -90,7 +90,7 @@ fn grid_point(from: f64, to: f64, logarithmic: bool, i: u64, last: u64) -> f64 {
 }
 
 impl Law {
-    /// A function of its arguments alone: the keystream is read from the position of the scene.
+    /// The number drawn for a scene. It depends on the arguments alone: the keystream is read from the position of the scene.
     fn draw(self, seed: u64, stream: u64, scene: u64) -> f64 {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&seed.to_le_bytes());

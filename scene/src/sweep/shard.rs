@@ -11,7 +11,7 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// Everything.
+    /// The whole sweep.
     pub const WHOLE: Self = Self { part: 1, parts: 1 };
 
     /// The scenes of this part out of `count`: consecutive, so that the concatenated tables of the parts are the whole one.

@@ -34,7 +34,7 @@ pub(super) struct SpinAxisAngle {
 }
 
 impl SpinAxisAngle {
-    /// For the unit vector `direction` and a motion that rotates at most at `turning_rate`.
+    /// Starts to follow the angle to the unit vector `direction`, along a motion that rotates at most at `turning_rate`.
     pub(super) fn new(spheroid: RigidSpheroid<f64>, direction: Vector3<f64>, turning_rate: f64) -> Self {
         let nodes = GaussLegendre::new(NODES).iter().copied().collect();
         let least = f64::INFINITY;

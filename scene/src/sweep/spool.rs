@@ -27,7 +27,7 @@ pub struct SpoolFiles {
 pub enum SpoolError {
     /// The existing part belongs to something else, described here.
     Different(String),
-    /// Another process is writing it.
+    /// Another process is writing the table.
     InUse,
     /// A file cannot be read or written.
     File(PathBuf, io::Error),
@@ -63,7 +63,7 @@ impl SpoolFiles {
         Self { rows: with(".partial"), errors: with(".partial.errors"), journal: with(".partial.journal") }
     }
 
-    /// How many scenes failed of a table with the given identity that was complete and about to be renamed, if there is one.
+    /// Number of scenes that failed in a table with the given identity that was complete and about to be renamed; `None` if there is no such table.
     pub fn complete(&self, identity: &Identity) -> Option<u64> {
         let journal = Journal::read(File::open(&self.journal).ok()?).ok()?;
         let is_ours = journal.complete && journal.identity.as_ref() == Some(identity.facts());
@@ -207,13 +207,13 @@ impl Spool {
         Ok(())
     }
 
-    /// Gives a complete CSV table its name `out`, after that of the errors, so that the presence of the table means that
-    /// everything is there.
+    /// Gives a complete CSV table its name `out`, after the table of errors has its name, so that the presence of the
+    /// table means that everything is there.
     ///
     /// # Errors
     /// A file that cannot be written, or exists and may not be `replaced`.
     pub fn give_names(&mut self, out: &Path, replaced: bool) -> Result<(), SpoolError> {
-        // Before the errors have their name: a table that cannot have its own leaves none beside a foreign one.
+        // This comes before the errors get their name: a table that cannot have its own name leaves no errors beside a foreign table.
         free(out, replaced)?;
         self.name_errors(out, replaced)?;
         free(out, replaced)?;
@@ -286,7 +286,7 @@ fn intact_prefixes(mut file: &File, prefixes: &[Prefix]) -> io::Result<usize> {
     Ok(prefixes.len())
 }
 
-/// Whether the file `part` has the bytes with which `whole` begins, as a copy has that was interrupted.
+/// Whether the bytes of the file `part` are those with which `whole` begins, as in an interrupted copy.
 pub fn is_beginning_of(part: &Path, whole: &Path) -> bool {
     let same = || -> io::Result<bool> {
         let (mut part, mut whole) = (BufReader::new(File::open(part)?), BufReader::new(File::open(whole)?));

@@ -202,7 +202,7 @@ pub(super) mod tests {
         scene
     }
 
-    /// Its motion, and one of its beams, at `chi`.
+    /// The motion of that star, and one of its beams, at `chi`.
     pub(in super::super) fn segment(chi: f64, rho: f64, sense: f64) -> (Source, Segment<BodyState<f64>>) {
         let scene = scene(sense);
         let plan = scene.plan(&[Output::Pulses]).unwrap();
@@ -216,7 +216,7 @@ pub(super) mod tests {
         ((rho.cos() - chi.cos() * THETA_O.cos()) / (chi.sin() * THETA_O.sin())).acos() / TAU
     }
 
-    /// Opposite to the observer is half a turn later.
+    /// The magnetic axis is opposite to the observer half a turn later.
     #[test]
     fn the_axis_is_clear_off_the_edges_and_off_half_a_turn() {
         let (chi, rho) = (0.6, 0.5);

@@ -113,8 +113,8 @@ pub(super) fn write_by_segments(
 }
 
 /// A time near the end of the segment at which every source is clear: with a cut there, rounding cannot split a pulse or
-/// count a pulse or a turn twice. If turns are nowhere clear, as for a beam along the axis of rotation, they are left to
-/// rounding.
+/// count a pulse or a turn twice. If the count of turns is nowhere clear, as for a beam along the axis of rotation, it
+/// is left to rounding.
 fn cut(scene: &Scene, segment: &Segment<BodyState<f64>>, sources: &[Source]) -> Result<f64, Error> {
     const TRIES: usize = 1000;
     const ROTATION_PER_TRY: f64 = 0.35;
@@ -181,8 +181,8 @@ mod tests {
     use super::*;
     use crate::scene_file::{Pulsar, Viewer};
 
-    /// A third of a radian before an end at which the magnetic axis is on the edge of the beam, or opposite to the observer; at the middle of a
-    /// shorter segment.
+    /// The cut is a third of a radian before an end at which the magnetic axis is on the edge of the beam, or opposite to the observer; in a
+    /// shorter segment it is at the middle.
     #[test]
     fn a_segment_is_cut_where_every_beam_is_clear() {
         for sense in [1.0, -1.0] {

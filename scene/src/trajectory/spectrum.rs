@@ -95,7 +95,7 @@ pub fn write_lines(
     })
 }
 
-/// The value of a column in a state of the motion, and the size of the quantity that it is a component of.
+/// The value of a column in a state of the motion, and the size of the quantity of which the value is a component.
 fn value_and_size(scene: &Scene, column: &Column, state: &BodyState<f64>) -> Result<[f64; 2], TrajectoryError> {
     let mut sample = Sample::new(0.0, SampledState::Orientation(*state));
     if column.group == Output::EulerAngles {
@@ -119,8 +119,8 @@ mod tests {
         summary.fundamental.iter().map(|frequency| frequency.symbol).collect()
     }
 
-    /// For a free star `L` stays fixed. A star that starts at rest circles nothing and does not rotate about its axis on average: the angles of the
-    /// torus move.
+    /// For a free star `L` stays fixed. For a star that starts at rest no axis is circled and there is no mean rotation about the symmetry axis:
+    /// only the angles of the torus move.
     #[test]
     fn frequencies_are_told_that_are_not_zero() {
         assert_eq!(symbols(&Scene::named("free").unwrap()), ["alpha'", "gamma'", "nu'", "psi'"]);

@@ -25,14 +25,14 @@ pub struct Arrival {
     pub closest_approach: f64,
 }
 
-/// The whole pulses of a train, with the motion, beam and line of sight (a unit vector in the frame of the motion) that it
-/// was computed from. Pulses cut off by the span are left out.
+/// The whole pulses of a train, with their numbers and times. Motion, beam and line of sight (a unit vector in the frame
+/// of the motion) must be those from which the train was computed. Pulses cut off by the span are left out.
 ///
-/// The number counts the turns of the magnetic axis about the angular momentum, relative to the line of sight, so that it stays
-/// correct where a beam misses some turns. (The turns are about L rather than Z because the azimuth about Z counts turns only
-/// while the path of `m` encircles Z. In single precession it need not, and in twofold precession it may occasionally miss Z in
-/// a turn; it always encircles L. Where it encircles both, the counts are the same.) Numbers increase with time, whatever the
-/// sense of rotation about Z.
+/// The number of a pulse counts the turns of the magnetic axis about the angular momentum, relative to the line of sight, so
+/// that it stays correct where a beam misses some turns. (The turns are about L rather than Z because the azimuth about Z
+/// counts turns only while the path of `m` encircles Z. In single precession it need not, and in twofold precession it may
+/// occasionally miss Z in a turn; it always encircles L. Where the path encircles both, the counts are the same.) Numbers
+/// increase with time, whatever the sense of rotation about Z.
 ///
 /// For a motion under [another law](crate::propagation::Turning::Given) the turns about the `L` of its states are counted. `L` must rotate with
 /// the body, as the angular momentum of a body rotates with `Omega`.
@@ -42,8 +42,8 @@ pub struct Arrival {
 /// approach is more than half a turn from that of the line of sight, possible only where the star precesses as fast as it
 /// rotates, is numbered with the nearer turn.
 ///
-/// The closest approach is a root of the rate of `m.n`. Its error is that of the rate divided by its slope: about 1e-16 over
-/// the rotation rate where the maximum is sharp. If a pulse has several maxima, the highest one is used.
+/// The closest approach is a root of the rate of `m.n`. Its error is the error of the rate divided by the slope of the rate:
+/// about 1e-16 over the rotation rate where the maximum is sharp. If a pulse has several maxima, the highest one is used.
 ///
 /// # Errors
 /// [`Error::Domain`] for a train outside the span of the motion, a line of sight or a magnetic axis that lies along L, a motion that is
@@ -201,7 +201,7 @@ mod tests {
         assert!(looks < 2500, "{looks}");
     }
 
-    /// So late that consecutive doubles are a seventh of a radian apart, and the midpoint of two of them is one of them.
+    /// These times are so late that consecutive doubles are a seventh of a radian apart, and the midpoint of two of them is one of them.
     #[test]
     fn late_maxima_are_found_to_the_spacing_of_times() {
         let start = 2_f64.powi(52);

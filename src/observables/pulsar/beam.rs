@@ -56,7 +56,8 @@ impl<S: Scalar> Beam<S> {
         self.direction(state).dot(line_of_sight) - edge
     }
 
-    /// The [`margin`](Self::margin) and its first three time derivatives, for a spheroid under the tensor `s^IJ`, with a [`bulge`](crate::dynamics::bulge) of that coefficient or zero.
+    /// The [`margin`](Self::margin) and its first three time derivatives, for a spheroid under the tensor `s^IJ`. `bulge` is the coefficient of its
+    /// [`bulge`](crate::dynamics::bulge), zero if it has none.
     ///
     /// ```text
     /// dm/dt = Omega x m,   d2m/dt2 = Omega' x m + Omega x dm/dt,   d3m/dt3 = Omega'' x m + 2 Omega' x dm/dt + Omega x d2m/dt2,

@@ -1,4 +1,4 @@
-//! A pulsar as a clock: its pulse near any time, with turns counted continuously over any number of them. Eqs. (44), (47).
+//! A pulsar as a clock: its pulse near any time, with turns counted continuously however many there are. Eqs. (44), (47).
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -24,8 +24,8 @@ use crate::observables::spectrum::QuasiPeriodicMotion;
 use crate::propagation::{Motion, PhasedMotion, Turning, largest_torque};
 use crate::spin_down::{Braking, Precession, StretchedTime};
 
-/// Largest `x = C |s| I^xx / |L|^2` for a torque that depends on the magnetic axis: its two harmonics are those of free precession with the initial
-/// angles, which are accurate to `x`.
+/// Largest `x = C |s| I^xx / |L|^2` allowed for a torque that depends on the magnetic axis. The two harmonics of the torque are computed for free
+/// precession with the initial angles, which is accurate to `x`.
 const STRONGEST: f64 = 1e-3;
 
 /// Largest rotation of the body in one turn about L (rad); the search then takes a tenth of a second.
@@ -65,8 +65,8 @@ pub struct PulsarClock {
 /// A pulse of a [`PulsarClock`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClockPulse {
-    /// Turn that it belongs to, counted for the magnetic axis about the angular momentum, relative to the line of sight; zero for the
-    /// turn nearest to the time zero.
+    /// Number of the turn to which the pulse belongs. The turns are those of the magnetic axis about the angular momentum, relative
+    /// to the line of sight; the turn nearest to the time zero has the number zero.
     pub number: i64,
     /// Midpoint between the edges, as the unevaluated sum of two doubles, with 32 digits.
     pub midpoint: [f64; 2],
@@ -124,11 +124,11 @@ impl Motion<f64> for Near<'_> {
 }
 
 impl PulsarClock {
-    /// A pulsar clock on a motion. The `observer` is in the same inertial frame.
+    /// The clock of a pulsar with this motion. The `observer` is given in the inertial frame of the motion.
     ///
     /// # Errors
-    /// [`Error::Domain`] as for [`pulse_train`](super::pulse_train), if the line of sight or the magnetic axis comes along L, about which turns are
-    /// counted, and for a body that turns by more than 1e5 rad in one such turn.
+    /// [`Error::Domain`] as for [`pulse_train`](super::pulse_train), if the line of sight or the magnetic axis comes to lie along L, about which
+    /// turns are counted, and for a body that turns by more than 1e5 rad in one such turn.
     pub fn new(motion: PhasedMotion, beam: &Beam<f64>, observer: &Observer<f64>) -> Result<Self, Error> {
         check_beam(beam, &observer.direction)?;
         let turns = TurnCount::new(&motion, beam, &observer.direction)?;
@@ -185,8 +185,8 @@ impl PulsarClock {
     }
 
     /// The star as a [`TimingModel`], which has free precession and a line of sight whose angle to `L` changes linearly. It is accurate to
-    /// `x = C |s| I^xx / |L|^2` in angles, over times in which `L` turns by a small angle. Where `n` is more than a right angle from `L`, as of a star
-    /// of negative spin, the angles of the model are those from `-n`.
+    /// `x = C |s| I^xx / |L|^2` in angles, over times in which `L` turns by a small angle. Where `n` is more than a right angle from `L`, as for a
+    /// star of negative spin, the angles of the model are counted from `-n`.
     ///
     /// # Errors
     /// As for [`TimingModel::new`] and [`precession_rates`](Self::precession_rates).
@@ -255,16 +255,16 @@ impl PulsarClock {
         &self.time
     }
 
-    /// Mean time between two pulses; for a star that slows down, at the time zero. It is positive because turns are counted
-    /// about `L`.
+    /// Mean time between two pulses; for a star that slows down, its value at the time zero. It is positive because turns
+    /// are counted about `L`.
     pub fn period(&self) -> f64 {
         TAU / self.turns.rate(&self.motion)
     }
 
     /// Error of a midpoint at the time `t` because of effects that the motion neglects: the error of directions over the rotation rate. For a star
     /// that slows down it includes the truncation of the stretched time, the effect of angle errors of `C |s| I^xx / |L|^2` on the timing delay due
-    /// to the torque modulation, and the effect on the precession of `L` of a `C` that does not fall. For a damped wobble it includes the change of
-    /// the rates due to `C`.
+    /// to the torque modulation, and the effect of treating `C` as constant on the precession of `L`. For a damped wobble it includes the change,
+    /// with the wobble, of the rates due to `C`.
     pub fn truncation(&self, t: f64) -> f64 {
         let of_motion = self.motion.truncation(t) / self.turns.rate(&self.motion);
         if self.time.is_uniform() && self.time.precession().damping == 0.0 {
@@ -273,8 +273,8 @@ impl PulsarClock {
         let state = self.motion.problem.initial();
         let precession = self.strength() * state.momentum.norm() / self.motion.problem.spheroid().inertia_xx;
         let slowed = self.time.braking().rate * t * t;
-        // The rates due to a rigid C vary with the square of the wobble: that of L by 3 / 2 of it, that about n by less than 3 / 2. The tilt is that
-        // of a wobble accurate to the strength.
+        // The rates due to a rigid C vary with the square of the wobble: that of L by 3 / 2 of it, that about n by less than 3 / 2. The error of the
+        // tilt is that of a wobble accurate to the strength.
         let wobble = self.time.precession().wobble;
         let now = self.time.precession().wobble_at(t);
         let damped = 3.0 * (now.sin().powi(2) - wobble.sin().powi(2)) * t;
@@ -290,7 +290,7 @@ impl PulsarClock {
         torque * problem.spheroid().inertia_xx / problem.initial().momentum.norm_squared()
     }
 
-    /// The state as a function of the time since `t[0] + t[1]`, in the frame of the initial one.
+    /// Returns the state as a function of the time since `t[0] + t[1]`, in the frame of the initial state.
     ///
     /// # Errors
     /// The function returns the errors of [`StretchedTime::stretched_at`].
@@ -345,8 +345,8 @@ impl PulsarClock {
     /// depend on `t`.
     ///
     /// A pulse is an interval of time with `m.n > cos rho`. The search takes derivatives and their bounds from the exact equations of motion; those
-    /// of an averaged motion differ by `x^2`, `x = C |s| I^xx / |L|^2`, like the averaged motion itself. For `x` below 1e-6, and for exact motion,
-    /// edges are as accurate as those of [`pulse_train`](super::pulse_train), otherwise to some `1e-4 x^2` rad.
+    /// of an averaged motion differ by `x^2`, with `x = C |s| I^xx / |L|^2`, as the averaged motion itself does. For `x` below 1e-6, and for exact
+    /// motion, edges are as accurate as those of [`pulse_train`](super::pulse_train), otherwise to some `1e-4 x^2` rad.
     ///
     /// # Errors
     /// [`Error::Domain`] for times that are not finite, after 4e18 turns, and as for [`StretchedTime::stretched_at`].
@@ -417,7 +417,7 @@ impl PulsarClock {
         let (mut t, mut swing) = (pulse.start, 0.0);
         let (mut angle, mut distance) = look(t);
         while t < pulse.end && !f64::is_nan(swing) {
-            // The friction of a star that is damped may add a tenth to the rate.
+            // Friction that damps the wobble may add a tenth to the rate.
             t = pulse.end.min(t + (0.8 * distance).max(NEAREST) / self.bounds.first);
             let next = look(t);
             swing += wrapped(next.0 - angle);
@@ -461,7 +461,7 @@ fn nearest(train: &PulseTrain, time: f64) -> Option<Pulse> {
     train.pulses.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).copied()
 }
 
-/// A precession with the end of the symmetry axis that is nearer to `L` for `n`: the same star, with angles about `n` of the other sign.
+/// The same precession with the end of the symmetry axis that is nearer to `L` as `n`: angles about `n` have the opposite sign.
 fn about_nearer_end(precession: &Precession) -> Precession {
     let Precession { wobble, chi, phase, rate, damping, .. } = *precession;
     if wobble > FRAC_PI_2 { Precession::new([PI - wobble, PI - chi, -phase], -rate, damping) } else { *precession }
@@ -587,8 +587,8 @@ mod tests {
         assert!(compared > 3, "{compared}");
     }
 
-    /// As for the motion; for a star that is braked, whose wobble is damped or excited, or both, the terms are written out with the numbers of this
-    /// star.
+    /// The truncation is that of the motion; for a star that is braked, whose wobble is damped or excited, or both, the terms are written out with
+    /// the numbers of this star.
     #[test]
     fn what_a_clock_leaves_out() {
         let strength = 5e-4;
@@ -623,7 +623,7 @@ mod tests {
         assert_eq!(near.error_estimate(5.0), undisturbed.motion.error_estimate(1005.0));
     }
 
-    /// In averaged motion and on the torus, about either pole of any axis, with their signs.
+    /// The rates are compared with their signs, in averaged motion and on the torus, about either pole of any axis.
     #[test]
     fn rates_of_both_precessions_are_those_of_any_motion() {
         let base = precessing(5e-4).motion.problem;

@@ -12,7 +12,7 @@ pub(super) trait Margin {
     /// The margin with its first three time derivatives at the time `t`.
     fn at(&self, t: f64) -> Result<[f64; 4], Error>;
 
-    /// The latest time in `(after, t]` at which it is cheaper to evaluate, or `t`.
+    /// The latest time in `(after, t]` at which the margin is cheaper to evaluate than at `t`; `t` if there is none.
     fn cheapest_time(&self, after: f64, t: f64) -> f64;
 
     /// Whether the derivatives come from a law stated by the motion, so that the values may be inconsistent with them.
@@ -148,7 +148,7 @@ pub(super) mod tests {
         }
     }
 
-    /// The same with the bounds that follow from the amplitudes and frequencies.
+    /// A search for `waves`, with the bounds that follow from the amplitudes and frequencies.
     pub(in crate::observables::pulsar) fn search_of(
         of: Vec<[f64; 3]>,
         edge: f64,

@@ -88,8 +88,8 @@ pub fn rotating_vector_point<S: Scalar>(theta: S, phi: S, theta_o: S, phi_o: S) 
 /// tan psi = -sin Theta sin(Phi - phi_o) / [cos Theta sin theta_o - sin Theta cos theta_o cos(Phi - phi_o)]
 /// ```
 ///
-/// For a star that spins about Z, `Theta = chi` and `theta_o = zeta`: minus the angle of Radhakrishnan and Cooke (1969). For a
-/// precessing one, `Theta` and `Phi` are those of Eq. (49) `[tranang]`.
+/// For a star that spins about Z, `Theta = chi` and `theta_o = zeta`, and `psi` is minus the angle of Radhakrishnan and Cooke
+/// (1969). For a precessing star, `Theta` and `Phi` are those of Eq. (49) `[tranang]`.
 ///
 /// # Errors
 /// As for [`position_angle`].

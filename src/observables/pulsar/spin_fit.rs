@@ -98,8 +98,9 @@ impl SpinFit {
         self.frequency[0] + time * (rate + time * second / 2.0)
     }
 
-    /// The contribution of `turns`, by which pulses are late, to the residuals: after another fit of phase, frequency and `derivatives` derivatives to
-    /// them, over the frequency of this fit at each time. For as many of them as times, and more different times than fitted parameters.
+    /// The contribution to the residuals (a time) if the pulses at `times` are late by `turns`: phase, frequency and `derivatives` derivatives are
+    /// fitted to `turns` and subtracted, and the rest is divided by the frequency of this fit at each time. There must be as many `turns` as `times`,
+    /// and more distinct times than fitted parameters.
     pub fn residuals_of_turns(&self, times: &[f64], turns: Vec<f64>, derivatives: usize) -> Vec<f64> {
         let unit = times.iter().fold(0.0_f64, |largest, time| largest.max(time.abs()));
         let scaled: Vec<_> = times.iter().map(|time| time / unit).collect();
@@ -108,8 +109,9 @@ impl SpinFit {
     }
 
     /// The time at which the fit has the phase `number`, as the unevaluated sum of two doubles, by Newton's method from the root
-    /// `2 n / (F0 + sqrt(F0^2 + 2 F1 n))` of the quadratic equation, `n` counted from the phase at the time zero. NaN if that equation has
-    /// no root, or if `F2` changes the phase so much by then that the method does not converge in five steps; for a pulsar neither happens.
+    /// `2 n / (F0 + sqrt(F0^2 + 2 F1 n))` of the quadratic equation, with `n` counted from the phase at the time zero. NaN if that equation
+    /// has no root, or if `F2` changes the phase so much by then that the method does not converge in five steps; for a pulsar neither
+    /// happens.
     pub fn time_of(&self, number: i64) -> [f64; 2] {
         let wanted = (DoubleDouble::from(number as f64) - self.phase.into()) * 2.0;
         let frequency = DoubleDouble::from(self.frequency);
@@ -137,8 +139,8 @@ impl SpinFit {
 /// Number of Newton steps, each of which squares the error: from a thousandth to 32 digits in four.
 const NEWTON_STEPS: usize = 5;
 
-/// The mean of the times, the polynomial of a degree of at most 3 fitted to values at them, by powers of the time since the mean, and what it leaves of
-/// the values.
+/// Fits a polynomial of a degree of at most 3 to values at given times. Returns the mean of the times, the coefficients by powers of the time since
+/// that mean, and the residuals.
 fn without_polynomial(times: &[f64], values: Vec<f64>, degree: usize) -> (f64, [f64; 4], Vec<f64>) {
     let middle = times.iter().sum::<f64>() / times.len() as f64;
     let u: Vec<_> = times.iter().map(|time| time - middle).collect();

@@ -60,8 +60,8 @@ pub(super) struct Look {
 }
 
 impl TurnCount {
-    /// The windings are determined along paths at [`MESH`] positions. For a line of sight just inside the ring that `L` covers, by some hundredths of
-    /// its width, they may be missed.
+    /// The windings are determined along paths at [`MESH`] positions. For a line of sight inside the ring that `L` covers, but within some hundredths
+    /// of its width from the edge, windings may be missed.
     pub(super) fn new(motion: &PhasedMotion, beam: &Beam<f64>, line_of_sight: &Vector3<f64>) -> Result<Self, Error> {
         let start = motion.turns([0.0; 2]);
         let mut count = Self { beam: *beam, line_of_sight: *line_of_sight, start, windings: [0; 3] };
@@ -116,7 +116,7 @@ impl TurnCount {
         self.windings.iter().zip(motion.rates()).map(|(turns, rate)| *turns as f64 * rate).sum()
     }
 
-    /// The same in turns, to 32 digits where the rates are known to that precision.
+    /// The mean rotation rate in turns per unit of time, to 32 digits where the rates are known to that precision.
     pub(super) fn per_time(&self, motion: &PhasedMotion) -> DoubleDouble {
         let rates = self.windings.iter().zip(motion.turns_per_time());
         rates.fold(DoubleDouble::default(), |sum, (turns, rate)| sum + rate * (*turns as f64))

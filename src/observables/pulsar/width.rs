@@ -69,7 +69,8 @@ pub fn edge_azimuths<S: Scalar>(phi_o: S, width: S) -> (S, S) {
 mod tests {
     use super::*;
 
-    /// From 1 rad to 1.5 rad it is exactly 0.5 rad, the radius of the beam: touched, not seen. A little more radius is a narrow pulse.
+    /// From 1 rad to 1.5 rad the distance is exactly 0.5 rad, the radius of the beam, which touches the line of sight without a pulse. A slightly larger radius
+    /// gives a narrow pulse.
     #[test]
     fn a_beam_that_only_touches_the_line_of_sight_has_no_pulse() {
         for (theta, theta_o) in [(1.0, 1.5), (1.5, 1.0)] {

@@ -37,18 +37,19 @@ pub struct FundamentalFrequency {
 
 /// Mean rates of the angles of a motion, and a set of independent ones.
 ///
-/// A continuous angle of the state on the torus has an integer winding number with respect to each angle of the torus; its mean rate is the same
-/// integer combination of their rates. The angles, about the principal axis of `s^IJ` that the averaged `L` circles (Z for a free motion), are:
+/// A continuous angle of the state on the torus has an integer winding number with respect to each angle of the torus; with these integers as
+/// coefficients, its mean rate is a sum of the rates of the angles of the torus. The angles, about the principal axis of `s^IJ` that the
+/// averaged `L` circles (Z for a free motion), are:
 ///
 /// * `alpha'`, `gamma'`: the Euler angles `alpha` and `gamma`. They have no mean rate if `n` comes arbitrarily close to a pole of the axis.
-/// * `l'`: the azimuth of `L` averaged over the fast rotation, the slow precession. Neither it nor `nu'` is defined if that `L` passes zero, as after
-///   a start from rest.
+/// * `l'`: the azimuth of `L` averaged over the fast rotation, the slow precession. Neither `l'` nor `nu'` is defined if the averaged `L` passes
+///   zero, as after a start from rest.
 /// * `nu'`: the rotation of the fast part of `n` about the averaged `L`, from the plane of `L` and the axis: the nutation.
 /// * `psi'`: the rotation of `e_x` about `n`, from the direction in which that part of `n` moves, or from a fixed direction if there is no
 ///   such part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FundamentalFrequencies {
-    /// The axis.
+    /// The principal axis of `s^IJ` to which the angles refer; Z for a free motion.
     pub pole: Vector3<f64>,
     /// All fundamental frequencies.
     pub all: Vec<FundamentalFrequency>,
@@ -100,7 +101,7 @@ impl FundamentalFrequencies {
         Self { pole: *pole, all, basis }
     }
 
-    /// The rate of one of them (rad per unit of time), if the motion has it.
+    /// The rate of the fundamental frequency with this symbol (rad per unit of time), if the motion has it.
     pub fn rate(&self, symbol: &str) -> Option<f64> {
         self.all.iter().find(|found| found.symbol == symbol).map(|found| found.rate)
     }
@@ -303,7 +304,7 @@ mod tests {
         leaning(tilt, 0.0, opening, more)
     }
 
-    /// The same with a cone of `n` whose axis leans away from `L`.
+    /// As `turning`, but with a cone of `n` whose axis leans away from `L`.
     fn leaning(tilt: f64, lean: f64, opening: f64, more: [f64; 2]) -> impl Fn([f64; 3]) -> BodyState<f64> {
         let about_y = |angle| Rotation3::from_axis_angle(&Vector3::y_axis(), angle);
         let about_z = |turns: f64| Rotation3::from_axis_angle(&Vector3::z_axis(), TAU * turns);

@@ -18,7 +18,8 @@ const MOST_POINTS: usize = 1 << 18;
 /// Coefficients at the edge of the grid must be below this fraction of the least amplitude.
 const EDGE: f64 = 0.1;
 
-/// Noise is below this fraction of the size of the function, and doubling the points in the angle, twice, leaves more than [`UNCHANGED`] of it.
+/// Coefficients at the edge are noise if they are below this fraction of the size of the function, and if doubling the points in the angle has twice left more
+/// than [`UNCHANGED`] of them.
 const LARGEST_NOISE: f64 = 1e-10;
 const UNCHANGED: f64 = 0.7;
 
@@ -44,7 +45,7 @@ pub struct SpectralLine {
 }
 
 impl SpectralLine {
-    /// Its contribution to the function at a time since the start.
+    /// Contribution of the line to the function at the time `t` since the start.
     pub fn value(&self, t: f64) -> f64 {
         self.amplitude * (self.frequency * t + self.phase).cos()
     }
@@ -65,8 +66,9 @@ pub struct LineList {
 }
 
 impl QuasiPeriodicMotion {
-    /// The lines of a function of the state, down to the fraction `least` of the strongest one. The function returns two values: its own, and the
-    /// size of the vector or quantity that it is a component of, such as `|L|` for a component of `L`, relative to which rounding is measured.
+    /// The lines of a function of the state, down to the fraction `least` of the strongest one. The function returns its value and the size of
+    /// the vector or quantity of which the value is a component, such as `|L|` for a component of `L`; rounding is measured relative to this
+    /// size.
     ///
     /// The function is sampled on a grid of the torus, which is refined by two in an angle until the coefficients at the edge of the grid are below
     /// the least amplitude or below noise; an angle on which the function does not depend has one point. Lines that are left out are below
@@ -83,7 +85,7 @@ impl QuasiPeriodicMotion {
         let at = |turns: [f64; 3]| function(&self.state_after_turns(turns));
         let still = self.still(&at)?;
         let mut counts: [usize; 3] = core::array::from_fn(|i| if still[i] { 1 } else { FIRST_GRID[i] });
-        // How often doubling the points in an angle has left its edge unchanged, and that edge.
+        // For each angle, how often in a row doubling its points has left the coefficients at the edge unchanged, and the largest of them.
         let mut before = [(0, f64::INFINITY); 3];
         loop {
             let (mut values, mut size) = (Vec::with_capacity(counts.iter().product()), 0.0_f64);

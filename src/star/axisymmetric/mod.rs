@@ -58,7 +58,7 @@ pub trait AxisymmetricBody<S> {
     /// Density at radius `r` and `mu = cos(theta)` in [0, 1], evaluated only inside the surface.
     fn density(&self, r: S, mu: S) -> S;
 
-    /// Radius `r_s` of the surface at `mu` in [0, 1] and its slope `d r_s / d mu`: a monotonic function of `mu`.
+    /// Radius `r_s` of the surface at `mu` in [0, 1], a monotonic function of `mu`, and its slope `d r_s / d mu`.
     fn surface(&self, mu: S) -> (S, S);
 }
 
@@ -100,8 +100,8 @@ pub struct AxisymmetricIntegrals<S> {
     pub c: S,
     /// Estimated error of `c`: the part added by the extrapolation in the degree. It is larger than the remaining error for
     /// smooth densities and axis ratios from 0.4 to 3 at any degree. Flatter or longer stars need a degree of several times
-    /// that ratio (at 0.1 the estimate is 160 times too small at degree 4, twice at 16), and the error from a density jump in
-    /// the interior is not included.
+    /// the ratio of their longer to their shorter axis (at the axis ratio 0.1 the estimate is 160 times too small at degree
+    /// 4, and two times at 16). The error from a density jump in the interior is not included.
     pub c_error: f64,
 }
 

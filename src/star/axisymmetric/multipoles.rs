@@ -75,7 +75,7 @@ impl<S: Real> Multipoles<'_, S> {
         below
     }
 
-    /// The same in the shell, at `r = r_s(mu)`: the core and the part of the shell below `r`.
+    /// As `below_in_core`, in the shell at `r = r_s(mu)`: from the core and the part of the shell below `r`.
     fn below_in_shell(&self, mu: S, r: S, core: S, below_core: &[[S; 2]]) -> Vec<[S; 2]> {
         let ratio = core / r;
         let mut power = ratio * ratio * ratio;
@@ -105,7 +105,7 @@ fn add_below<S: Real>(below: &mut [[S; 2]], ratio: S, weight: S, moments: &[Mome
     }
 }
 
-/// Integrals over radius without their factors; those for `2 C` and for the trace by degree.
+/// Integrals over radius without their prefactors; those for `2 C` and for the trace are kept for each degree.
 struct Sum<S> {
     mass: S,
     moment_xx: S,

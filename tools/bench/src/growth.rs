@@ -11,7 +11,7 @@ use twofold::numerics::straight_line::{Slope, order};
 use twofold_verify::check::largest;
 use twofold_verify::double_double::DoubleDouble;
 
-/// A method over long spans, as it goes on from one segment to the next.
+/// A method for long spans, which continues from one segment to the next.
 #[derive(Clone, Copy)]
 pub struct LongMethod {
     /// Name.
@@ -20,10 +20,10 @@ pub struct LongMethod {
     pub advance: Advance,
 }
 
-/// From a state of a scene to the one after a duration.
+/// A function from a state of a scene to the state after a duration.
 pub type Advance = fn(&BenchScene, &AxisState<f64>, f64) -> Result<AxisState<f64>, String>;
 
-/// All methods; a further one takes a line.
+/// All methods; each takes one line.
 pub const METHODS: &[LongMethod] =
     &[LongMethod { name: "Taylor", advance: taylor }, LongMethod { name: "splitting", advance: splitting }];
 
@@ -47,9 +47,9 @@ pub struct Row {
     pub method: &'static str,
     /// The time (t_c).
     pub time: f64,
-    /// Largest change of the energy at the end of a segment so far, over the sum of the magnitudes of its terms.
+    /// Largest change of the energy at the ends of the segments so far, relative to the sum of the magnitudes of its terms.
     pub energy: f64,
-    /// The same of the third integral K.
+    /// The same for the third integral K.
     pub clebsch: f64,
     /// Largest error of a component of `n`: the phase.
     pub phase: f64,
@@ -58,13 +58,13 @@ pub struct Row {
 /// Reference states of tp-II: times and `n`.
 pub fn references() -> Vec<(f64, Vector3<DoubleDouble>)> {
     let rows = rows(include_str!("../data/long.csv")).into_iter();
-    // Each component is the sum of two doubles, which are what their decimals are nearest to.
+    // Each component is the sum of two doubles, each the double nearest to its decimals.
     let component = |v: &[DoubleDouble], i: usize| DoubleDouble::sum_of(v[i].high(), v[i + 1].high());
     let row = |v: Vec<DoubleDouble>| (v[0].high(), Vector3::new(component(&v, 1), component(&v, 3), component(&v, 5)));
     rows.map(|(_, v)| row(v)).collect()
 }
 
-/// Errors of every method along tp-II, at every power of ten from 100 t_c to the longest time; `done` hears which part is over.
+/// Errors of every method along tp-II, at every power of ten from 100 t_c to the longest time; `done` receives the fraction of the work that is over.
 pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, String> {
     let scene = BenchScene::named("tp-II");
     let start = integrals(&scene, &scene.problem.initial().axis_state());
@@ -106,7 +106,7 @@ fn scales(scene: &BenchScene) -> [f64; 2] {
     [l.dot(&l) / 2.0 + n.dot(&(s * n)), l.dot(&(s * l)) + 2.0 * n.dot(&(adjugate * n))]
 }
 
-/// The exponent `p` of `error ~ time^p` by least squares, from 1,000 t_c on: a random walk takes longer to show what it is.
+/// The exponent `p` of `error ~ time^p` by least squares, from 1,000 t_c on: a random walk shows its exponent only after some time.
 pub fn exponent(rows: &[Row], method: &str, error: impl Fn(&Row) -> f64) -> Option<Slope> {
     let of_this = rows.iter().filter(|row| row.method == method && row.time >= 1e3);
     order(&of_this.map(|row| (row.time, error(row))).collect::<Vec<_>>(), 0.0).ok()
@@ -121,15 +121,15 @@ mod tests {
     fn the_exponent_of_a_power_is_found() {
         let row = |time: f64| Row { method: "m", time, energy: 3e-16 * time.powf(0.5), clebsch: 1.0, phase: time };
         let mut rows: Vec<_> = [1e3, 1e4, 1e5].map(row).into();
-        // Before 1,000 t_c a walk has not shown what it is: this one would flatten both.
+        // Rows before 1,000 t_c are not used: this one would flatten both slopes.
         rows.insert(0, Row { energy: 1.0, phase: 1e5, ..row(1e2) });
         assert!((exponent(&rows, "m", |row| row.energy).expect("points").value - 0.5).abs() < 1e-12);
         assert!((exponent(&rows, "m", |row| row.phase).expect("points").value - 1.0).abs() < 1e-12);
         assert_eq!(exponent(&rows, "other", |row| row.phase), None);
     }
 
-    /// Every change is over the sum of the magnitudes of its terms, so that it is at least each of them, though s has eigenvalues of
-    /// either sign.
+    /// Changes are relative to the sum of the magnitudes of the terms. This sum is at least as large as each term, although s has
+    /// eigenvalues of either sign.
     #[test]
     fn scales_do_not_cancel() {
         for scene in BenchScene::all() {
@@ -146,7 +146,7 @@ mod tests {
         }
     }
 
-    /// The largest changes of the integrals so far do not become smaller. The longest time is among them.
+    /// The largest changes of the integrals so far do not decrease with time. The longest time has a row.
     #[test]
     fn changes_are_the_largest_so_far() {
         let rows = measure(&Effort { rounds: 1, longest: 1e4 }, |_| ()).expect("motions");

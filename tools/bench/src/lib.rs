@@ -16,7 +16,7 @@ pub mod work_precision;
 /// How much is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
-    /// Times that each case is run, in turn with the others.
+    /// Number of times that each case is run, in turn with the others.
     pub rounds: usize,
     /// Longest motion whose error growth is measured (t_c).
     pub longest: f64,

@@ -13,12 +13,12 @@ use super::runge_kutta;
 use super::scene::BenchScene;
 use twofold_verify::double_double::DoubleDouble;
 
-/// What a method carries along.
+/// The vectors that a method computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Carries {
     /// Symmetry axis and angular momentum.
     Axis,
-    /// The third angle as well.
+    /// The equatorial axis, and so the third angle, as well.
     Orientation,
 }
 
@@ -36,7 +36,7 @@ impl fmt::Display for Carries {
     }
 }
 
-/// What a method arrives at, and its work.
+/// The state at which a method arrives, and its work.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct End {
     /// Symmetry axis `n`.
@@ -47,7 +47,7 @@ pub struct End {
     pub equatorial_axis: Option<Vector3<f64>>,
     /// Steps.
     pub steps: usize,
-    /// Right-hand sides, for a series its coefficients, for a splitting its rotations and kicks.
+    /// Number of right-hand sides; for a series, of coefficients; for a splitting, of rotations and kicks.
     pub evaluations: usize,
 }
 
@@ -56,7 +56,7 @@ pub struct End {
 pub struct Method {
     /// Name.
     pub name: &'static str,
-    /// What it carries.
+    /// The vectors that it computes.
     pub carries: Carries,
     /// Accuracies, tolerances or steps, from coarse to fine.
     pub settings: &'static [f64],
@@ -64,7 +64,7 @@ pub struct Method {
     pub run: fn(&BenchScene, f64, f64) -> Result<End, String>,
 }
 
-/// The ratios of times are those to this method, of what it carries.
+/// Times are compared with the time of this method, for the same vectors.
 pub const BASELINE: &str = "numeris RKV98";
 
 const ACCURACIES: &[f64] =
@@ -75,7 +75,7 @@ const SPLITTING_ACCURACIES: &[f64] =
 
 const TOLERANCES: &[f64] = &[1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15];
 
-/// All methods; a further one takes a line.
+/// All methods; each takes one line.
 pub const METHODS: &[Method] = &[
     Method { name: "Taylor", carries: Carries::Axis, settings: ACCURACIES, run: taylor_axis },
     Method { name: "Taylor", carries: Carries::Orientation, settings: ACCURACIES, run: taylor },
@@ -85,20 +85,21 @@ pub const METHODS: &[Method] = &[
     Method { name: BASELINE, carries: Carries::Orientation, settings: TOLERANCES, run: runge_kutta::orientation },
 ];
 
-/// Motions with the edges of every pulse of the beam of the paper's figures, seen as there.
+/// Motions with the edges of every pulse, for the beam and the observer of the paper's figures.
 pub const WITH_PULSES: &[Method] =
     &[Method { name: "Taylor", carries: Carries::Orientation, settings: ACCURACIES, run: taylor_with_pulses }];
 
-/// Numbers of scenes beside the one given, which is the first; their `s` differ by parts of 1e-4. The state is that of the first.
+/// Methods that compute several scenes together, with the number of scenes. The given scene is the first; each further `s` is larger by a part of 1e-4. The
+/// final state is that of the first scene.
 pub const MANY_SCENES: &[(Method, usize)] = &[
     (Method { name: "lanes, 8 scenes", carries: Carries::Axis, settings: ACCURACIES, run: in_lanes::<8> }, 8),
     (Method { name: "lanes, 16 scenes", carries: Carries::Axis, settings: ACCURACIES, run: in_lanes::<16> }, 16),
 ];
 
-/// Times of the states of a long motion, evenly to its end.
+/// Number of states of a long motion, at equally spaced times up to its end.
 const LONG_SAMPLES: usize = 10_000;
 
-/// Motions with 10,000 states on the way, the set-up included.
+/// Motions with 10,000 states on the way; the times include the set-up.
 pub const SAMPLED: &[Method] = &[
     Method { name: "torus", carries: Carries::Axis, settings: &[1e-6, 1e-8, 1e-10, 1e-12], run: torus_sampled },
     Method { name: "Taylor", carries: Carries::Axis, settings: LONG_ACCURACIES, run: taylor_sampled },

@@ -33,22 +33,22 @@ const PARAMETERS: [Parameter; 10] = [
     Parameter::GammaRate,
 ];
 
-/// Something beside a motion, or a motion over other numbers.
+/// The cost of something in addition to a motion, or of a motion in another number type.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     /// Name of the case.
     pub what: &'static str,
-    /// What its motion carries.
+    /// The vectors that its motion computes.
     pub carries: Carries,
     /// Run times.
     pub times: Times,
-    /// Over the least time of the bare motion of the same `carries`, or of the state at its end where that is what the row is of.
+    /// Least time relative to that of the bare motion with the same `carries`; for a gradient, relative to the state at the end alone.
     pub ratio: f64,
 }
 
 type Case<'a> = (&'static str, Carries, Box<dyn FnMut() -> Result<(), String> + 'a>);
 
-/// All of them on tp-II; `done` hears which part is over.
+/// Measures all cases on tp-II; `done` receives the fraction of the work that is over.
 pub fn measure(effort: &Effort, done: impl FnMut(f64)) -> Result<Vec<Row>, String> {
     let scene = &BenchScene::named("tp-II");
     let span = (0.0, DURATION);
@@ -111,7 +111,7 @@ pub fn measure(effort: &Effort, done: impl FnMut(f64)) -> Result<Vec<Row>, Strin
     let mut runs: Vec<_> = cases.iter_mut().map(|(_, _, run)| run).collect();
     let times = in_turn(&mut runs, effort.rounds, done)?;
     let all = &times;
-    // The first two rows keep the motion, as what follows on them needs; a gradient does not.
+    // The bare motion of the first two rows is stored, which most other rows need; a gradient does not need it.
     let place = |sought: &str| cases.iter().position(|(what, ..)| *what == sought).unwrap_or_default();
     let (kept, at_end) = (place("the motion alone"), place("the state at the end alone"));
     let base = |what: &str| if what.starts_with("its gradient") { at_end } else { kept };
@@ -124,12 +124,13 @@ pub fn measure(effort: &Effort, done: impl FnMut(f64)) -> Result<Vec<Row>, Strin
     Ok(cases.iter().zip(all).map(row).collect())
 }
 
-/// Numbers with a derivative by each of the parameters. Their values do not matter to the time; that none is known to be zero does.
+/// Numbers with a derivative with respect to each of the parameters. The values of the derivatives do not affect the time, but none of them may be known to be
+/// zero.
 fn seeded() -> impl Fn(f64) -> DualSVec64<{ PARAMETERS.len() }> {
     |x| DualSVec64::new(x, Derivative::some(SVector::from_element(x)))
 }
 
-/// The state after the motion, of which nothing else is kept.
+/// Computes the state at the end of the motion, of which nothing else is stored.
 fn at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
     match carries {
         Carries::Axis => drop(black_box(scene.problem.reduced().taylor_states(0.0, &[DURATION], TOLERANCE)?)),
@@ -138,7 +139,7 @@ fn at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
     Ok(())
 }
 
-/// That state with its derivatives.
+/// Computes the state at the end of the motion, with its derivatives.
 fn gradient_at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
     let (spheroid, initial) = (scene.problem.spheroid(), scene.problem.initial());
     let output = if carries == Carries::Axis { Output::AngularMomentum } else { Output::EquatorialAxis };
@@ -150,13 +151,13 @@ fn gradient_at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
     Ok(gradient(&plan, &start, &[DURATION]).map(|found| drop(black_box(found)))?)
 }
 
-/// The motion of `n` and `L` over another scalar.
+/// Computes the motion of `n` and `L` in another number type.
 fn axis_over<S: Real>(scene: &BenchScene, lift: impl Fn(f64) -> S) -> Result<(), String> {
     drop(scene.problem.map(lift).reduced().taylor((0.0, DURATION), TOLERANCE)?);
     Ok(())
 }
 
-/// The whole motion over another scalar.
+/// Computes the whole motion in another number type.
 fn whole_over<S: Real>(scene: &BenchScene, lift: impl Fn(f64) -> S) -> Result<(), String> {
     drop(scene.problem.map(lift).taylor((0.0, DURATION), TOLERANCE)?);
     Ok(())
@@ -166,7 +167,7 @@ fn whole_over<S: Real>(scene: &BenchScene, lift: impl Fn(f64) -> S) -> Result<()
 mod tests {
     use super::*;
 
-    /// Of a whole motion, over the whole motion; of `n` and `L`, over that of these.
+    /// An addition to a whole motion is compared with the whole motion, an addition to the motion of `n` and `L` with the motion of these.
     #[test]
     fn what_comes_on_top_is_compared_with_a_motion_that_carries_the_same() {
         let rows = measure(&Effort { rounds: 1, longest: 1e3 }, |_| ()).expect("motions");

@@ -28,13 +28,13 @@ const OUTPUTS: [usize; 6] = [1, 10, 100, 1000, 10_000, 100_000];
 
 const SCENES: [usize; 3] = [1, 10, 100];
 
-/// Scenes that are spread over cores.
+/// Number of scenes that are spread over the cores.
 const SPREAD: usize = 1600;
 
-/// Scenes that a core does side by side, as a sweep does.
+/// Number of scenes that a core computes together, as in a sweep.
 const TOGETHER: usize = 16;
 
-/// All of them on tp-II and scenes near it; `done` hears which part is over.
+/// Measures all cases on tp-II and scenes near it; `done` receives the fraction of the work that is over.
 pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, String> {
     let scene = BenchScene::named("tp-II");
     let mut outputs: Vec<_> = OUTPUTS.iter().map(|count| || sampled(&scene, *count)).collect();
@@ -58,7 +58,7 @@ pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, S
     let rounds = effort.rounds.div_ceil(5);
     for round in 0..rounds {
         for (cores, least) in cores.iter().zip(&mut least) {
-            // What several cores gain shows on the wall only.
+            // The gain from several cores shows only in wall-clock time.
             let clock = Instant::now();
             spread(&scene, SPREAD, *cores)?;
             *least = least.min(clock.elapsed().as_secs_f64());
@@ -69,7 +69,7 @@ pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, S
     Ok(rows)
 }
 
-/// All scenes in a time on so many cores.
+/// The row for all scenes, computed in the time `least` on `count` cores.
 fn on_cores(count: usize, least: f64) -> Row {
     Row { of: "cores", count, least, each: least / SPREAD as f64 }
 }
@@ -110,7 +110,7 @@ pub fn set_up(effort: &Effort) -> Result<f64, String> {
     let scene = BenchScene::named("tp-II");
     let mut least = f64::INFINITY;
     for _ in 0..100 * effort.rounds {
-        // The clock of the thread's work is too coarse for a microsecond.
+        // The clock for the CPU time of the thread is too coarse for a microsecond.
         let clock = Instant::now();
         let motion = scene.problem.reduced().taylor((0.0, 1e-3), TOLERANCE)?;
         std::hint::black_box(motion);

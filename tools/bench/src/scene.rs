@@ -50,7 +50,7 @@ impl BenchScene {
         found.unwrap_or_else(|| panic!("no scene is called {name}"))
     }
 
-    /// The problem `i` of many beside this one: their `s` differ by parts of `step`.
+    /// The problem number `i` of many near this one: its `s` is larger by the fraction `step` times `i`.
     pub fn beside(&self, i: usize, step: f64) -> Problem<f64, AxisState<f64>> {
         let problem = &self.problem;
         let s = problem.coefficients() * (1.0 + step * i as f64);

@@ -13,7 +13,7 @@ pub struct Results {
     pub work_precision: Vec<work_precision::Row>,
     /// Errors along long motions.
     pub growth: Vec<growth::Row>,
-    /// What comes on top of a motion.
+    /// Costs in addition to a motion.
     pub overhead: Vec<overhead::Row>,
     /// Times by the number of outputs, scenes and cores.
     pub scaling: Vec<scaling::Row>,
@@ -57,7 +57,7 @@ fn scenes(rows: &[work_precision::Row]) -> Vec<&str> {
     distinct(rows.iter().map(|row| row.scene.as_str()))
 }
 
-/// The methods of what is carried, in order of appearance.
+/// Names of the methods that compute the given vectors, in order of appearance.
 pub fn methods(rows: &[work_precision::Row], carries: Carries) -> Vec<&str> {
     distinct(rows.iter().filter(|row| row.carries == carries).map(|row| row.method.as_str()))
 }

@@ -1,6 +1,6 @@
 //! Times of several cases, taken in turn.
 
-/// Seconds that this thread has worked, which other programs disturb less than a clock on the wall; without such a clock, the latter.
+/// CPU time of this thread (s), which other programs disturb less than the wall-clock time; on systems without such a clock, the wall-clock time.
 pub fn clock() -> f64 {
     #[cfg(unix)]
     {
@@ -17,9 +17,9 @@ pub fn clock() -> f64 {
 /// Times of one case.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Times {
-    /// The least (s): what others on the machine disturbed least.
+    /// Least time (s): that of the run least disturbed by other programs.
     pub least: f64,
-    /// The middle one (s).
+    /// Median time (s).
     pub median: f64,
 }
 
@@ -30,7 +30,7 @@ impl Times {
     }
 }
 
-/// Runs every case once to warm up, then `rounds` times each, in turn; `done` hears the part of the rounds that is over.
+/// Runs every case once to warm up, then `rounds` times each, in turn; `done` receives the fraction of the rounds that is over.
 pub fn in_turn<R>(
     cases: &mut [impl FnMut() -> Result<R, String>],
     rounds: usize,
@@ -39,7 +39,7 @@ pub fn in_turn<R>(
     in_turn_by(clock, cases, rounds, done)
 }
 
-/// The same by any clock (s).
+/// As `in_turn`, with any clock (s).
 fn in_turn_by<R>(
     clock: impl Fn() -> f64,
     cases: &mut [impl FnMut() -> Result<R, String>],

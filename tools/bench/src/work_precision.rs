@@ -12,7 +12,7 @@ pub struct Row {
     pub scene: String,
     /// Name of the method.
     pub method: String,
-    /// What it carries.
+    /// The vectors that the method computes.
     pub carries: Carries,
     /// Tolerance or step.
     pub setting: f64,
@@ -20,7 +20,7 @@ pub struct Row {
     pub error: f64,
     /// Run times.
     pub times: Times,
-    /// How many steps it took.
+    /// Number of steps.
     pub steps: usize,
     /// Right-hand sides, coefficients of series, or rotations and kicks.
     pub evaluations: usize,
@@ -29,7 +29,7 @@ pub struct Row {
 /// Errors at which methods are compared.
 pub const ERRORS: [f64; 8] = [1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
 
-/// All scenes by all methods to [`DURATION`]; `done` hears which part is over.
+/// Runs all methods on all scenes to [`DURATION`]; `done` receives the fraction of the work that is over.
 pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, String> {
     let scenes = BenchScene::all();
     let mut rows = Vec::new();
@@ -60,14 +60,14 @@ pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, S
 }
 
 /// Least time (s) at which a method reaches an error: on a straight line, in logarithms, between the cheapest runs on either
-/// side of it. None for an error that it does not reach, or one above all its errors.
+/// side of it. None for an error that the method does not reach; for one above all its errors, the time of its cheapest run.
 pub fn time_at(rows: &[Row], scene: &str, method: &str, carries: Carries, error: f64) -> Option<f64> {
     let of_this = |row: &&Row| row.scene == scene && row.method == method && row.carries == carries;
     let front = front(rows.iter().filter(of_this).map(|row| (row.error, row.times.least)));
     let after = front.iter().position(|(e, _)| *e <= error)?;
     let (e1, t1) = front[after];
     let Some((e0, t0)) = after.checked_sub(1).map(|before| front[before]) else {
-        // Coarser settings than the coarsest are not asked for: the coarsest is what it takes.
+        // No setting is coarser than the coarsest, so its time is what the method takes.
         return Some(t1);
     };
     let part = (e0 / error).ln() / (e0 / e1).ln();

@@ -59,7 +59,7 @@ const STEPS: usize = 40;
 /// Upper limit on the rounding of a phase (turns): of its geometry and of its fraction, some 1e-16 each.
 const ROUNDING: f64 = 1e-13;
 
-/// A pulsar by its timing parameters.
+/// A pulsar described by its timing parameters.
 #[derive(Debug, Clone)]
 pub struct TimingModel {
     values: [f64; COUNT],
@@ -74,7 +74,8 @@ impl TimingModel {
     ///
     /// # Errors
     /// [`Error::Domain`] for a frequency that is not above zero; a wobble that is not between 0 and a right angle; a `chi` closer to 0 or pi than the
-    /// wobble, whose magnetic axis does not encircle `n`; an angle of the beam outside 0 to pi; and as for [`StretchedTime::new`].
+    /// wobble, for which the path of the magnetic axis about `n` does not encircle `L`; an angle of the beam outside 0 to pi; and as for
+    /// [`StretchedTime::new`].
     pub fn new(frequency: [f64; 2], parameters: &[(TimingParameter, f64)]) -> Result<Self, Error> {
         let mut values = [0.0; COUNT];
         (values[Chi as usize], values[Inclination as usize]) = (PI / 2.0, PI / 2.0);
@@ -135,7 +136,7 @@ impl TimingModel {
         self.phase_at(self.time.stretched_at(t)?, t[0] + t[1])
     }
 
-    /// Rate of the [`phase`](Self::phase) (turns per second): of a phase off by `x` turns the pulse is late by `x` over this rate.
+    /// Rate of the [`phase`](Self::phase) (turns per second): a pulse whose phase is off by `x` turns is late by `x` over this rate.
     ///
     /// # Errors
     /// As for [`phase`](Self::phase).
@@ -161,8 +162,8 @@ impl TimingModel {
             let tau = self.time.stretched_at(time.into())?;
             let Turns { whole, fraction } = self.phase_at(tau, time.high)?;
             let off = (whole - number) as f64 + fraction;
-            // The slope without that of the geometry, so that each step leaves the geometry's relative contribution: little
-            // for a slow precession.
+            // This slope leaves out that of the geometry. Each step therefore leaves a fraction of the error, the relative
+            // contribution of the geometry, which is small for a slow precession.
             time -= (off / (self.frequency.high * self.time.slowing(tau[0]))).into();
             if off.abs() < 1e-15 || off.abs() >= last && last < ROUNDING {
                 return Ok(time.into());
@@ -216,8 +217,8 @@ impl TimingModel {
         Ok((duration.re, derivatives(&duration)))
     }
 
-    /// The parameters as dual numbers, the stretched time `tau` of a time `t` as one, and `tau` in two doubles. A parameter that delays the star by
-    /// `d` at a fixed `tau` lowers the `tau` of a fixed `t` by `d` times the slowing.
+    /// Returns the parameters as dual numbers, the stretched time `tau` of the time `t` as a dual number, and `tau` in two doubles. A parameter
+    /// that delays the star by `d` at a fixed `tau` lowers the `tau` of a fixed `t` by `d` times the slowing.
     fn seeded(&self, t: [f64; 2]) -> Result<([Dual; COUNT], Dual, [f64; 2]), Error> {
         let tau = self.time.stretched_at(t)?;
         let seed = |k| -> Derivative<f64, Const<COUNT>, U1> { Derivative::derivative_generic(Const, U1, k) };

@@ -7,9 +7,9 @@ pub enum TimingParameter {
     Phase,
     /// Frequency of the pulses at the epoch, averaged over a precession (Hz).
     F0,
-    /// Its first derivative (Hz/s).
+    /// First derivative of the frequency (Hz/s).
     F1,
-    /// Its second derivative (Hz/s^2).
+    /// Second derivative of the frequency (Hz/s^2).
     F2,
     /// Wobble angle `theta` of the symmetry axis `n` to `L` (rad).
     Wobble,
@@ -24,7 +24,7 @@ pub enum TimingParameter {
     TorqueShare,
     /// Angle of the line of sight to `L` at the epoch (rad).
     Inclination,
-    /// Its rate (rad/s), caused by Lorentz violation.
+    /// Rate of the inclination (rad/s), caused by Lorentz violation.
     InclinationRate,
     /// Semi-open angle of the beam (rad).
     Rho,
@@ -70,12 +70,12 @@ impl TimingParameter {
         }
     }
 
-    /// Name for commands and files.
+    /// Name of the parameter in commands and files.
     pub fn key(self) -> &'static str {
         self.names()[0]
     }
 
-    /// Its unit.
+    /// Unit of the parameter.
     pub fn unit(self) -> &'static str {
         self.names()[1]
     }
