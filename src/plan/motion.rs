@@ -302,7 +302,7 @@ mod tests {
             }
             assert!(whole[1] > 20.0 * whole[0] && whole[1] < 0.1, "{whole:?}");
         }
-        // The same error per unit of time: a share of the tolerance that grows with the rotation until the end.
+        // The tolerance of a part is in proportion to its length.
         let tolerance = |(from, to): (f64, f64)| 1e-13 * (to - from) / 60.0;
         compared(in_parts_and_whole(&problem, (-5.0, 55.0), 3, |problem, span| {
             PlannedMotion::Taylor(problem.taylor(span, tolerance(span)).unwrap())

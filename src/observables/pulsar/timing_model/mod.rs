@@ -94,7 +94,7 @@ impl TimingModel {
         Error::ensure(frequency.high > 0.0, "f0 (Hz)", frequency.high, "above zero")?;
         Error::ensure((0.0..PI / 2.0).contains(&of(Wobble)), "wobble (rad)", of(Wobble), "from 0 to below pi / 2")?;
         let least = of(Chi).min(PI - of(Chi));
-        let beyond = "above the wobble, as its distance from pi is: the magnetic axis goes round n";
+        let beyond = "above the wobble, and so is pi - chi: the path of the magnetic axis about n encircles L";
         Error::ensure(least > of(Wobble), "chi (rad)", of(Chi), beyond)?;
         Error::ensure((0.0..=PI).contains(&of(Inclination)), "inclination (rad)", of(Inclination), "from 0 to pi")?;
         Error::ensure((0.0..PI).contains(&of(Rho)), "rho (rad)", of(Rho), "from 0 to below pi")?;
