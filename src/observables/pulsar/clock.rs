@@ -2,7 +2,7 @@
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
+use nalgebra::{Matrix3, Rotation3, Unit, Vector2, Vector3};
 
 use super::edge_search::{EdgeSearch, Event};
 use super::margin::{ByStates, Margin};
@@ -366,12 +366,12 @@ impl PulsarClock {
         };
         let search = EdgeSearch::new(margin, self.bounds);
         if let Some(pulse) = around(&search, middle, period)? {
-            return self.described(&near, look.number, &pulse).map(Some);
+            return Ok(Some(self.described(&near, look.number, &pulse)));
         }
         for reach in [0.5, 1.5] {
             let train = search.train(middle - reach * period, middle + reach * period)?;
             match nearest(&train, middle) {
-                Some(pulse) if pulse.is_whole() => return self.described(&near, look.number, &pulse).map(Some),
+                Some(pulse) if pulse.is_whole() => return Ok(Some(self.described(&near, look.number, &pulse))),
                 Some(_) => {}
                 None => return Ok(None),
             }
@@ -379,56 +379,71 @@ impl PulsarClock {
         Ok(None)
     }
 
-    fn described(&self, near: &Near<'_>, number: i64, pulse: &Pulse) -> Result<ClockPulse, Error> {
-        let time_at =
-            |since: f64| DoubleDouble::from(self.time.time_at((DoubleDouble::from(near.t) + since.into()).into()));
+    fn described(&self, near: &Near<'_>, number: i64, pulse: &Pulse) -> ClockPulse {
+        let stretched_at = |since: f64| DoubleDouble::from(near.t) + since.into();
+        let time_at = |since: f64| DoubleDouble::from(self.time.time_at(stretched_at(since).into()));
         let (start, end) = (time_at(pulse.start), time_at(pulse.end));
-        let midpoint = ((start + end) * 0.5).into();
-        // For a star that slows down, not the middle of the stretched time.
-        let stretched = self.time.stretched_at(midpoint)?;
-        let state = self.state(stretched);
+        let midpoint = (start + end) * 0.5;
+        // For a star that slows down it is not the middle of the stretched time, but so near that one step of Newton's method reaches it.
+        let late = midpoint - time_at(pulse.midpoint());
+        let middle = stretched_at(pulse.midpoint());
+        let stretched = middle + (late.high * self.time.slowing(middle.high)).into();
+        let state = self.state(stretched.into());
         let bulge = self.motion.problem.bulge();
         let momentum = kinematic_momentum(near.spheroid(), near.coefficients(), bulge, &state.axis_state());
         let omega = angular_velocity(near.spheroid(), &state.axis, &momentum);
         let m = self.beam.direction(&state);
         let angle = |m: &Vector3<f64>| position_angle(m, &self.observer).unwrap_or(f64::NAN);
         let middle = angle(&m);
-        let stretched = stretched[0];
+        let stretched = stretched.high;
         let rate = if middle.is_nan() { middle } else { position_angle_rate(&m, &omega, &self.observer) };
-        Ok(ClockPulse {
+        ClockPulse {
             number,
-            midpoint,
+            midpoint: midpoint.into(),
             duration: (end - start).high,
             position_angle: middle,
             position_angle_rate: rate * self.time.slowing(stretched),
             swing: self.swing(near, pulse),
             state: self.slowed(state, stretched),
-        })
+        }
     }
 
-    /// The change of the position angle along a pulse (rad), in steps shorter than the distance of the magnetic axis from the line of sight: a cap about
-    /// the axis that contains neither that line nor its opposite has one value of the angle in each direction.
+    /// The change of the position angle along a pulse (rad). On the sky the projection of the magnetic axis deviates from a chord of its path by an
+    /// eighth of its largest acceleration times the squared time; along a chord that stays farther from the line of sight the angle changes by
+    /// less than half a turn.
     fn swing(&self, near: &Near<'_>, pulse: &Pulse) -> f64 {
         let look = |t: f64| {
             let m = self.beam.direction(&near.at(t));
-            let angle = position_angle(&m, &self.observer).unwrap_or(f64::NAN);
-            (angle, m.cross(&self.observer.direction).norm())
+            let on_sky = Vector2::new(m.dot(&self.observer.theta_hat), m.dot(&self.observer.phi_hat));
+            (on_sky, position_angle(&m, &self.observer).unwrap_or(f64::NAN))
         };
-        let (mut t, mut swing) = (pulse.start, 0.0);
-        let (mut angle, mut distance) = look(t);
+        let (mut t, mut step, mut swing) = (pulse.start, pulse.end - pulse.start, 0.0);
+        let mut here = look(t);
         while t < pulse.end && !f64::is_nan(swing) {
-            // Friction that damps the wobble may add a tenth to the rate.
-            t = pulse.end.min(t + (0.8 * distance).max(NEAREST) / self.bounds.first);
-            let next = look(t);
-            swing += wrapped(next.0 - angle);
-            (angle, distance) = next;
+            let next = look(t + step);
+            // Friction that damps the wobble may add a tenth to the rates.
+            let deviation = 1.25 * self.bounds.second * step * step / 8.0;
+            if distance_of_chord(&here.0, &next.0) <= deviation && deviation > NEAREST {
+                step *= 0.5;
+                continue;
+            }
+            swing += wrapped(next.1 - here.1);
+            (t, here) = (t + step, next);
+            step = (2.0 * step).min(pulse.end - t);
         }
         swing
     }
 }
 
-/// Distance (rad) from the line of sight below which the magnetic axis passes it in one step: its side is then lost to rounding.
-const NEAREST: f64 = 1e-9;
+/// Deviation (rad) from a chord below which the line of sight is passed in one step: on which side, is lost to rounding.
+const NEAREST: f64 = 1e-18;
+
+/// Distance of the origin from the chord between two points.
+fn distance_of_chord(from: &Vector2<f64>, to: &Vector2<f64>) -> f64 {
+    let along = to - from;
+    let nearest = (-from.dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    (from + along * nearest).norm()
+}
 
 /// The pulse at a time, if the line of sight is inside the beam then and m.n is concave: no other pulse is nearer, and the rest of the
 /// turn need not be searched.
