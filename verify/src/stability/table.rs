@@ -24,7 +24,7 @@ that size, near a pole or in a limit where the function becomes constant.
 
 ## What was found and fixed
 
-Recorded on 2026-11-21 and 22, largest error in ulp of the conditioned scale on the sweeps below before and after.
+Recorded on 2026-11-21, 22 and 28, largest error in ulp of the conditioned scale on the sweeps below before and after.
 
 | kernel | limit | before | after | how |
 |---|---|---|---|---|
@@ -33,6 +33,7 @@ Recorded on 2026-11-21 and 22, largest error in ulp of the conditioned scale on 
 | `BodyState::rates` | sin b = 1e-14 | 5.2e12 | 1.0 | from `n` and `L` alone, without angles and body frame |
 | `BodyState::from_angles`, `L` | fast nutation | 270 | 3 | by the line of nodes: `gamma` enters neither `n` nor `L` |
 | `jacobi`, `cn` and `dn` | m1 = 1e-269 | 200 | 5.5 | `dn` by `sn` where that keeps its digits: by `cn` the error doubled at each step |
+| `rf_of_roots`, `rj_of_roots` | sum of roots 1e-8, product 1 | 1.5e15 | 2.5 | means and products of a duplication as products of sums: `(y + l)(z + l) = s^2 (x + l)` |
 | `UniformSpheroid::from_mass`, `mean_radius` | q = 1e90 | 120 | 4.5 | a Newton step after the exponential |
 | `potential_coefficients` | q = 1e37 | 11 | 3.6 | closed form of a needle; its derivatives had no digit from q = 1e8 |
 | `SpheroidShape::oblateness`, derivative | q = 1e16 | 1e15 | 1.8 | `2 / (1 + q^2) - 1` for a needle |

@@ -48,6 +48,8 @@ functions! {
         let (sum, product) = pair(x[1], x[0]);
         vec![rj_of_roots(x[2], sum, product, x[3])]
     }
+    RfOfRoots: "rf_of_roots".composite(), (x) { vec![rf_of_roots(x[1], x[0], x[2])] }
+    RjOfRoots: "rj_of_roots".composite(), (x) { vec![rj_of_roots(x[1], x[0], x[2], x[3])] }
     /// `u` in quarter periods times the complementary parameter.
     Jacobi: "jacobi".against::<ExactJacobi>().composite().vector().natural_derivatives(), (x) {
         joined(jacobi(x[1], x[0]))
@@ -207,6 +209,8 @@ pub(super) fn cases() -> Vec<Case> {
         ),
         RfOfPair::case("conjugate pair that meets", &[Log(-15.0, 1.0), some, some]),
         RjOfPair::case("conjugate pair that meets", &[Log(-15.0, 1.0), some, some, some]),
+        RfOfRoots::case("conjugate pair -> negative", &[Log(-100.0, 0.0), some, some]),
+        RjOfRoots::case("conjugate pair -> negative", &[Log(-100.0, 0.0), some, some, some]),
         Jacobi::case("m -> 1", &[Log(-300.0, 0.0), In(-2.0, 2.0)]),
         Jacobi::case("m -> 0, both signs", &[Near(1.0, -15.5, -0.1), In(-10.0, 10.0)]),
         Jacobi::case("negative parameter to -1e10", &[Above(1.0, -3.0, 10.0), In(-1e-4, 1e-4)]),
