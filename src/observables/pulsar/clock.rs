@@ -2,12 +2,13 @@
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use nalgebra::{Matrix3, Rotation3, Unit, Vector2, Vector3};
+use nalgebra::{Matrix3, Rotation3, Unit};
 
 use super::edge_search::{EdgeSearch, Event};
 use super::margin::{ByStates, Margin};
 use super::position_angle::{position_angle, position_angle_rate};
 use super::rate_bounds::{RateBounds, rate_bounds};
+use super::swing::swing;
 use super::timing_model::{TimingModel, TimingParameter::*, azimuth_ahead};
 use super::train::{PulseTrain, check_beam};
 use super::turn_count::{Look, TurnCount};
@@ -90,8 +91,12 @@ struct Near<'a> {
 }
 
 impl Near<'_> {
+    fn stretched(&self, since: f64) -> DoubleDouble {
+        DoubleDouble::from(self.t) + since.into()
+    }
+
     fn at(&self, since: f64) -> BodyState<f64> {
-        self.clock.state((DoubleDouble::from(self.t) + since.into()).into())
+        self.clock.state(self.stretched(since).into())
     }
 }
 
@@ -380,69 +385,33 @@ impl PulsarClock {
     }
 
     fn described(&self, near: &Near<'_>, number: i64, pulse: &Pulse) -> ClockPulse {
-        let stretched_at = |since: f64| DoubleDouble::from(near.t) + since.into();
-        let time_at = |since: f64| DoubleDouble::from(self.time.time_at(stretched_at(since).into()));
+        let time_at = |since: f64| DoubleDouble::from(self.time.time_at(near.stretched(since).into()));
         let (start, end) = (time_at(pulse.start), time_at(pulse.end));
         let midpoint = (start + end) * 0.5;
         // For a star that slows down it is not the middle of the stretched time, but so near that one step of Newton's method reaches it.
         let late = midpoint - time_at(pulse.midpoint());
-        let middle = stretched_at(pulse.midpoint());
+        let middle = near.stretched(pulse.midpoint());
         let stretched = middle + (late.high * self.time.slowing(middle.high)).into();
         let state = self.state(stretched.into());
         let bulge = self.motion.problem.bulge();
         let momentum = kinematic_momentum(near.spheroid(), near.coefficients(), bulge, &state.axis_state());
         let omega = angular_velocity(near.spheroid(), &state.axis, &momentum);
         let m = self.beam.direction(&state);
-        let angle = |m: &Vector3<f64>| position_angle(m, &self.observer).unwrap_or(f64::NAN);
-        let middle = angle(&m);
-        let stretched = stretched.high;
-        let rate = if middle.is_nan() { middle } else { position_angle_rate(&m, &omega, &self.observer) };
+        let psi = position_angle(&m, &self.observer).unwrap_or(f64::NAN);
+        let rate = if psi.is_nan() { psi } else { position_angle_rate(&m, &omega, &self.observer) };
+        // Friction that damps the wobble may add a tenth to the rates.
+        let second = 1.25 * self.bounds.second;
+        let direction = |since: f64| self.beam.direction(&near.at(since));
         ClockPulse {
             number,
             midpoint: midpoint.into(),
             duration: (end - start).high,
-            position_angle: middle,
-            position_angle_rate: rate * self.time.slowing(stretched),
-            swing: self.swing(near, pulse),
-            state: self.slowed(state, stretched),
+            position_angle: psi,
+            position_angle_rate: rate * self.time.slowing(stretched.high),
+            swing: swing(direction, second, &self.observer, (pulse.start, pulse.end)),
+            state: self.slowed(state, stretched.high),
         }
     }
-
-    /// The change of the position angle along a pulse (rad). On the sky the projection of the magnetic axis deviates from a chord of its path by an
-    /// eighth of its largest acceleration times the squared time; along a chord that stays farther from the line of sight the angle changes by
-    /// less than half a turn.
-    fn swing(&self, near: &Near<'_>, pulse: &Pulse) -> f64 {
-        let look = |t: f64| {
-            let m = self.beam.direction(&near.at(t));
-            let on_sky = Vector2::new(m.dot(&self.observer.theta_hat), m.dot(&self.observer.phi_hat));
-            (on_sky, position_angle(&m, &self.observer).unwrap_or(f64::NAN))
-        };
-        let (mut t, mut step, mut swing) = (pulse.start, pulse.end - pulse.start, 0.0);
-        let mut here = look(t);
-        while t < pulse.end && !f64::is_nan(swing) {
-            let next = look(t + step);
-            // Friction that damps the wobble may add a tenth to the rates.
-            let deviation = 1.25 * self.bounds.second * step * step / 8.0;
-            if distance_of_chord(&here.0, &next.0) <= deviation && deviation > NEAREST {
-                step *= 0.5;
-                continue;
-            }
-            swing += wrapped(next.1 - here.1);
-            (t, here) = (t + step, next);
-            step = (2.0 * step).min(pulse.end - t);
-        }
-        swing
-    }
-}
-
-/// Deviation (rad) from a chord below which the line of sight is passed in one step: on which side, is lost to rounding.
-const NEAREST: f64 = 1e-18;
-
-/// Distance of the origin from the chord between two points.
-fn distance_of_chord(from: &Vector2<f64>, to: &Vector2<f64>) -> f64 {
-    let along = to - from;
-    let nearest = (-from.dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    (from + along * nearest).norm()
 }
 
 /// The pulse at a time, if the line of sight is inside the beam then and m.n is concave: no other pulse is nearer, and the rest of the
@@ -484,6 +453,8 @@ fn about_nearer_end(precession: &Precession) -> Precession {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector3;
+
     use super::*;
     use crate::dynamics::Problem;
     use crate::observables::pulsar::margin::tests::search_of;

@@ -12,6 +12,7 @@ pub mod position_angle;
 pub mod rate_bounds;
 mod root;
 pub mod spin_fit;
+mod swing;
 pub mod timing;
 pub mod timing_model;
 pub mod train;

@@ -64,8 +64,8 @@ impl SharedRounding {
             let products = rates.momentum_of_principal.map(S::re);
             Vector3::from_fn(|i, _| {
                 let (difference, lost) = two_sum(used[((i + 1) % 3, (i + 1) % 3)], -used[((i + 2) % 3, (i + 2) % 3)]);
-                debug_assert!(products[i].is_nan() || products[i] == twice * difference);
-                -two_product(twice, difference).1 - twice * lost
+                let (product, rest) = two_product(twice, difference);
+                (products[i] - product) - rest - twice * lost
             })
         } else {
             Vector3::zeros()

@@ -15,6 +15,7 @@ from scipy.optimize import brentq
 
 import bounds
 from inference import OFFSETS, WEIGHTS
+from torque import SHARES
 
 DAY = 86400
 LONG = np.longdouble
@@ -23,7 +24,6 @@ UNITS = {
     "phase": "1", "f0": "Hz", "f1": "Hz/s", "f2": "Hz/s^2", "wobble": "rad", "damping": "1/s", "chi": "rad", "precession_phase": "rad",
     "precession_rate": "rad/s", "torque_share": "1", "inclination": "rad", "inclination_rate": "rad/s", "rho": "rad",
 }  # fmt: skip
-SHARES = {"vacuum": 1.0, "plasma": 0.5, "constant": 0.0}
 # What a step of a difference moves the datum that it moves most: of a turn, of a width, of the error of a prior.
 MOVES = (1e-3, 6e-4)
 SAMPLES = 64
