@@ -1,4 +1,5 @@
-//! Requests to end: an interrupt (Ctrl-C), a hang-up of the terminal, a request to terminate.
+//! Requests to end: an interrupt (Ctrl-C), a hang-up of the terminal, a request to terminate. And the signal USR1, which asks for a line
+//! of progress.
 //!
 //! Each signal is looked at by itself. An interrupt or a hang-up that is ignored when the command starts, as under `nohup` or in a
 //! script's background, stays ignored; a request to terminate is always heeded.
@@ -20,6 +21,14 @@ struct OnRequest {
 
 static ON_REQUEST: Mutex<OnRequest> = Mutex::new(OnRequest { stop: None, removals: Vec::new() });
 
+/// Set by the signal USR1.
+static PROGRESS: AtomicBool = AtomicBool::new(false);
+
+/// Whether a line of progress was asked for since the last call.
+pub(super) fn progress_requested() -> bool {
+    PROGRESS.swap(false, Ordering::Relaxed)
+}
+
 fn on_request() -> MutexGuard<'static, OnRequest> {
     ON_REQUEST.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -27,9 +36,12 @@ fn on_request() -> MutexGuard<'static, OnRequest> {
 /// Heeds requests to end from now on. To be called before anything is begun.
 #[cfg(unix)]
 pub(super) fn watch() -> io::Result<()> {
+    use signal_hook::consts::SIGUSR1;
     let mut signals = signal_hook::iterator::Signals::new(heeded(ignored()))?;
+    signals.handle().add_signal(SIGUSR1)?;
+    let heed = |signal| if signal == SIGUSR1 { PROGRESS.store(true, Ordering::Relaxed) } else { requested() };
     let thread = std::thread::Builder::new().name("signals".to_owned());
-    thread.spawn(move || signals.forever().for_each(|_| requested())).map(drop)
+    thread.spawn(move || signals.forever().for_each(heed)).map(drop)
 }
 
 /// Heeds requests to end from now on. To be called before anything is begun.

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 use rayon::prelude::*;
 
+use super::interrupt::progress_requested;
 use super::note;
 
 /// On standard error: a bar, if that is a terminal, from two seconds on; else a line now and then.
@@ -81,7 +82,7 @@ impl Progress {
                 bar.set_position(step);
             }
             Shown::Lines(lines) => {
-                if lines.is_due(step as f64 / self.steps as f64, elapsed) {
+                if lines.is_due(step as f64 / self.steps as f64, elapsed, progress_requested()) {
                     note(&line((self.first, step, self.steps), self.unit, elapsed));
                 }
             }
@@ -89,7 +90,7 @@ impl Progress {
     }
 }
 
-/// Lines come after ten seconds, then at each tenth of the work, at least ten seconds and at most a minute apart.
+/// Lines come after ten seconds, then at each tenth of the work, at least ten seconds and at most a minute apart; and when one is requested.
 #[derive(Default)]
 struct Lines {
     /// Tenths done at the last line.
@@ -101,12 +102,12 @@ impl Lines {
     const APART: Duration = Duration::from_secs(10);
     const AT_LEAST_EVERY: Duration = Duration::from_secs(60);
 
-    fn is_due(&mut self, part: f64, now: Duration) -> bool {
+    fn is_due(&mut self, part: f64, now: Duration, is_requested: bool) -> bool {
         let tenths = (part * 10.0) as u32;
-        let is_due = match self.last {
-            None => now >= Self::APART,
-            Some(last) => now - last >= Self::AT_LEAST_EVERY || (now - last >= Self::APART && tenths > self.tenths),
-        };
+        let since = now - self.last.unwrap_or_default();
+        let is_due = is_requested
+            || since >= Self::AT_LEAST_EVERY
+            || (since >= Self::APART && (self.last.is_none() || tenths > self.tenths));
         if is_due {
             *self = Self { tenths, last: Some(now) };
         }
@@ -173,7 +174,7 @@ mod tests {
         let mut lines = Lines::default();
         let tenths_of_a_second = 0..=10 * length;
         let due = tenths_of_a_second.filter(|&k| {
-            lines.is_due(f64::from(k) / f64::from(10 * length), Duration::from_millis(u64::from(k) * 100))
+            lines.is_due(f64::from(k) / f64::from(10 * length), Duration::from_millis(u64::from(k) * 100), false)
         });
         due.map(|k| f64::from(k) / 10.0).collect()
     }

@@ -1,7 +1,5 @@
 //! What commands say beside their tables: estimated errors, plans, notes and progress.
 
-use std::time::Duration;
-
 use crate::common::{Folder, altered, comes_to, number_after, numbers, stderr, stdout, twofold, with_lines};
 use twofold_scene::scene_file::built_in;
 
@@ -50,8 +48,8 @@ fn a_spin_beyond_break_up_and_a_julian_date_are_noted() {
     assert!(!none.contains("Julian") && !none.contains("break-up"), "{none}");
 }
 
-/// Where no terminal is, a long run writes a line now and then.
-#[cfg(target_os = "linux")]
+/// Where no terminal is, a long run writes a line of progress when the signal USR1 asks for one.
+#[cfg(unix)]
 #[test]
 fn a_long_run_without_a_terminal_tells_how_far_it_is() {
     use std::io::{BufRead, BufReader};
@@ -64,10 +62,7 @@ fn a_long_run_without_a_terminal_tells_how_far_it_is() {
     // What is not complete is hidden beside the name that it will get.
     let names = folder.names();
     assert!(names[0].starts_with(".motion.csv.") && names[0].ends_with(".part"), "{names:?}");
-    // The first line comes after ten seconds; others use the processor until then.
-    crate::common::send(&child, "STOP");
-    std::thread::sleep(Duration::from_secs(10));
-    crate::common::send(&child, "CONT");
+    crate::common::send(&child, "USR1");
     let lines = BufReader::new(child.stderr.take().expect("standard error")).lines();
     let line = lines.map(|line| line.expect("text")).find(|line| line.contains("% done")).expect("a line");
     crate::common::send(&child, "TERM");
