@@ -2,7 +2,7 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
-use twofold::dynamics::AxisState;
+use twofold::dynamics::{AxisState, RotationState};
 use twofold::epoch::Epoch;
 use twofold::observables::wave_harmonics::WaveHarmonics;
 use twofold_scene::pulsar_timing::{self, PulsarScene, csv, par, tim};
@@ -132,7 +132,7 @@ impl Pulsar {
 impl Pulsar {
     fn state(&self, t: f64) -> Result<AxisState<f64>, twofold::Error> {
         twofold::Error::ensure(t.is_finite(), "t (s)", t, "a finite number")?;
-        Ok(AxisState::from(&self.pulsar.clock.near([t, 0.0])(0.0)?))
+        Ok(self.pulsar.clock.near([t, 0.0])(0.0)?.axis_state())
     }
 }
 

@@ -42,7 +42,7 @@ impl Sample {
     pub fn axis(&self) -> AxisState<f64> {
         match &self.state {
             SampledState::Axis(state) => *state,
-            SampledState::Orientation(state) => AxisState::from(state),
+            SampledState::Orientation(state) => state.axis_state(),
             SampledState::Nothing => panic!("the output needs no state"),
         }
     }
@@ -355,7 +355,7 @@ mod tests {
         for sense in [1.0, -1.0] {
             let (scene, plan) = scene("tp-2", "taylor", &["e_z"], &[sense * 30.0]);
             let mut segments = Segments::<AxisState<f64>>::with_rotation(&scene, &plan, 12.0).unwrap();
-            let (mut from, mut state, mut count) = (0.0, AxisState::from(scene.problem.initial()), 0);
+            let (mut from, mut state, mut count) = (0.0, scene.problem.initial().axis_state(), 0);
             while let Some(segment) = segments.next().unwrap() {
                 let found = segment.motion.motion.state(from).unwrap();
                 assert!((found.axis - state.axis).norm() + (found.momentum - state.momentum).norm() < 1e-14);

@@ -17,12 +17,6 @@ pub struct AxisState<S> {
     pub momentum: Vector3<S>,
 }
 
-impl<S: Scalar> From<&BodyState<S>> for AxisState<S> {
-    fn from(state: &BodyState<S>) -> Self {
-        Self { axis: state.axis, momentum: state.momentum }
-    }
-}
-
 /// A state of rotation: [`AxisState`] or [`BodyState`]. The type of the state of a [`Problem`](super::Problem) decides whether its
 /// motions follow the angle about the symmetry axis.
 pub trait RotationState<S: Scalar>: Copy + Debug + PartialEq + 'static {

@@ -1,7 +1,7 @@
 //! The numbers of a file, computed anew at its times.
 
 use twofold::Error;
-use twofold::dynamics::{AxisState, Problem};
+use twofold::dynamics::{Problem, RotationState};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::wave_of_state;
@@ -147,7 +147,7 @@ pub(super) fn waves(example: &PaperExample, table: &Table) -> Result<Vec<Vec<f64
     let (observer, body, s) = (observer(), spheroid(), COEFFICIENTS.tensor());
     let row = |t: f64| {
         let state = motion.state(t)?;
-        let h = wave_of_state(&body, &s, &AxisState::from(&state), &observer);
+        let h = wave_of_state(&body, &s, &state.axis_state(), &observer);
         Ok(vec![h.plus, h.cross])
     };
     table.times().map(row).collect()

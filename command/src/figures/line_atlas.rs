@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
-use twofold::dynamics::{AxisState, BodyState, Problem};
+use twofold::dynamics::{BodyState, Problem, RotationState};
 use twofold::observables::gravitational_wave::wave_of_state;
 use twofold::observables::spectrum::{Combination, QuasiPeriodicMotion};
 
@@ -111,7 +111,7 @@ fn amplitudes(scale: f64, wobble: f64) -> Result<[Amplitudes; 3], String> {
     let motion = QuasiPeriodicMotion::new(&problem)?;
     let (observer, beam) = (OBSERVER.basis(), PULSAR.beam());
     let wave = |state: &BodyState<f64>| {
-        wave_of_state(problem.spheroid(), problem.coefficients(), &AxisState::from(state), &observer)
+        wave_of_state(problem.spheroid(), problem.coefficients(), &state.axis_state(), &observer)
     };
     let lines = |function: &dyn Fn(&BodyState<f64>) -> f64| {
         let list = motion.lines(WEAKEST, |state| Ok::<_, twofold::Error>([function(state), 1.0]))?;

@@ -1,6 +1,6 @@
 //! `h_+` and `h_x` at the observer in time.
 
-use twofold::dynamics::{AxisState, BodyState};
+use twofold::dynamics::{BodyState, RotationState};
 use twofold::observables::gravitational_wave::Polarizations;
 use twofold::units::si::KILOPARSEC;
 
@@ -18,7 +18,7 @@ pub(super) fn wave(subject: &Subject, state: &BodyState<f64>) -> Result<Polariza
     Ok(spheroid_wave(
         problem.spheroid(),
         problem.coefficients(),
-        &AxisState::from(state),
+        &state.axis_state(),
         &observer,
         subject.scale.wave(1.0),
     ))

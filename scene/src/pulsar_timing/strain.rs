@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use twofold::Error;
-use twofold::dynamics::AxisState;
+use twofold::dynamics::{AxisState, RotationState};
 use twofold::epoch::Epoch;
 use twofold::observables::gravitational_wave::Polarizations;
 
@@ -45,7 +45,7 @@ pub fn strain_series(pulsar: &PulsarScene, series: &Series) -> Result<Option<[St
     let state = pulsar.clock.near(series.start.seconds_since(&pulsar.epoch));
     for k in 0..series.samples {
         let time = k as f64 / series.rate;
-        let Some(wave) = pulsar.wave(&AxisState::from(&state(time)?)) else { return Ok(None) };
+        let Some(wave) = pulsar.wave(&state(time)?.axis_state()) else { return Ok(None) };
         for (text, h) in texts.iter_mut().zip([wave.plus, wave.cross]) {
             writeln!(text, "{time:?} {h:?}").expect("writing to a string succeeds");
         }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use twofold::dynamics::AxisState;
+use twofold::dynamics::RotationState;
 use twofold::observables::wave_harmonics::WaveHarmonics;
 
 use super::{Causes, PulsarScene, Timing};
@@ -51,7 +51,7 @@ pub fn csv(pulsar: &PulsarScene, timing: &Timing, causes: Option<&Causes>) -> St
     };
     for (i, (timed, residual)) in timing.pulses.iter().zip(&timing.fit.residuals).enumerate() {
         let pulse = &timed.pulse;
-        let state = AxisState::from(&pulse.state);
+        let state = pulse.state.axis_state();
         let harmonics = WaveHarmonics::of(pulsar.problem.spheroid(), &state, &pulsar.observer).ok();
         let of = |value: fn(&WaveHarmonics<f64>) -> f64| harmonics.as_ref().map_or(f64::NAN, value);
         let unit = pulsar.strain_unit.unwrap_or(f64::NAN);

@@ -90,7 +90,7 @@ impl<S: Real> Motion<S> for AveragedMotion<S> {
     }
 
     fn axis_state_in_parts(&self, t: [f64; 2]) -> Result<AxisState<S>, Error> {
-        self.state_in_parts(t).map(|state| AxisState::from(&state))
+        self.state_in_parts(t).map(|state| state.axis_state())
     }
 
     fn turning(&self) -> Turning<'_> {

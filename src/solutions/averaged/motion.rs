@@ -65,6 +65,67 @@ fn require_round<S: Real>(top: &Top<S>) -> Result<(), Error> {
     )
 }
 
+/// The principal values of `s` less a third of their sum, for a problem in the principal frame.
+fn traceless_principal_values<S: Real>(problem: &Problem<S>) -> Result<Vector3<S>, Error> {
+    let off_diagonal = [(0, 1), (0, 2), (1, 2)].map(|place| problem.coefficients()[place].re().abs());
+    let largest = off_diagonal.into_iter().fold(0.0, f64::max);
+    Error::ensure(largest == 0.0, "largest s^IJ off the diagonal", largest, "zero: use the principal frame of s^IJ")?;
+    let values = problem.coefficients().diagonal();
+    Ok(values.map(|value| value - (values.x + values.y + values.z) / 3.0))
+}
+
+/// `|C| (s_max - s_min) I^xx / |L|^2` and `|b| (s_max - s_min) I^xx`, for traceless `s` and `|L| = size`.
+fn strengths<S: Real>(problem: &Problem<S>, s: &Vector3<S>, size: S) -> Result<[S; 2], Error> {
+    let RigidSpheroid { inertia_xx, constant_c, .. } = *problem.spheroid();
+    let reals = s.map(S::re);
+    let spread = reals.max() - reals.min();
+    Error::ensure(size.re() > 0.0, "angular momentum |L|", size.re(), "above zero")?;
+    let of_torque = constant_c.abs() * spread * inertia_xx / (size * size);
+    Error::ensure(
+        of_torque.re() < LARGEST_STRENGTH,
+        "|C| (s_max - s_min) I^xx / |L|^2",
+        of_torque.re(),
+        "below 0.2: the body must turn fast against the torque",
+    )?;
+    let of_bulge = problem.bulge().abs() * spread * inertia_xx;
+    let together = (of_torque + of_bulge).re();
+    Error::ensure(
+        together < LARGEST_STRENGTH,
+        "(|C| / |L|^2 + |b|) (s_max - s_min) I^xx of a star with a bulge",
+        together,
+        "below 0.2: the body must turn fast against what turns L",
+    )?;
+    Ok([of_torque, of_bulge])
+}
+
+/// `G - |L|`, which is small and known to its own digits. The mean energy equals that of the motion, and determines `G` to one order higher than the
+/// transformation, which gives the `guess`. To first order this would only introduce the terms that the mean energy lacks, and the guess is kept.
+fn excess_of_mean_momentum<S: Real>(
+    potential: &MeanPotential<S>,
+    pull: S,
+    [size, along_axis, h, m]: [S; 4],
+    guess: S,
+) -> Result<S, Error> {
+    let corrections = if potential.order == AveragingOrder::First { 0 } else { MOST_CORRECTIONS };
+    let (mut excess, mut last) = (guess, S::zero());
+    for _ in 0..corrections {
+        let g = size + excess;
+        let c = along_axis / g;
+        let slopes = potential.at(g, c, h, m);
+        let off = excess * (size + g) / (potential.inertia * 2.0) + slopes.value - pull;
+        last = off / (g / potential.inertia + slopes.about_momentum(g, c));
+        excess -= last;
+    }
+    let g = size + excess;
+    Error::ensure(
+        g.re() > 0.0 && last.re().abs() <= 1e-12 * g.re(),
+        "last correction of the mean |L|, relative",
+        last.re() / g.re(),
+        "below 1e-12: the mean energy must determine it",
+    )?;
+    Ok(excess)
+}
+
 fn rotated_about<S: Real>(axis: &Vector3<S>, v: &Vector3<S>, angle: S) -> Vector3<S> {
     let (sin, cos) = angle.sin_cos();
     v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (S::one() - cos))
@@ -114,39 +175,13 @@ impl<S: Real> AveragedSolution<S> {
         order: AveragingOrder,
     ) -> Result<Self, Error> {
         let (spheroid, initial) = (problem.spheroid(), problem.initial());
-        let off_diagonal = [(0, 1), (0, 2), (1, 2)].map(|place| problem.coefficients()[place].re().abs());
-        let largest = off_diagonal.into_iter().fold(0.0, f64::max);
-        Error::ensure(
-            largest == 0.0,
-            "largest s^IJ off the diagonal",
-            largest,
-            "zero: use the principal frame of s^IJ",
-        )?;
         let RigidSpheroid { inertia_xx, inertia_zz, constant_c } = *spheroid;
-        let values = problem.coefficients().diagonal();
-        let s = values.map(|value| value - (values.x + values.y + values.z) / 3.0);
+        let bulge = problem.bulge();
+        let s = traceless_principal_values(problem)?;
         // The rotation from the given frame would introduce its rounding, and that of its derivatives, which are as large as the inverse of
         // `s`.
         let size = length(&given.momentum);
-        let reals = s.map(S::re);
-        let spread = reals.max() - reals.min();
-        Error::ensure(size.re() > 0.0, "angular momentum |L|", size.re(), "above zero")?;
-        let relative_strength = constant_c.abs() * spread * inertia_xx / (size * size);
-        Error::ensure(
-            relative_strength.re() < LARGEST_STRENGTH,
-            "|C| (s_max - s_min) I^xx / |L|^2",
-            relative_strength.re(),
-            "below 0.2: the body must turn fast against the torque",
-        )?;
-        let bulge = problem.bulge();
-        let bulge_strength = bulge.abs() * spread * inertia_xx;
-        let together = (relative_strength + bulge_strength).re();
-        Error::ensure(
-            together < LARGEST_STRENGTH,
-            "(|C| / |L|^2 + |b|) (s_max - s_min) I^xx of a star with a bulge",
-            together,
-            "below 0.2: the body must turn fast against what turns L",
-        )?;
+        let [relative_strength, bulge_strength] = strengths(problem, &s, size)?;
         let strength = constant_c * inertia_xx;
         let pull = constant_c * initial.axis.dot(&s.component_mul(&initial.axis))
             + bulge * initial.momentum.dot(&s.component_mul(&initial.momentum));
@@ -157,26 +192,10 @@ impl<S: Real> AveragedSolution<S> {
         let l = momentum / length(&momentum);
         let (h, m) = (l.dot(&s.component_mul(&l)), s.component_mul(&l).dot(&s.component_mul(&l)));
         let potential = MeanPotential { order, constant_c, inertia: inertia_xx, bulge, square: s.dot(&s) };
-        // G - |L|: small, and known to its own digits. The mean energy equals that of the motion, and determines G to one order
-        // higher than the transformation does. To first order this would only introduce the terms that the mean energy lacks.
-        let mut excess = change[1].dot(&(initial.momentum * S::from_f64(2.0) + change[1])) / (length(&momentum) + size);
-        let corrections = if order == AveragingOrder::First { 0 } else { MOST_CORRECTIONS };
-        let mut last = S::zero();
-        for _ in 0..corrections {
-            let g = size + excess;
-            let c = along_axis / g;
-            let slopes = potential.at(g, c, h, m);
-            let off = excess * (size + g) / (inertia_xx * 2.0) + slopes.value - pull;
-            last = off / (g / inertia_xx + slopes.about_momentum(g, c));
-            excess -= last;
-        }
+        // G - |L| to the order of the transformation.
+        let guess = change[1].dot(&(initial.momentum * S::from_f64(2.0) + change[1])) / (length(&momentum) + size);
+        let excess = excess_of_mean_momentum(&potential, pull, [size, along_axis, h, m], guess)?;
         let g = size + excess;
-        Error::ensure(
-            g.re() > 0.0 && last.re().abs() <= 1e-12 * g.re(),
-            "last correction of the mean |L|, relative",
-            last.re() / g.re(),
-            "below 1e-12: the mean energy must determine it",
-        )?;
         let c = along_axis / g;
         let here = potential.at(g, c, h, m);
         let tensor = here.tensor(&s, g);

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::Error;
-use twofold::dynamics::{AxisState, BodyState, Problem, RotationState};
+use twofold::dynamics::{BodyState, Problem, RotationState};
 use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::parameters::{Parameter, Parameters};
@@ -172,7 +172,7 @@ fn dense_samples_of_many_motions_are_those_of_each_alone() {
     let mut motions: Vec<_> = (0..13)
         .map(|k| {
             let star = if k % 4 == 1 { PROLATE } else { STAR };
-            let problem = Problem::new(star, general() * (1.0 + 0.1 * k as f64), AxisState::from(&state()));
+            let problem = Problem::new(star, general() * (1.0 + 0.1 * k as f64), state().axis_state());
             let tolerance = [1e-5, 1e-15, 1e-10][k % 3];
             SampledProblem { problem: problem.expect("a problem"), start: 0.5, times: &dense[k], tolerance }
         })

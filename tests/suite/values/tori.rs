@@ -1,7 +1,7 @@
 //! Tori: states with given integrals, separatrices, exact frequencies; averages of motions about the middle axis.
 
 use twofold::dynamics::first_integrals::{FirstIntegrals, first_integrals};
-use twofold::dynamics::{AxisState, BodyState, Problem};
+use twofold::dynamics::{BodyState, Problem, RotationState};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::averaged::slow_precession::slow_precession;
 use twofold::solutions::averaged::{AveragedSolution, AveragingOrder, middle_axis_growth, period_near_separatrix};
@@ -32,10 +32,10 @@ fn states_on_tori() {
         table.found("  states", states_with_integrals(&star, &s, &integrals), |table, found| {
             table.row("  states", format_args!("round the axis {:?}", found.round));
             for state in found.states.iter().chain(found.components().iter().flatten()) {
-                table.row("  state", AxisState::from(state));
+                table.row("  state", state.axis_state());
             }
         });
-        table.result("  separatrix", separatrix_motion(&star, &s, energy, spin).map(|state| AxisState::from(&state)));
+        table.result("  separatrix", separatrix_motion(&star, &s, energy, spin).map(|state| state.axis_state()));
         for (what, wrong) in [
             ("-E", FirstIntegrals { energy: -energy, ..integrals }),
             ("2 K", FirstIntegrals { clebsch: 2.0 * clebsch, ..integrals }),

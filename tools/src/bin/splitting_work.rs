@@ -5,7 +5,7 @@
 //! The end state is that of verify/oracles/mpmath/axis_end_state.py, 32 digits. Times are the least of 15 runs of everything in turn.
 
 use nalgebra::Vector3;
-use twofold::dynamics::{AxisState, Problem};
+use twofold::dynamics::{AxisState, Problem, RotationState};
 use twofold::propagation::Motion;
 use twofold::propagation::splitting::SCHEMES;
 use twofold_tools::least_time;
@@ -15,7 +15,7 @@ const END: f64 = 1000.0;
 
 fn main() {
     let scene = reference_motion("tp-2");
-    let problem = Problem::new(scene.spheroid, scene.violation(), AxisState::from(&scene.states[0].1)).expect("tp-II");
+    let problem = Problem::new(scene.spheroid, scene.violation(), scene.states[0].1.axis_state()).expect("tp-II");
     let row = include_str!("../../../verify/data/axis_end_state.csv").lines().last().expect("a row of data");
     let numbers: Vec<f64> = row.split(',').skip(2).map(|cell| cell.parse().expect("a number")).collect();
     let axis = Vector3::new(numbers[0], numbers[1], numbers[2]);

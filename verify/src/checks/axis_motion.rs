@@ -37,7 +37,7 @@ fn against_whole_motion() -> Result<Measured, String> {
             worst_of([0.37 * end, end], |&t| {
                 let ours = alone.state(t)?;
                 let estimates = alone.error_estimate(t) + whole.error_estimate(t);
-                let states = [whole.axis_state(t)?, AxisState::from(&whole.state(t)?)];
+                let states = [whole.axis_state(t)?, whole.state(t)?.axis_state()];
                 Ok(largest(states.map(|state| largest_difference(&ours, &state, size) / estimates)))
             })
         })

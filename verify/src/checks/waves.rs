@@ -76,10 +76,10 @@ fn polarizations_transverse_traceless<F: Differentiable>(p: &Point<F>) -> Vec<F>
 fn wave_of_rotated_scene<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let state = BodyState::from_angles(&p.spheroid, &p.angles, &p.rates);
     let here = observer(p);
-    let wave = wave_of_state(&p.spheroid, &p.s_inertial, &AxisState::from(&state), &here);
+    let wave = wave_of_state(&p.spheroid, &p.s_inertial, &state.axis_state(), &here);
     let seen = |observer: &Observer<F>, turn: &Matrix3<F>| {
         let s = turn * p.s_inertial * turn.transpose();
-        let other = wave_of_state(&p.spheroid, &s, &AxisState::from(&state.rotated(turn)), observer);
+        let other = wave_of_state(&p.spheroid, &s, &state.rotated(turn).axis_state(), observer);
         [wave.plus - other.plus, wave.cross - other.cross]
     };
     let any = body_from_inertial(&EulerAngles { alpha: p.numbers[0], beta: p.numbers[1], gamma: p.numbers[2] });

@@ -141,7 +141,7 @@ fn against_taylor_motion() -> Result<Measured, String> {
                 let theirs = taylor.state(t)?;
                 let estimates =
                     [forced.error_estimate(t), chosen.error_estimate(t)].map(|e| e + taylor.error_estimate(t));
-                let forced = largest_difference(&forced.state(t)?, &AxisState::from(&theirs), size);
+                let forced = largest_difference(&forced.state(t)?, &theirs.axis_state(), size);
                 let chosen = largest_difference(&chosen.state(t)?, &theirs, size);
                 Ok(largest([forced / estimates[0], chosen / estimates[1]]))
             })
