@@ -53,14 +53,16 @@ def timing_error(scene):
     """The same for `twofold timing`, whose motion is averaged to second order in sigma = 2 C |s| I^xx / |L|^2, the torque over the rotation.
 
     Three times the square of sigma for what a transformation of first order leaves out of the state, its cube for each radian of rotation; and
-    what is left out of a star that slows down.
+    what is left out of a star that slows down. The motion by a bulge alone is exact: with one each sigma but the first is sigma + 2 b |s| I^xx.
     """
     ratio = scene.inertia_zz / scene.inertia_xx
     momentum = np.linalg.norm(np.array([1, 1, ratio]) * scene.omega)
-    sigma = 2 * scene.c / scene.inertia_xx * np.abs(np.linalg.eigvalsh(scene.tensor)).max() / momentum**2
+    s = np.abs(np.linalg.eigvalsh(scene.tensor)).max()
+    sigma = 2 * scene.c / scene.inertia_xx * s / momentum**2
+    both = sigma + 2 * scene.bulge * scene.inertia_xx * s
     span = abs(scene.end - scene.start)
     braked = Torque(scene).left_out(scene, span, sigma) if "spin_down" in scene.document else 0.0
-    return state_error(scene) + 3 * sigma**2 + sigma**3 * momentum * span + braked
+    return state_error(scene) + 3 * sigma * both + sigma * both**2 * momentum * span + braked
 
 
 def tables(compute, scene, error=None):

@@ -37,7 +37,7 @@ def euler_angles(motion, times):
 def euler_rates(motion, times):
     """Rates of the angles, Eq. (22) solved for them."""
     y = motion.states(times)
-    axes, (p, q, r) = y[:, :9].reshape(-1, 3, 3), y[:, 9:].T
+    axes, (p, q, r) = y[:, :9].reshape(-1, 3, 3), motion.angular_velocity_in_body(y, motion.scene.bulge).T
     sin = np.hypot(axes[:, 2, 0], axes[:, 2, 1])
     sin_g, cos_g = axes[:, 0, 2] / sin, axes[:, 1, 2] / sin
     alpha = (p * sin_g + q * cos_g) / sin
@@ -45,12 +45,13 @@ def euler_rates(motion, times):
 
 
 def integrals(motion, times):
-    """E = T + C n.(s n), Omega^z, and K = L.(s L) - 2 C I^xx n.(adj(s) n)."""
+    """E = T + C n.(s n) + b L.(s L), the last without the trace of s, Omega^z, and K = L.(s L) - 2 C I^xx n.(adj(s) n)."""
     scene = motion.scene
     y, momentum = motion.states(times), motion.momentum(times)
     n, omega, s = y[:, 6:9], y[:, 9:], scene.tensor
     inertia = np.array([scene.inertia_xx, scene.inertia_xx, scene.inertia_zz])
     energy = 0.5 * omega**2 @ inertia + scene.c * np.einsum("ti,ij,tj->t", n, s, n)
+    energy = energy + scene.bulge * np.einsum("ti,ij,tj->t", momentum, scene.traceless, momentum)
     adjugate = np.array([np.cross(s[1], s[2]), np.cross(s[2], s[0]), np.cross(s[0], s[1])])
     k = np.einsum("ti,ij,tj->t", momentum, s, momentum)
     k = k - 2 * scene.c * scene.inertia_xx * np.einsum("ti,ij,tj->t", n, adjugate, n)
@@ -77,14 +78,15 @@ def strain(motion, times):
         return np.column_stack([a * a - b * b, 2 * a * b])
 
     # I^IJ = I^xx delta^IJ + (I^zz - I^xx) n^I n^J, and h^IJ = -(2/r) d2 I^IJ/dt2.
-    second = motion.derivative(quadrupole, times, 2) if motion.braking is None else _of_rotation(motion, times)
-    second = second * (scene.inertia_zz - scene.inertia_xx)
+    alone = motion.braking is None and not scene.bulge
+    second = motion.derivative(quadrupole, times, 2) if alone else _of_rotation(motion, times)
+    second = second * scene.difference
     scale = G_OVER_C4 / observer.distance if scene.physical else 1.0
     return -scale * second[:, 0], -scale * second[:, 1]
 
 
 def _of_rotation(motion, times):
-    """The same derivative as if the torque along L ended at each time: it is left out of the wave (docs/spin-down.md)."""
+    """The same derivative as if the torque along L and the bulge ended at each time: they are left out of the wave (docs/spin-down.md, two-deformations.md)."""
     observer, y = motion.scene.observer, motion.states(times)
     rate = motion.free_rates(y)
     step = 1e-3 / motion.turning
@@ -113,7 +115,7 @@ def position_angle_and_rate(motion, times):
         rate = motion.derivative(on_sky, times, 1)
     else:
         # By the rotation alone, without what friction adds (docs/spin-down.md).
-        axes = motion.free_rates(motion.states(times))[:, :9].reshape(-1, 3, 3)
+        axes = motion.unbraked_rates(motion.states(times))[:, :9].reshape(-1, 3, 3)
         m = np.einsum("i,tij->tj", magnetic_axis(motion.scene.pulsar), axes)
         rate = np.column_stack([-m @ observer.theta, -m @ observer.phi])
     turning = (here[:, 0] * rate[:, 1] - here[:, 1] * rate[:, 0]) / (here**2).sum(axis=1)

@@ -65,6 +65,7 @@ CASES = {
         "observer.azimuth": 0.61,
     },
     "keys-density": {"star.density": 7.7e14},
+    "bulge-number": {"star.bulge": "fluid"},
     "keys-dates": {
         "sources": ["another source"],
         "pulsar.name": "J6543+21",

@@ -5,6 +5,8 @@ The unknowns are the three body axes and the angular velocity in the body,
     d e_i/dt = Omega x e_i,    I dOmega/dt = Gamma - Omega x (I Omega),    Gamma = 2 C (s^yz, -s^xz, 0)
 
 with s^ij = e_i . s e_j: the torque of dU = C s^zz. A star that slows down has a torque along I Omega as well, and friction turns it (torque.py).
+A bulge of the energy b L.(s L) depends on L alone: by the brackets of L with itself and with the axes, its slope T = 2 b s L, s without its trace, is
+an angular velocity of L and of the axes. The components of L in the body, and with them I Omega = L, do not see it; the axes turn with Omega + T.
 A segment is a polynomial at Chebyshev's points of the integral equation, iterated until it
 no longer changes; the motion is dense by construction.
 """
@@ -50,12 +52,11 @@ class Motion:
         torque = 2 * scene.c / scene.inertia_xx
         s = scene.tensor
 
-        def rates(y, braking=braking):
+        def rates(y, braking=braking, bulge=scene.bulge):
             axes, (p, q, r) = y[:, :9].reshape(-1, 3, 3), y[:, 9:].T
             x, e_y, z = axes[:, 0], axes[:, 1], axes[:, 2]
             of_z = z @ s
-            # Omega x e_i with Omega = p e_x + q e_y + r e_z.
-            p1, q1, r1 = p[:, None], q[:, None], r[:, None]
+            turning = self.angular_velocity_in_body(y, bulge)
             p_rate = torque * np.sum(of_z * e_y, axis=1) + (1 - ratio) * q * r
             q_rate = -torque * np.sum(of_z * x, axis=1) - (1 - ratio) * p * r
             spin = np.column_stack([p_rate, q_rate, np.zeros_like(p)])
@@ -63,15 +64,19 @@ class Motion:
                 body = y[:, 9:] * inertia
                 slowing, friction = braking.rate(body)
                 spin -= slowing[:, None] * y[:, 9:] + np.cross(friction, body) / inertia
-                p1, q1, r1 = (y[:, 9:] + friction).T[:, :, None]
+                turning = turning + friction
+            # Omega x e_i with Omega = p e_x + q e_y + r e_z.
+            p1, q1, r1 = turning.T[:, :, None]
             return np.hstack([r1 * e_y - q1 * z, p1 * z - r1 * x, q1 * x - p1 * e_y, spin])
 
-        self.rates, self.free_rates = rates, functools.partial(rates, braking=None)
+        # Without what slows the star down; and, for the wave, without the bulge.
+        self.rates, self.unbraked_rates, self.free_rates = rates, functools.partial(rates, braking=None), functools.partial(rates, braking=None, bulge=0.0)
         inertia = np.array([scene.inertia_xx, scene.inertia_xx, scene.inertia_zz])
         start = np.concatenate([scene.axes.ravel(), scene.omega * (braking.start() if braking else 1.0)])
         momentum = np.linalg.norm(np.array([1, 1, ratio]) * scene.omega)
-        # Above the rotation rate of any of the axes: |L| / I^xx, the rotation about z, and what the torque may add.
+        # Above the rotation rate of any of the axes: |L| / I^xx, the rotation about z, and what the torque and the bulge may add.
         self.turning = momentum + abs(1 - ratio) * abs(scene.spin) + np.sqrt(torque * np.abs(s).max())
+        self.turning += 2 * scene.bulge * scene.inertia_xx * momentum * np.linalg.norm(scene.traceless)
         self.step = numerics.rotation / self.turning
         self.ends, self.pieces = [], []
         backward = self._follow(start, min(first, scene.start))
@@ -129,10 +134,13 @@ class Motion:
         body = y[:, 9:] * np.array([scene.inertia_xx, scene.inertia_xx, scene.inertia_zz])
         return np.einsum("ti,tij->tj", body, y[:, :9].reshape(-1, 3, 3))
 
-    def angular_velocity(self, times):
-        """Omega in inertial components."""
-        y = self.states(times)
-        return np.einsum("ti,tij->tj", y[:, 9:], y[:, :9].reshape(-1, 3, 3))
+    def angular_velocity_in_body(self, y, bulge):
+        """Omega + 2 b s L of rows of states, in the body."""
+        if not bulge:
+            return y[:, 9:]
+        scene, axes = self.scene, y[:, :9].reshape(-1, 3, 3)
+        body = y[:, 9:] * np.array([scene.inertia_xx, scene.inertia_xx, scene.inertia_zz])
+        return y[:, 9:] + 2 * bulge * np.einsum("tij,jk,tlk,tl->ti", axes, scene.traceless, axes, body)
 
     def derivative(self, f, times, order):
         """The derivative of f(times), an array with a row for each time, by a polynomial through Chebyshev's points about each time."""

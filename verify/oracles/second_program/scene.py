@@ -21,6 +21,7 @@ class Scene:
         self.document = document
         self._star(document["star"])
         self._coefficients(document["lorentz_violation"])
+        self.traceless = self.tensor - np.trace(self.tensor) / 3 * np.eye(3)
         self._times(document["time"])
         self._initial(document["initial"])
         self.pulsar = document.get("pulsar")
@@ -48,11 +49,14 @@ class Scene:
         if self.physical:
             given = {"radius": star["radius"] * 1e3} if "radius" in star else {"density": star["density"] * 1e3}
             oblateness, spin = self._oblateness_and_spin(star)
-            self.inertia_xx, self.inertia_zz, self.c = uniform_spheroid(star["mass"] * SOLAR_MASS, oblateness, **given)
+            self.inertia_xx, self.inertia_zz, self.difference, self.c = uniform_spheroid(star["mass"] * SOLAR_MASS, oblateness, **given)
             self.spin = spin
         else:
             self.inertia_xx, self.inertia_zz, self.c = 1.0, float(star["inertia_ratio"]), 1.0
-            self.spin = float(star["spin"])
+            self.spin, self.difference = float(star["spin"]), self.inertia_zz - self.inertia_xx
+        # The factor b in the energy b L.(s L) of a centrifugal bulge: a multiple of that of a fluid, half of the energy of rotation over L.L.
+        bulge = star.get("bulge", 0.0)
+        self.bulge = (1.0 if bulge == "fluid" else bulge) / (4 * self.inertia_xx)
         self.time_unit = (self.inertia_xx / self.c) ** 0.5
         # Units of the output: 1 kg m^2 = 1e7 g cm^2, 1 J = 1e7 erg.
         self.cgs = 1e7 if self.physical else 1.0

@@ -18,7 +18,7 @@ JULIAN_YEAR = 365.25 * DAY  # s
 
 
 def uniform_spheroid(mass, oblateness, radius=None, density=None):
-    """(I^xx, I^zz) in kg m^2 and C in J of a spheroid of `mass` kg with (I^zz - I^xx) / I^xx = `oblateness`.
+    """(I^xx, I^zz, I^zz - I^xx) in kg m^2 and C in J of a spheroid of `mass` kg with (I^zz - I^xx) / I^xx = `oblateness`.
 
     `radius` is (a1^2 a3)^(1/3) in m; or `density` in kg/m^3.
     """
@@ -40,4 +40,4 @@ def uniform_spheroid(mass, oblateness, radius=None, density=None):
 
     coefficients = axis_ratio * quad(difference, [0, 1, 10, inf])
     c = 4 * pi**2 / 15 * GRAVITATION * density**2 * a1**2 * a3 * a1**2 * coefficients
-    return float(inertia_xx), float(inertia_zz), float(c)
+    return float(inertia_xx), float(inertia_zz), float(inertia_zz - inertia_xx), float(c)

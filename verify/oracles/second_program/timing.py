@@ -126,6 +126,6 @@ def _harmonics(motion, times):
     along, beside = o - l * (l @ o)[:, None], np.cross(l, o)
     phase = np.arctan2((n * beside).sum(axis=1), (n * along).sum(axis=1))
     scale = G_OVER_C4 / (observer.distance or np.nan)
-    scale = scale * 2 * (scene.inertia_zz - scene.inertia_xx) * (size / scene.inertia_xx) ** 2
+    scale = scale * 2 * scene.difference * (size / scene.inertia_xx) ** 2
     once, twice = scale * np.sin(wobble) * np.cos(wobble), 2 * scale * np.sin(wobble) ** 2
     return np.column_stack([inclination, position_angle(observer, l), wobble, phase, once, twice]).tolist()

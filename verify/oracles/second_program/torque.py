@@ -1,6 +1,7 @@
 """The torque along L and the friction of a star with [spin_down], as the equation of motion has them (docs/spin-down.md): no stretched time."""
 
 import numpy as np
+from scipy.integrate import solve_ivp
 
 from scene import magnetic_axis
 
@@ -21,7 +22,8 @@ class Torque:
         # Turns of the magnetic axis about L: those of n, less those about n where it goes round it.
         wobble = np.arccos(abs(l[2]))
         goes_round = wobble < scene.pulsar["chi"] < np.pi - wobble
-        self.frequency = abs(np.sign(l[2]) * self.momentum / scene.inertia_xx - goes_round * precession) / (2 * np.pi)
+        turns = abs(np.sign(l[2]) * self.momentum / scene.inertia_xx - goes_round * precession)
+        self.frequency = (turns + self._turns_of_bulge(scene, l @ scene.axes)) / (2 * np.pi)
         self.kappa = -given["f1"] / self.frequency
         self.index = given["f2"] * self.frequency / given["f1"] ** 2 if "f2" in given else given.get("index", 3.0)
         share = given.get("torque", "constant")
@@ -47,6 +49,18 @@ class Torque:
                 slope = size.deriv()
                 size = np.polynomial.Chebyshev.interpolate(lambda t, slope=slope: slope(t) / rate(t), order, time)
             self.swing += abs(self._harmonics(0.0)[k]) / self.mean / (k * precession) ** 2
+
+    def _turns_of_bulge(self, scene, start):
+        """The mean rate at which T = 2 b s L turns the star about L from the line of sight, over many precessions of L by the bulge alone, of which L is `start`."""
+        if not scene.bulge:
+            return 0.0
+        turning, o = 2 * scene.bulge * self.momentum * scene.traceless, scene.observer.direction
+        times = np.linspace(0, 600 / np.linalg.norm(turning @ start), 20001)
+        l = solve_ivp(lambda _, l: np.cross(turning @ l, l), times[[0, -1]], start, method="DOP853", t_eval=times, rtol=1e-12, atol=1e-12).y.T
+        t = l @ turning
+        # Of T the line of sight sees the part along L; it is itself passed by L, as seen about L.
+        rate = ((t * l).sum(axis=1) - (l @ o) * (t @ o)) / (1 - (l @ o) ** 2)
+        return np.average(rate, weights=(1 - np.cos(2 * np.pi * times / times[-1])) ** 2)
 
     def _theta(self, t):
         return np.arctan(np.tan(self.wobble) * np.exp(-self.damping * t))
