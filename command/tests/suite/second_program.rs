@@ -282,7 +282,7 @@ fn timing_files_are_those_of_the_second_program() {
 
 #[test]
 fn fits_and_limits_over_decades_are_those_of_the_second_program() {
-    compare("limits", 4);
+    compare("limits", 5);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 A star in free precession under a torque along L: its magnetic axis as a vector, the torque by the mean and the harmonics of sin^2 of that axis'
 angle to L, sampled over a precession; phases in 80 bits; derivatives by differences; the posterior of a wobble summed over its phase and amplitude.
+What friction changes slowly is a polynomial of time.
 """
 
 import csv
@@ -11,6 +12,7 @@ import tomllib
 from fractions import Fraction
 
 import numpy as np
+from numpy.polynomial import chebyshev
 from scipy.optimize import brentq
 
 import bounds
@@ -26,7 +28,12 @@ UNITS = {
 }  # fmt: skip
 # What a step of a difference moves the datum that it moves most: of a turn, of a width, of the error of a prior.
 MOVES = (1e-3, 6e-4)
-SAMPLES = 64
+SAMPLES = 8
+# Polynomials of time through this many of Chebyshev's points, over 7.6 years from the epoch either way: beyond all data.
+POINTS, REACH = 12, LONG(2.4e8)
+POINTS_AT = REACH * np.cos(TURN * (2 * np.arange(POINTS) + 1) / (4 * POINTS))
+TO_COEFFICIENTS = 2 * chebyshev.chebvander(POINTS_AT / REACH, POINTS - 1).T / POINTS
+TO_COEFFICIENTS[0] /= 2
 CONFIDENCE = 0.95
 NODES, NODE_WEIGHTS = np.polynomial.legendre.leggauss(40)
 
@@ -52,29 +59,39 @@ def read_scene(path):
     spin_down = document.get("spin_down", {})
     values = dict.fromkeys(UNITS, 0.0)
     values |= {"f0": star["frequency"], "f1": spin_down.get("f1", 0.0), "torque_share": SHARES[spin_down.get("torque", "constant")]}
+    values |= {"damping": 1 / (spin_down["damping_time"] * DAY) if "damping_time" in spin_down else 0.0}
     values |= {"wobble": initial["wobble"], "precession_phase": initial["precession_phase"]}
     values |= {"precession_rate": 2 * np.pi / (star["precession_period"] * DAY)}
     values |= {"chi": pulsar["chi"], "rho": pulsar["rho"], "inclination": observer["inclination"]}
     values = {key: LONG(repr(value)) if value else LONG(0) for key, value in values.items()}
     values["f2"] = 3 * values["f1"] ** 2 / values["f0"]
     # The azimuth of the magnetic axis about L from the line of sight, at the epoch.
-    ahead = _azimuth(_magnetic_axis(values, values["precession_phase"]))
+    ahead = _azimuth(_magnetic_axis(values, values["precession_phase"], values["wobble"]))
     turn = (initial["azimuth"] - observer["azimuth"] + float(ahead)) / (2 * np.pi)
     mean = (ahead - TURN / 2 + values["precession_phase"]) / TURN
     values["phase"] = LONG(turn - round(turn)) - (mean - np.round(mean))
     return values, Fraction(str(document["time"]["epoch"]))
 
 
-def _magnetic_axis(values, psi):
-    """The magnetic axis where L is along Z and n in the plane X, Z: `psi` is its angle about n to the projection of L."""
-    (sin, cos), (sin_chi, cos_chi) = ((np.sin(values[key]), np.cos(values[key])) for key in ("wobble", "chi"))
+def _magnetic_axis(values, psi, theta):
+    """The magnetic axis where L is along Z and n in the plane X, Z at the angle `theta` to it: `psi` is its angle about n to the projection of L."""
+    (sin, cos), (sin_chi, cos_chi) = ((np.sin(angle), np.cos(angle)) for angle in (theta, values["chi"]))
     # In the body, X away from L: half a turn from the projection of L.
     x, y, z = -sin_chi * np.cos(psi), sin_chi * np.sin(psi), cos_chi
-    return np.array([cos * x + sin * z, y, cos * z - sin * x])
+    return np.array(np.broadcast_arrays(cos * x + sin * z, y, cos * z - sin * x))
 
 
 def _azimuth(axis):
     return np.arctan2(axis[1], axis[0])
+
+
+def _polynomial(values, integrals=0):
+    """Coefficients of the polynomial with these values at the points, or of its integral from the epoch on."""
+    return chebyshev.chebint(TO_COEFFICIENTS @ values, integrals, scl=REACH)
+
+
+def _at(coefficients, tau):
+    return chebyshev.chebval(tau / REACH, coefficients)
 
 
 class Star:
@@ -83,25 +100,43 @@ class Star:
     def __init__(self, values):
         self.values = values
         psi = TURN * np.arange(SAMPLES) / SAMPLES
-        torque = 1 - values["torque_share"] * _magnetic_axis(values, psi)[2] ** 2
-        # Even in psi: a mean and cosines.
-        mean = torque.mean()
-        k = np.arange(1, SAMPLES // 2)
-        self.harmonics = 2 * (torque[None, :] * np.cos(k[:, None] * psi[None, :])).mean(axis=1) / mean
-        self.k = k
+        theta = self.theta(POINTS_AT)
+        # The factor of the torque at the points, even in psi: a mean and cosines.
+        torque = 1 - values["torque_share"] * _magnetic_axis(values, psi, np.append(theta, values["wobble"])[:, None])[2] ** 2
+        torque /= torque[-1].mean()
+        k = self.k = np.arange(1, SAMPLES // 2)
+        mean, harmonics = torque[:-1].mean(axis=1), 2 * torque[:-1] @ np.cos(k * psi[:, None]) / SAMPLES
+        # By friction the wobble falls and psi gains.
+        turning = values["precession_rate"] * np.cos(theta) / np.cos(values["wobble"])
+        self.gained = _polynomial(turning - values["precession_rate"], 1)
+        self.means = [_polynomial(mean - 1, order) for order in (1, 2)]
+        # The integrals of harmonics times exp(i k psi), by parts: a times exp(i k psi), with a' + i k psi' a = harmonics.
+        self.varying = []
+        for _ in range(2):
+            harmonics = self._integral(harmonics, 1j * k * turning[:, None])
+            self.varying.append(_polynomial(harmonics))
         self.braking = -values["f1"] / values["f0"]
 
+    @staticmethod
+    def _integral(harmonics, frequencies):
+        found = harmonics / frequencies
+        for _ in range(4):
+            slope = chebyshev.chebval(POINTS_AT / REACH, chebyshev.chebder(_polynomial(found), scl=1 / REACH)).T
+            found = (harmonics - slope) / frequencies
+        return found
+
+    def theta(self, tau):
+        return np.arctan(np.tan(self.values["wobble"]) * np.exp(-self.values["damping"] * tau))
+
     def psi(self, tau):
-        return self.values["precession_phase"] + self.values["precession_rate"] * tau
+        return self.values["precession_phase"] + self.values["precession_rate"] * tau + _at(self.gained, tau)
 
     def _torque(self, tau):
-        """What the varying part of the torque adds to dt/dtau, and its integral."""
-        w, psi = self.values["precession_rate"], self.psi(tau)
-        angles = self.k[:, None] * psi[None, :]
-        frequencies = (self.k * w)[:, None]
-        first = (self.harmonics[:, None] * np.sin(angles) / frequencies).sum(axis=0)
-        second = -(self.harmonics[:, None] * np.cos(angles) / frequencies**2).sum(axis=0)
-        return self.braking * first, self.braking * second
+        """What the varying part of the torque, and the change of its mean, add to dt/dtau, and its integral."""
+        wave = np.exp(1j * self.k[:, None] * self.psi(tau))
+        first, second = ((_at(varying, tau) * wave).real.sum(axis=0) for varying in self.varying)
+        once, twice = (_at(mean, tau) for mean in self.means)
+        return self.braking * (first + once), self.braking * (second + twice)
 
     def stretched(self, t):
         """tau and d tau / d t, of the index 3: dt/dtau = 1 + braking tau + torque."""
@@ -119,9 +154,10 @@ class Star:
         """Turns at times since the epoch."""
         v = self.values
         tau, _ = self.stretched(t)
-        ahead = (_azimuth(_magnetic_axis(v, self.psi(tau))) - TURN / 2 + self.psi(tau)) / TURN
+        ahead = (_azimuth(_magnetic_axis(v, self.psi(tau), self.theta(tau))) - TURN / 2 + self.psi(tau)) / TURN
         other = (v["f2"] - 3 * v["f1"] ** 2 / v["f0"]) * t**3 / 6
-        return v["phase"] + v["f0"] * tau + (ahead - np.round(ahead)) + other
+        # The axis turns about L as before, so that the magnetic axis loses what psi gains.
+        return v["phase"] + v["f0"] * tau - _at(self.gained, tau) / TURN + (ahead - np.round(ahead)) + other
 
     def phase_rate(self, t, step=LONG(100)):
         """Turns in a second, by differences."""
@@ -131,7 +167,7 @@ class Star:
         """Time in which the line of sight is in the beam."""
         v = self.values
         tau, slowing = self.stretched(t)
-        axis = _magnetic_axis(v, self.psi(tau))
+        axis = _magnetic_axis(v, self.psi(tau), self.theta(tau))
         inclination = v["inclination"] + v["inclination_rate"] * t
         half = np.arccos((np.cos(v["rho"]) - axis[2] * np.cos(inclination)) / (np.hypot(axis[0], axis[1]) * np.sin(inclination)))
         return 2 * half / (TURN * v["f0"] * slowing)
