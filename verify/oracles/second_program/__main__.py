@@ -27,6 +27,8 @@ EPOCHS = {
         (["--every", "23.5"], [53777.445 + 23.5 * k for k in range(5)]),
     ]
 }
+# Scenes whose causes of residuals are computed too.
+CAUSES = {"braked-index", "bulge-braked"}
 SPECTRA = json.loads((HERE / "spectra.json").read_text())
 
 
@@ -55,8 +57,9 @@ def answered(file, name, changed):
         strain = ["--strain-rate", repr(rate), "--strain-span", repr((commands.STRAIN_SAMPLES - 0.5) / rate)]
         # F0 alone, or with F1 and F2 for a star that slows down.
         for options, terms in [([], 3 if "spin_down" in scene.document else 1), (["--f1"], 2)]:
-            arguments = ["timing", "{scene}", "--out", "{out}", "--uncertainty", "2.5", *strain, *options]
-            answer(arguments, lambda s, n, terms=terms: commands.timing_files(s, n, name, terms, rate, 2.5), error)
+            causes = file in CAUSES
+            arguments = ["timing", "{scene}", "--out", "{out}", "--uncertainty", "2.5", *strain, *options, *(["--causes"] if causes else [])]
+            answer(arguments, lambda s, n, t=terms, c=causes: commands.timing_files(s, n, name, t, rate, 2.5, causes=c), error)
         for options, dates in EPOCHS.get(file, []):
             arguments = ["timing", "{scene}", "--out", "{out}", *strain, *options]
             answer(arguments, lambda s, n, dates=tuple(dates): commands.timing_files(s, n, name, 1, rate, 1.0, dates), error)

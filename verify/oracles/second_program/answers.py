@@ -7,7 +7,7 @@ scene with every number moved by 1e-7 of itself, up or down. A column's toleranc
                                    the tolerance asked and 2.2e-16 for each radian of rotation
 
 so that it is what an error of that size in the scene's numbers does to the column, and nothing is chosen by hand. Four roundings of the
-column's largest number come on top.
+column's largest number come on top. The delay by a cause of residuals is a difference of times: ten times that error over the rate of rotation too.
 """
 
 import json
@@ -17,6 +17,7 @@ import re
 import numpy as np
 
 from motion import FINE, OTHER, Motion
+from timing import DELAYS
 from torque import Torque
 
 MOVE = 1e-7
@@ -76,6 +77,9 @@ def tables(compute, scene, error=None):
             # Its lines have nothing in common: each has its own tolerances.
             lines = zip(rows, other[name][1], shifted[name][1], strict=True)
             tolerances = [_tolerances([row], [row_2], [row_3], error) for row, row_2, row_3 in lines]
+        for k, title in enumerate(rows[0]):
+            if title in DELAYS:
+                tolerances[k] += float(f"{FACTOR * error / Motion(scene, scene.start, scene.start).turning:.2e}")
         outputs[name] = {"separator": separator, "rows": _plain(rows), "tolerances": tolerances}
     return outputs
 

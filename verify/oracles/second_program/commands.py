@@ -52,8 +52,8 @@ def strain_rate(scene):
 
 
 @functools.lru_cache(maxsize=4)
-def _timed(document, numerics, rate, dates):
-    """What the files are made of, with F1 and without; for epochs of given dates, or at the times of the scene."""
+def _timed(document, numerics, rate, dates, causes):
+    """What the files are made of, with F1 and without, and the causes if they are asked for; for epochs of given dates, or at the times of the scene."""
     scene = Scene(json.loads(document))
     turn = 2 * np.pi / Motion(scene, scene.start, scene.start).turning
     braking = Torque(scene) if "spin_down" in scene.document else None
@@ -64,11 +64,11 @@ def _timed(document, numerics, rate, dates):
     rows = timing.timed_pulses(motion, epochs)
     series = scene.start + epochs[0] + np.arange(STRAIN_SAMPLES) / rate
     h = strain(motion, series) if scene.observer.distance is not None else None
-    return scene, epochs, rows, timing.described(motion, rows), rate, h
+    return scene, epochs, rows, timing.described(motion, rows), rate, h, timing.causes(motion, rows) if causes else None
 
 
-def timing_files(scene, numerics, name, terms, rate, uncertainty, dates=None):
-    files = timing.timing_files(*_timed(json.dumps(scene.document), numerics, rate, dates), terms, uncertainty)
+def timing_files(scene, numerics, name, terms, rate, uncertainty, dates=None, causes=False):
+    files = timing.timing_files(*_timed(json.dumps(scene.document), numerics, rate, dates, causes), terms, uncertainty)
     return {f"{name}.{ending}": ("," if ending == "csv" else " ", rows) for ending, rows in files.items()}
 
 

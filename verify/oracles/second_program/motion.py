@@ -142,6 +142,22 @@ class Motion:
         body = y[:, 9:] * np.array([scene.inertia_xx, scene.inertia_xx, scene.inertia_zz])
         return y[:, 9:] + 2 * bulge * np.einsum("tij,jk,tlk,tl->ti", axes, scene.traceless, axes, body)
 
+    def integral(self, f):
+        """The integral of f(times) from the start on, as a function of times: a polynomial on each segment."""
+        grid, half = self.numerics.grid, self.step / 2
+        ends = self.origin + self.step * np.arange(len(self.coefficients) + 1)
+        values = f((ends[:-1, None] + half * (1 + grid.x)).ravel()).reshape(-1, len(grid.x))
+        at_ends = np.concatenate([[0.0], np.cumsum(half * values @ grid.integral_to_end)])
+        at_ends -= at_ends[int(round((self.scene.start - self.origin) / self.step))]
+        coefficients = (at_ends[:-1, None] + half * values @ grid.integral.T) @ grid.to_coefficients.T
+
+        def at(times):
+            place = (np.asarray(times) - self.origin) / self.step
+            piece = np.clip(np.floor(place).astype(int), 0, len(coefficients) - 1)
+            return np.polynomial.chebyshev.chebval(2 * (place - piece) - 1, coefficients[piece].T, tensor=False)
+
+        return at
+
     def derivative(self, f, times, order):
         """The derivative of f(times), an array with a row for each time, by a polynomial through Chebyshev's points about each time."""
         points, width = 22, 0.8 * self.numerics.rotation / self.turning

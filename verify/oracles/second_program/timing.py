@@ -1,29 +1,25 @@
 """The files of `twofold timing`, from the motion integrated over all epochs: slow stars, whose turns in years can be followed."""
 
+import copy
 from fractions import Fraction
 
 import numpy as np
 
 from columns import G_OVER_C4, direction_of_beam, position_angle, position_angle_and_rate, strain
+from motion import Motion
 from pulses import Beam, stretches
 
 HEADER = (
     "pulse,arrival_day [MJD],arrival_fraction [d],residual [s],duration [s],psi [rad],psi_rate [rad/s],swing [rad],inclination [rad],"
     "orientation [rad],wobble [rad],wave_phase [rad],h_once [1],h_twice [1],h_plus [1],h_cross [1]"
 ).split(",")
+DELAYS = ["geometry [s]", "torque [s]", "violation [s]"]
 
 
 def timed_pulses(motion, epochs):
     """Rows (number, start, end) of the pulses of the turns nearest to epochs, in s since the start of the motion; zero is the turn at its start."""
-    scene, beam = motion.scene, Beam(motion, 1)
-    first, last = min([scene.start, *scene.start + epochs]), max([scene.start, *scene.start + epochs])
-    period = 2 * np.pi / motion.turning
-    number_at, rate = _phase(beam, first - 3 * period, last + 3 * period)
-    pulses = {}
-    for start, end, *cut in stretches(beam, first - 3 * period, last + 3 * period):
-        # Longer ones are not timed (docs/pulsars.md).
-        if not any(cut) and (end - start) * rate < 3 * 2 * np.pi:
-            pulses[number_at((start + end) / 2)] = (start, end)
+    scene = motion.scene
+    number_at, pulses = _numbered(motion, min([scene.start, *scene.start + epochs]), max([scene.start, *scene.start + epochs]))
     zero = number_at(scene.start)
     rows, seen = [], set()
     for epoch in epochs:
@@ -32,6 +28,57 @@ def timed_pulses(motion, epochs):
             seen.add(number)
             rows.append((number - zero, *pulses[number]))
     return rows
+
+
+def _numbered(motion, first, last):
+    """The number of the turn at a time, as a function; and of the pulses between two times start and end, by their numbers."""
+    beam = Beam(motion, 1)
+    period = 2 * np.pi / motion.turning
+    number_at, rate = _phase(beam, first - 3 * period, last + 3 * period)
+    pulses = {}
+    for start, end, *cut in stretches(beam, first - 3 * period, last + 3 * period):
+        # Longer ones are not timed (docs/pulsars.md).
+        if not any(cut) and (end - start) * rate < 3 * 2 * np.pi:
+            pulses[number_at((start + end) / 2)] = (start, end)
+    return number_at, pulses
+
+
+def causes(motion, rows):
+    """Of each pulse the turns by which it is late by geometry, torque and violation, and the rate of the frequency (docs/pulsars.md).
+
+    The time tau of a clock that slows down with the star, d tau/dt = a, is from the torque along the motion. In it the star with neither violation nor
+    braking has the pulse N at N P + geometry, where that of the scene is at N P + geometry + violation; torque is how much the clock of a steady
+    torque is ahead.
+    """
+    scene, braking = motion.scene, motion.braking
+    free, friction = copy.copy(scene), copy.copy(braking)
+    free.tensor = free.traceless = np.zeros((3, 3))
+    free.bulge = friction.kappa = 0.0
+    inertia = np.array([scene.inertia_xx, scene.inertia_xx, scene.inertia_zz])
+
+    def slowing(times):
+        return braking.rate(motion.states(times)[:, 9:] * inertia)[0]
+
+    lost = motion.integral(slowing)
+
+    def clock_rate(times):
+        return braking.start() * np.exp(-lost(times))
+
+    clock = motion.integral(clock_rate)
+    numbers, starts, ends = (np.array(column) for column in zip(*rows))
+    edges = [starts, ends]
+    first, last = clock(starts).min() + scene.start, clock(ends).max() + scene.start
+    turn = 2 * np.pi / motion.turning
+    alone = Motion(free, min(first, scene.start) - 10 * turn, max(last, scene.start) + 10 * turn, motion.numerics, friction)
+    number_at, pulses = _numbered(alone, min(first, scene.start), max(last, scene.start))
+    zero = number_at(scene.start)
+    middle = np.array([sum(pulses[number + zero]) / 2 - scene.start for number in numbers])
+    geometry = middle - numbers / braking.frequency
+    torque = sum(braking.steady_clock(edge - scene.start) - clock(edge) for edge in edges) / 2
+    violation = sum(clock(edge) for edge in edges) / 2 - middle
+    arrivals = (starts + ends) / 2
+    rate = -slowing(arrivals) * clock_rate(arrivals) * braking.frequency
+    return [delay * braking.frequency for delay in (geometry, torque, violation)], rate
 
 
 def described(motion, rows):
@@ -50,9 +97,9 @@ def described(motion, rows):
     return described
 
 
-def timing_files(scene, epochs, rows, described, strain_rate, h, terms, uncertainty):
-    """Tables of the .csv, .par, .tim and of both strain files `h` (none without a distance), by a fit of F0 and as many derivatives as make `terms`.
-    The date of the start of the motion is `time.epoch`.
+def timing_files(scene, epochs, rows, described, strain_rate, h, causes, terms, uncertainty):
+    """Tables of the .csv (with causes if they are given), .par, .tim and of both strain files `h` (none without a distance), by a fit of F0 and as many
+    derivatives as make `terms`. The date of the start of the motion is `time.epoch`.
 
     A row of a file of words is a list of its words.
     """
@@ -69,10 +116,15 @@ def timing_files(scene, epochs, rows, described, strain_rate, h, terms, uncertai
     late = (fit(t - centre) - numbers) / fit.deriv()(t - centre)
     phase, *rates = (fit.deriv(d)(-centre) if d else fit(-centre) for d in range(terms + 1))
 
-    table = [HEADER]
+    table = [[*HEADER, *([*DELAYS, "spin_down_rate [Hz/s]"] if causes else [])]]
+    parts = []
+    if causes:
+        # What such a fit leaves of the turns of each.
+        left = [turns - np.polynomial.Polynomial.fit(t - centre, turns, terms)(t - centre) for turns in causes[0]]
+        parts = [*(turns / fit.deriv()(t - centre) for turns in left), causes[1]]
     for k, (number, *_) in enumerate(rows):
         mjd = date + Fraction(middle[k] - scene.start) / 86400
-        table.append([int(number), int(mjd), float(mjd - int(mjd)), late[k], *described[k]])
+        table.append([int(number), int(mjd), float(mjd - int(mjd)), late[k], *described[k], *(part[k] for part in parts)])
 
     reference = round(phase)
     # The time at which the fit has this phase.

@@ -81,6 +81,13 @@ class Torque:
         x, n = self.kappa * self.ahead, self.index
         return np.exp(-x) if n == 2 else (1 + (n - 2) * x) ** (-1 / (n - 2))
 
+    def steady_clock(self, t):
+        """The integral of a since the epoch for a torque that is always its mean at the epoch: d ln a/dt = -kappa a^(n - 1)."""
+        kappa, n = self.kappa, self.index
+        # a = grown^(-1 / (n - 1)).
+        grown = 1 + (n - 1) * kappa * t
+        return (grown ** ((n - 2) / (n - 1)) - 1) / ((n - 2) * kappa)
+
     def rate(self, body):
         """-d ln |L| / dt for rows of L in the body, and the angular velocity in the body that friction adds."""
         size = np.linalg.norm(body, axis=1)
