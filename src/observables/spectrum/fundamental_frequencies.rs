@@ -21,6 +21,9 @@ const FINE: usize = 64;
 /// Largest change of an angle between two points of the grid (rad), below a quarter turn.
 const LARGEST_STEP: f64 = 1.5;
 
+/// A sum of rates below this fraction of its terms is rounding: rates have 32 digits.
+const CANCELLED: f64 = 1e-30;
+
 /// An averaged `L` below this fraction of its largest value is rounding.
 const SMALLEST_MOMENTUM: f64 = 1e-9;
 
@@ -117,10 +120,17 @@ impl FundamentalFrequencies {
     }
 }
 
+/// Rate (turns per unit of time) of a combination of angles; zero if only the rounding of 32 digits is left of its terms.
+pub(super) fn turns_of(rates: &[DoubleDouble; 3], multiples: [i32; 3]) -> DoubleDouble {
+    let terms = rates.iter().zip(multiples).map(|(rate, k)| *rate * DoubleDouble::from(f64::from(k)));
+    let sum = terms.clone().fold(DoubleDouble::from(0.0), |sum, term| sum + term);
+    let size: f64 = terms.map(|term| term.high.abs()).sum();
+    if sum.high.abs() <= CANCELLED * size { DoubleDouble::from(0.0) } else { sum }
+}
+
 /// Rate (rad per unit of time) of a combination of angles.
 pub(super) fn rate_of(rates: &[DoubleDouble; 3], multiples: [i32; 3]) -> f64 {
-    let terms = rates.iter().zip(multiples).map(|(rate, k)| *rate * DoubleDouble::from(f64::from(k)));
-    terms.fold(DoubleDouble::from(0.0), |sum, term| sum + term).high * TAU
+    turns_of(rates, multiples).high * TAU
 }
 
 /// The rows of a basis, completed with unit vectors along the angles that do not move.

@@ -8,6 +8,7 @@ use super::transform::{coefficients, multiples, points};
 use super::{Combination, QuasiPeriodicMotion};
 use crate::dynamics::BodyState;
 use crate::error::Error;
+use crate::numerics::double_double::DoubleDouble;
 
 /// Points of the first grid in each angle.
 const FIRST_GRID: [usize; 3] = [8, 8, 4];
@@ -133,6 +134,19 @@ impl QuasiPeriodicMotion {
         Ok(still)
     }
 
+    /// The terms with their frequencies (rad per unit of time). Terms of one frequency are a single one: their sum, with the multiples of the largest.
+    fn by_frequency(&self, terms: &[Term]) -> Vec<(f64, [i32; 3], Complex<f64>)> {
+        let mut sorted: Vec<_> =
+            terms.iter().map(|(multiples, of)| (self.turns(*multiples), *multiples, *of)).collect();
+        sorted.sort_by(|(a, ..), (b, ..)| a.high.total_cmp(&b.high).then(a.low.total_cmp(&b.low)));
+        let is_one = |a: &[i32; 3], b: &[i32; 3]| self.turns([0, 1, 2].map(|i| a[i] - b[i])).high == 0.0;
+        let group = |group: &[(DoubleDouble, [i32; 3], Complex<f64>)]| {
+            let largest = group.iter().max_by(|a, b| a.2.norm().total_cmp(&b.2.norm())).expect("a term");
+            (largest.0.high * TAU, largest.1, group.iter().map(|(.., coefficient)| coefficient).sum())
+        };
+        sorted.chunk_by(|(_, a, _), (_, b, _)| is_one(a, b)).map(group).collect()
+    }
+
     fn listed<E>(
         &self,
         all: &[Complex<f64>],
@@ -140,25 +154,20 @@ impl QuasiPeriodicMotion {
         least: f64,
         at: &impl Fn([f64; 3]) -> Result<[f64; 2], E>,
     ) -> Result<LineList, E> {
+        let listed = |(place, coefficient): (usize, &Complex<f64>)| {
+            (2.0 * coefficient.norm() >= least).then(|| (multiples(place, counts), *coefficient))
+        };
+        let terms: Vec<_> = all.iter().enumerate().skip(1).filter_map(listed).collect();
         let (mut lines, mut constant) = (Vec::new(), all[0].re);
-        // The lines and the zero-frequency terms at a point: amplitude and phase.
-        let mut waves = Vec::new();
-        for (place, coefficient) in all.iter().enumerate().skip(1) {
-            let amplitude = 2.0 * coefficient.norm();
-            if amplitude < least {
-                continue;
-            }
-            let (multiples, phase) = (multiples(place, counts), coefficient.arg());
-            let [frequency, uncertainty] = self.frequency(multiples);
+        for (frequency, multiples, coefficient) in self.by_frequency(&terms) {
             if frequency == 0.0 {
                 constant += coefficient.re;
-                // Each of the pair of opposite multiples contributes half.
-                waves.push((0.5 * amplitude, phase, multiples));
-            } else if frequency > 0.0 {
+            } else if frequency > 0.0 && 2.0 * coefficient.norm() >= least {
                 // The others have the opposite multiples.
+                let [_, uncertainty] = self.frequency(multiples);
                 let combination = self.frequencies().combination(multiples);
+                let (amplitude, phase) = (2.0 * coefficient.norm(), coefficient.arg());
                 lines.push(SpectralLine { frequency, amplitude, phase, uncertainty, combination });
-                waves.push((amplitude, phase, multiples));
             }
         }
         let mut left = 0.0_f64;
@@ -166,16 +175,19 @@ impl QuasiPeriodicMotion {
             // Turns that are not fractions of the grid, from the first prime numbers.
             let turns = [2.0_f64, 3.0, 5.0].map(|prime| (k as f64 + 0.5) * prime.sqrt());
             let turns: [f64; 3] = core::array::from_fn(|i| if counts[i] > 1 { turns[i].fract() } else { 0.0 });
-            let here = |(amplitude, phase, multiples): &(f64, f64, [i32; 3])| {
+            let here = |(multiples, coefficient): &Term| {
                 let angle: f64 = (0..3).map(|i| f64::from(multiples[i]) * turns[i]).sum();
-                amplitude * (TAU * angle + phase).cos()
+                (coefficient * Complex::cis(TAU * angle)).re
             };
-            left = left.max((at(turns)?[0] - all[0].re - waves.iter().map(here).sum::<f64>()).abs());
+            left = left.max((at(turns)?[0] - all[0].re - terms.iter().map(here).sum::<f64>()).abs());
         }
         lines.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
         Ok(LineList { constant, lines, least, left })
     }
 }
+
+/// A term of the series: multiples of the angles, and their coefficient.
+type Term = ([i32; 3], Complex<f64>);
 
 /// Largest coefficient apart from the constant, and for each angle the largest among multiples in the upper quarter of the
 /// grid.
@@ -273,6 +285,54 @@ mod tests {
         assert!(matches!(jump, Err(Error::Domain { .. })));
         let refused = found.lines(1e-6, |_| Err::<[f64; 2], _>(Error::Unsupported { what: "it", why: "no" }));
         assert!(matches!(refused, Err(Error::Unsupported { .. })));
+    }
+
+    /// A wobbling star whose `L` is near one axis of `s^IJ` and circles it slowly: a loop of `n` about that axis is shorter than one about `L`.
+    #[test]
+    fn the_strongest_line_of_the_momentum_is_its_slow_precession() {
+        let star = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.1, constant_c: 1.0 };
+        for size in [1.0, 1e-3] {
+            for wobble in [0.1_f64, 0.4, 1.2] {
+                let s = Matrix3::from_diagonal(&(Vector3::new(0.02, 0.01, -0.04) * size));
+                let l = Vector3::new(1.0, 0.1, 0.1).normalize();
+                let across = l.cross(&Vector3::y()).normalize();
+                let axis = l * wobble.cos() + across * wobble.sin();
+                let initial = BodyState { axis, momentum: l * 1.1, equatorial_axis: axis.cross(&l).normalize() };
+                let found = motion(&Problem::new(star, s, initial).unwrap());
+                let of_momentum = lines(&found, 1e-6, |state| state.momentum.y);
+                let slow = found.frequencies().rate("l'").expect("L circles X");
+                assert_eq!(of_momentum.lines[0].frequency, slow.abs(), "{size} {wobble}: {:?}", of_momentum.lines[0]);
+                // To first order l' = (2 C / |L|) P2(c) times the root of the products of differences of eigenvalues.
+                let p2 = 1.5 * wobble.cos().powi(2) - 0.5;
+                let expected = 2.0 / 1.1 * p2.abs() * size * (0.01_f64 * 0.06).sqrt();
+                assert!((slow.abs() / expected - 1.0).abs() < 0.2, "{size} {wobble}: {slow:e} {expected:e}");
+            }
+        }
+    }
+
+    /// Without spin `e_x` does not turn about `n`, and after a start from rest a rate is the difference of two that are equal: terms of one frequency
+    /// are one line, and what does not move is in the constant.
+    #[test]
+    fn a_frequency_is_listed_once() {
+        let star = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.1, constant_c: 1.0 };
+        let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.04));
+        let axis = Vector3::new(0.6, 0.24, 0.763_413_6).normalize();
+        let across = axis.cross(&Vector3::new(0.3, 0.9, -0.2)).normalize();
+        for speed in [0.9, 0.0] {
+            let initial = BodyState { axis, momentum: across * speed, equatorial_axis: axis.cross(&across) };
+            let problem = Problem::new(star, s, initial).unwrap();
+            let found = motion(&problem);
+            let value = |state: &BodyState<f64>| state.equatorial_axis.x + 0.7 * state.axis.z;
+            let all = lines(&found, 1e-7, value);
+            let mut frequencies: Vec<_> = all.lines.iter().map(|line| line.frequency).collect();
+            frequencies.sort_by(f64::total_cmp);
+            assert!(frequencies[0] > 1e-6 && frequencies.windows(2).all(|pair| pair[1] - pair[0] > 1e-10), "{speed}");
+            let exact = crate::propagation::PhasedMotion::exact(&problem, 1e4).unwrap();
+            for t in [0.0, 17.0, 290.0, 4321.0] {
+                let sum = all.constant + all.lines.iter().map(|line| line.value(t)).sum::<f64>();
+                assert!((sum - value(&exact.state([t, 0.0]))).abs() < 1e-5, "{speed} {t}: {sum}");
+            }
+        }
     }
 
     /// A free body whose spin relative to `L` is half of its precession rate: the line `(1, 0, -2)` has zero frequency, and belongs to the mean over

@@ -2,9 +2,10 @@
 
 use core::f64::consts::TAU;
 
-use super::fundamental_frequencies::{FundamentalFrequencies, rate_of};
+use super::fundamental_frequencies::{FundamentalFrequencies, turns_of};
 use crate::dynamics::{BodyState, Problem};
 use crate::error::Error;
+use crate::numerics::double_double::DoubleDouble;
 use crate::propagation::{PhasedMotion, largest_torque};
 
 /// Rates are computed to 32 digits, as for a motion of this many turns.
@@ -13,12 +14,17 @@ const TURNS: f64 = 1e15;
 /// Fraction of these turns over which the error of the rates is evaluated.
 const PART: f64 = 1e-9;
 
+/// A component `L.n` below this fraction of `|L|` is the rounding of both: the star has no spin.
+const NO_SPIN: f64 = 4.0 * f64::EPSILON;
+
 /// A motion as a function of three angles that grow in proportion to time, with its fundamental frequencies.
 #[derive(Debug, Clone)]
 pub struct QuasiPeriodicMotion {
     motion: PhasedMotion,
     /// Phases at the start, in turns.
     start: [f64; 3],
+    /// Rates of the phases (turns per unit of time).
+    rates: [DoubleDouble; 3],
     rate_error: f64,
     frequencies: FundamentalFrequencies,
 }
@@ -37,9 +43,17 @@ impl QuasiPeriodicMotion {
         let motion = PhasedMotion::exact(problem, longest)?;
         let start = motion.turns([0.0; 2]).map(|turns| turns.fraction);
         let rate_error = (motion.error_estimate(PART * longest) - motion.error_estimate(0.0)) / (PART * longest);
+        let mut rates = motion.turns_per_time();
+        // The rotation about n due to the rounding of L.n would have a period of some 1e16 rotations.
+        let rounding = NO_SPIN * problem.initial().momentum.norm();
+        if problem.initial().momentum.dot(&problem.initial().axis).abs() <= rounding
+            && TAU * rates[2].high.abs() <= rounding / spheroid.inertia_xx.min(spheroid.inertia_zz)
+        {
+            rates[2] = DoubleDouble::from(0.0);
+        }
         let state = |turns| motion.state_at(sum(start, turns));
-        let frequencies = FundamentalFrequencies::of(state, motion.turns_per_time(), &motion.pole());
-        Ok(Self { motion, start, rate_error, frequencies })
+        let frequencies = FundamentalFrequencies::of(state, rates, &motion.pole());
+        Ok(Self { motion, start, rates, rate_error, frequencies })
     }
 
     /// The state after given turns of the three angles since the start.
@@ -47,9 +61,9 @@ impl QuasiPeriodicMotion {
         self.motion.state_at(sum(self.start, turns))
     }
 
-    /// Rates of the three angles (rad per unit of time).
+    /// Rates of the three angles (rad per unit of time). The third one, about `n`, is zero if `L.n` is, up to rounding.
     pub fn rates(&self) -> [f64; 3] {
-        self.motion.rates()
+        self.rates.map(|rate| rate.high * TAU)
     }
 
     /// The fundamental frequencies by which lines are named.
@@ -57,9 +71,14 @@ impl QuasiPeriodicMotion {
         &self.frequencies
     }
 
+    /// Frequency (turns per unit of time) of a combination of the three angles.
+    pub(super) fn turns(&self, multiples: [i32; 3]) -> DoubleDouble {
+        turns_of(&self.rates, multiples)
+    }
+
     /// Frequency (rad per unit of time) of a combination of the three angles, and its estimated error.
     pub(super) fn frequency(&self, multiples: [i32; 3]) -> [f64; 2] {
-        let sum = rate_of(&self.motion.turns_per_time(), multiples);
+        let sum = self.turns(multiples).high * TAU;
         let order: i32 = multiples.iter().map(|k| k.abs()).sum();
         [sum, f64::from(order) * self.rate_error + f64::EPSILON * sum.abs()]
     }

@@ -82,6 +82,11 @@ fn about_x(v: &Vector3<f64>) -> Vector3<f64> {
     Vector3::new(v.x, -v.y, -v.z)
 }
 
+/// The inner product of paths in a metric. That of a path with itself is its squared length.
+fn along(metric: &Vector2<f64>, a: &Vector2<f64>, b: &Vector2<f64>) -> f64 {
+    a.component_mul(metric).dot(b)
+}
+
 enum Walked {
     Lattice(Lattice),
     Thin,
@@ -99,6 +104,8 @@ struct Walk<'a> {
     /// Sum over these states of the squared changes of `n` and `L` and of the squared rotation of the body, per time along
     /// each flow.
     metric: Vector2<f64>,
+    /// The same sum for the changes of `L` alone.
+    metric_of_momentum: Vector2<f64>,
     /// States in the plane, and the times from the start to them.
     found: Vec<(Vector2<f64>, Axes<f64>)>,
 }
@@ -106,7 +113,16 @@ struct Walk<'a> {
 impl<'a> Walk<'a> {
     fn new(integrals: &'a Integrals<f64>, unit: f64, thin: f64) -> Self {
         let search = Search::new(integrals, unit);
-        Self { integrals, search, unit, thin, seen: 0.0, metric: Vector2::zeros(), found: Vec::new() }
+        Self {
+            integrals,
+            search,
+            unit,
+            thin,
+            seen: 0.0,
+            metric: Vector2::zeros(),
+            metric_of_momentum: Vector2::zeros(),
+            found: Vec::new(),
+        }
     }
 
     fn from(mut self, start: &Axes<f64>) -> Walked {
@@ -173,8 +189,10 @@ impl<'a> Walk<'a> {
     fn look(&mut self, at: &Axes<f64>, times: Vector2<f64>) -> bool {
         let (step, turns) = (self.search.step_to_plane(at), self.integrals.turning_rates(at));
         self.seen += 1.0;
-        for (flow, metric) in self.metric.iter_mut().enumerate() {
-            *metric += step.tangents.column(flow).norm_squared() + turns[flow].norm_squared();
+        for flow in 0..2 {
+            let tangent = step.tangents.column(flow);
+            self.metric[flow] += tangent.norm_squared() + turns[flow].norm_squared();
+            self.metric_of_momentum[flow] += tangent.rows(3, 3).norm_squared();
         }
         let length = step.length();
         let predicted = times + step.change;
@@ -200,12 +218,7 @@ impl<'a> Walk<'a> {
     /// Length of the path along the flows for given times, from the rotation of the body and the motion of `n` and `L`. It is a mean over the states
     /// evaluated, in which the flows cannot cancel.
     fn length(&self, times: &Vector2<f64>) -> f64 {
-        self.along(times, times).sqrt()
-    }
-
-    /// The inner product of paths whose square root is [`length`](Self::length).
-    fn along(&self, a: &Vector2<f64>, b: &Vector2<f64>) -> f64 {
-        a.component_mul(&self.metric).dot(b)
+        along(&self.metric, times, times).sqrt()
     }
 
     /// The lattice of the states in the plane, if it is complete: no state is left inside a cell of those found.
@@ -260,7 +273,7 @@ impl<'a> Walk<'a> {
             if self.length(&a) > self.length(&b) {
                 (a, b) = (b, a);
             }
-            let whole = (self.along(&a, &b) / self.along(&a, &a)).round();
+            let whole = (along(&self.metric, &a, &b) / along(&self.metric, &a, &a)).round();
             if whole == 0.0 {
                 break;
             }
@@ -282,13 +295,14 @@ impl<'a> Walk<'a> {
         }
         let slow = ends[place].0;
         // Whole periods of the other kind are subtracted from each.
-        let less = |way: Vector2<f64>, by: Vector2<f64>| {
-            way - by * (2.0 * (self.along(&way, &by) / self.along(&by, &by) / 2.0).round())
+        let less = |way: Vector2<f64>, by: Vector2<f64>, metric: &Vector2<f64>| {
+            way - by * (2.0 * (along(metric, &way, &by) / along(metric, &by, &by) / 2.0).round())
         };
-        // Of the other two, the one with the smaller part along the flow of `K`, which moves the averaged L.
-        let others = (0..3).filter(|i| *i != place).map(|i| less(ends[i].0, slow));
-        let fast = others.min_by(|a, b| a.y.abs().total_cmp(&b.y.abs()))?;
-        let slow = less(slow, fast);
+        // Of the other two, the one along which L moves less: the slow period moves L about the axis.
+        let of_momentum = &self.metric_of_momentum;
+        let others = (0..3).filter(|i| *i != place).map(|i| less(ends[i].0, slow, of_momentum));
+        let fast = others.min_by(|a, b| along(of_momentum, a, a).total_cmp(&along(of_momentum, b, b)))?;
+        let slow = less(slow, fast, &self.metric);
         let forwards = |way: Vector2<f64>, flow: usize| way * way[flow].signum();
         let (fast, slow) = (forwards(fast, 0), forwards(slow, 1));
         // The same state, without whole periods from the start.
