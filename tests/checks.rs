@@ -1,6 +1,6 @@
-//! Runs every check of the project as a test of its own: `cargo test --test checks -- ID`.
+//! Runs every check of the project as a separate test: `cargo test --test checks -- ID`.
 //!
-//! With the variable `FAIL_FAST` set the first failure ends the run, which is all that mutation tests want to know.
+//! If the variable `FAIL_FAST` is set, the first failure ends the run, which is sufficient for mutation tests.
 
 use libtest_mimic::{Arguments, Failed, Trial};
 use twofold_verify::check::Check;
@@ -30,14 +30,14 @@ fn main() {
         .with_kind(check.kind.name())
     };
     let mut trials: Vec<_> = all().into_iter().map(of_check).collect();
-    // Last, when most of its figures are there.
+    // These run last, when most of their figures exist.
     trials.push(Trial::test("page-of-claims", page_of_claims));
     trials.push(Trial::test("figures-of-the-documentation", figures_of_the_documentation));
     libtest_mimic::run(&Arguments::from_args(), trials).exit();
 }
 
-/// In tables of `docs/` with a column `figure`, that of each check named in the last column is the one it measures: to the digits written, or, where
-/// rounding makes it and the machine matters, to a factor of two.
+/// In tables of `docs/` with a column `figure`, the figure of each check named in the last column is the measured one: to the digits written, or to
+/// a factor of two for figures that are rounding and depend on the machine.
 fn figures_of_the_documentation() -> Result<(), Failed> {
     let (mut seen, mut stale) = (0, String::new());
     for page in std::fs::read_dir("docs")? {
@@ -69,7 +69,7 @@ fn figures_of_the_documentation() -> Result<(), Failed> {
     if seen < 50 || !stale.is_empty() { Err(format!("{seen} figures{stale}").into()) } else { Ok(()) }
 }
 
-/// Whether a text begins with a number, in percent or not, that is another one rounded.
+/// Whether a text begins with a number, in percent or not, that is the rounded measured one.
 fn agrees(text: &str, measured: f64) -> bool {
     let length = text.find(|c: char| !(c.is_ascii_digit() || ".e-".contains(c))).unwrap_or(text.len());
     let (number, rest) = text.split_at(length);

@@ -3,7 +3,8 @@
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, LineStyle, Table};
 
-/// Rows under the first, their header, with a line between and one below them all if `closed`. Which columns are on the right is asked.
+/// A table whose first row is its header, with a rule below the header and one below the last row if `closed`. `on_the_right` selects
+/// the right-aligned columns.
 pub(crate) fn text_table(rows: &[Vec<String>], on_the_right: impl Fn(usize) -> bool, closed: bool) -> String {
     let line = LineStyle::none().fill('─').junction('─');
     let style = NOTHING.header_separator(line);

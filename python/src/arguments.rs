@@ -1,4 +1,4 @@
-//! Arguments that are one number or a list of names.
+//! Arguments: a number or a list of names.
 
 use pyo3::Borrowed;
 use pyo3::exceptions::PyTypeError;
@@ -9,7 +9,7 @@ use pyo3::types::{PyBool, PyString};
 use crate::arrays::Numbers;
 use crate::error::raised;
 
-/// One real number, of Python or numpy. A boolean is none.
+/// One real number from Python or numpy. A boolean is refused.
 #[derive(Clone, Copy)]
 pub struct Number(pub f64);
 
@@ -25,7 +25,7 @@ impl<'py> FromPyObject<'_, 'py> for Number {
         }
         match given.extract::<Numbers>() {
             Ok(numbers) => numbers.scalar().map(Self).ok_or_else(refused),
-            // A number of another kind, as a `Fraction`; an array has its reason.
+            // Another number type, such as `Fraction`, is accepted; an array has its own error.
             Err(_) if !given.hasattr("dtype")? => given.extract().map(Self).map_err(|_| refused()),
             Err(error) if error.is_instance_of::<PyTypeError>(given.py()) => Err(refused()),
             Err(error) => Err(error),
@@ -55,7 +55,7 @@ impl<'py> FromPyObject<'_, 'py> for Names {
 }
 
 impl Names {
-    /// The names as a list that the command takes, without what would be another list there. `argument` is what they are given as.
+    /// The names as the command's list. Names that would be a different list there are refused. `argument` is the name of the argument.
     pub fn listed(&self, argument: &str) -> PyResult<String> {
         if self.0.is_empty() {
             return Err(raised(format!("{argument}: none: allowed are one name and more")));
@@ -69,7 +69,7 @@ impl Names {
     }
 }
 
-/// A message of the command with the arguments of Python in place of the command's options.
+/// A message of the command with Python's arguments in place of the command's options.
 pub fn by_arguments(message: impl ToString) -> PyErr {
     let options = [
         ("--simulate and strains", "strains"),

@@ -10,14 +10,13 @@ use pyo3::{Borrowed, type_hint_identifier, type_hint_subscript};
 use crate::error::raised;
 use crate::interrupt::in_parts;
 
-/// A scalar or an array, as Python gives it.
+/// A scalar or an array from Python.
 pub struct Numbers {
     pub values: Vec<f64>,
-    /// None of a scalar.
+    /// `None` for a scalar.
     shape: Option<Vec<usize>>,
 }
 
-/// What a number or an array of numbers is read from.
 impl<'py> FromPyObject<'_, 'py> for Numbers {
     type Error = PyErr;
 
@@ -38,7 +37,7 @@ impl<'py> FromPyObject<'_, 'py> for Numbers {
         }
         let array = numpy.call_method1(pyo3::intern!(py, "asarray"), (given,)).map_err(|_| refused())?;
         let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
-        // Longer doubles are rounded; what is no real number is not converted.
+        // Longer floats are rounded; other types than real numbers are refused.
         if !["i", "u", "f"].contains(&kind.as_str()) {
             return Err(refused());
         }
@@ -56,12 +55,12 @@ impl<'py> FromPyObject<'_, 'py> for Numbers {
 }
 
 impl Numbers {
-    /// The number, if it is one without a shape.
+    /// The number, if it has no shape.
     pub fn scalar(&self) -> Option<f64> {
         self.shape.is_none().then(|| self.values[0])
     }
 
-    /// The numbers of `other`, called `name`, beside these: as many, or one for all.
+    /// The numbers of `other`, called `name`, for each of these: as many, or one for all.
     pub fn beside(&self, name: &str, other: Self) -> PyResult<Vec<f64>> {
         match other.shape {
             None => Ok(vec![other.values[0]; self.values.len()]),
@@ -81,7 +80,7 @@ impl Numbers {
         }
     }
 
-    /// As many numbers called `name` as `count`, from a list of them or from one for all.
+    /// `count` numbers called `name`, from a list of that length or from one number for all.
     pub fn list_of(self, name: &str, count: usize) -> PyResult<Vec<f64>> {
         if self.shape.is_none() {
             return Ok(vec![self.values[0]; count]);
@@ -96,7 +95,7 @@ impl Numbers {
         )))
     }
 
-    /// What a function is at each of the numbers, without Python's lock where they are many. One value takes microseconds.
+    /// A function at each of the numbers, without Python's lock if they are many. One value takes microseconds.
     pub fn map<T: Send, E: std::fmt::Display + Send>(
         &self,
         py: Python<'_>,
@@ -108,7 +107,7 @@ impl Numbers {
         }
     }
 
-    /// As `map`, where even one value can take long.
+    /// As `map`, if even one value can take long.
     pub fn map_long<T: Send, E: std::fmt::Display + Send>(
         &self,
         py: Python<'_>,
@@ -124,7 +123,7 @@ impl Numbers {
         Ok(found)
     }
 
-    /// Values, `parts` of them for each of the numbers, in the shape of the numbers with the axes of the parts behind.
+    /// Values, `parts` for each of the numbers, in the shape of the numbers followed by the axes of the parts.
     pub fn shaped<'py>(&self, py: Python<'py>, values: Vec<f64>, parts: &[usize]) -> PyResult<Bound<'py, PyAny>> {
         let mut shape = match &self.shape {
             None if parts.is_empty() => return Ok(PyFloat::new(py, values[0]).into_any()),

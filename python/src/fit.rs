@@ -1,4 +1,4 @@
-//! What data say of a star: fits of timing models, Fisher matrices, limits.
+//! Fits of timing models, Fisher matrices, limits.
 
 use std::f64::consts::TAU;
 use std::path::PathBuf;
@@ -109,7 +109,7 @@ impl TimingData {
         Ok(Array(PyArray1::from_vec(py, values).reshape([self.data.arrivals.len(), 2])?.into_any()))
     }
 
-    /// Their standard deviations (s).
+    /// Standard deviations of the arrivals (s).
     #[getter]
     fn sigmas<'py>(&self, py: Python<'py>) -> Array<'py> {
         array(py, self.data.arrivals.iter().map(|arrival| arrival.sigma))
@@ -150,7 +150,7 @@ impl TimingData {
     }
 }
 
-/// An epoch as a number or as a text with more digits.
+/// An epoch as a number, or as a text with more digits.
 fn read_epoch(given: &Bound<'_, PyAny>) -> PyResult<twofold::epoch::Epoch> {
     match given.extract::<String>() {
         Ok(text) => text.parse().map_err(raised),
@@ -158,19 +158,19 @@ fn read_epoch(given: &Bound<'_, PyAny>) -> PyResult<twofold::epoch::Epoch> {
     }
 }
 
-/// Refuses values of an argument.
+/// Refuses values of an argument that are not allowed.
 fn each(values: &[f64], name: &'static str, is_allowed: fn(f64) -> bool, allowed: &'static str) -> PyResult<()> {
     values
         .iter()
         .try_for_each(|value| twofold::Error::ensure(is_allowed(*value), name, *value, allowed).map_err(raised))
 }
 
-/// Unknowns of a timing model by their names.
+/// Unknowns of a timing model from their names.
 fn unknowns_of(names: &Names) -> PyResult<Vec<TimingParameter>> {
     named(&names.listed("unknowns")?, &TimingParameter::ALL).map_err(|why| raised(format!("unknowns: {why}")))
 }
 
-/// A list that may be left out.
+/// An optional list.
 fn read(name: &str, given: Option<Numbers>) -> PyResult<Vec<f64>> {
     given.map_or_else(|| Ok(Vec::new()), |given| given.list(name))
 }
@@ -207,7 +207,7 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// `unit` is the factor to the unit of an unknown, and this unit.
+    /// `unit` gives the factor to the unit of an unknown, and this unit.
     pub fn of_fisher<M: Model>(fisher: &Fisher<M>, unit: impl Fn(M::Unknown) -> (f64, String)) -> Self {
         let (factors, units): (Vec<f64>, Vec<_>) = fisher.unknowns.iter().map(|unknown| unit(*unknown)).unzip();
         let scaled = |values: Vec<f64>| values.iter().zip(&factors).map(|(value, factor)| value * factor).collect();
@@ -252,7 +252,7 @@ impl Fit {
 
 #[pymethods]
 impl Fit {
-    /// The unit of each unknown, of its value and its standard deviation; `1` of a number without one.
+    /// The unit of each unknown, for its value and its standard deviation; `1` for a number without a unit.
     #[getter]
     fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let units = PyDict::new(py);
@@ -266,13 +266,13 @@ impl Fit {
         array(py, self.values.iter().copied())
     }
 
-    /// Their standard deviations.
+    /// The standard deviations of the unknowns.
     #[getter]
     fn sigmas<'py>(&self, py: Python<'py>) -> Array<'py> {
         array(py, self.sigmas.iter().copied())
     }
 
-    /// Their covariance.
+    /// The covariance of the unknowns.
     #[getter]
     fn covariance<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
         let count = self.values.len();

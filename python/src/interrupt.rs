@@ -8,11 +8,11 @@ use pyo3::prelude::*;
 
 use crate::error::raised;
 
-/// Time between two looks for Ctrl-C.
+/// Time between two checks for Ctrl-C.
 pub const LOOKED_EVERY: Duration = Duration::from_millis(50);
 
-/// Does `count` pieces of work in order without Python's lock, and looks for Ctrl-C between pieces. `work` takes some pieces at a time: few where they
-/// take long, many where they are short.
+/// Does `count` pieces of work in order without Python's lock, and checks for Ctrl-C between them. `work` takes several pieces at a time: few if they
+/// are long, many if they are short.
 pub fn in_parts<E: Display + Send>(
     py: Python<'_>,
     count: usize,

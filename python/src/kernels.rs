@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 
 /// Formulas of the paper and of the star, each checked by the project's suite (docs/equations.md). Arguments are scalars or arrays, which
-/// are broadcast as numpy does. An argument outside its domain raises `twofold.Error`.
+/// are broadcast as in numpy. An argument outside its domain raises `twofold.Error`.
 #[pymodule(submodule)]
 pub mod kernels {
     use std::f64::consts::{PI, TAU};
@@ -24,7 +24,7 @@ pub mod kernels {
         Error::ensure(value.is_finite(), name, value, "a finite number").map(|()| value)
     }
 
-    /// A result that a double can hold.
+    /// A result that is a finite double.
     fn result(name: &'static str, value: f64) -> Result<f64, Error> {
         Error::ensure(value.is_finite(), name, value, "a finite double; other arguments give one").map(|()| value)
     }

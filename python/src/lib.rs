@@ -15,7 +15,7 @@ mod table;
 mod timing_model;
 mod writing;
 
-/// Python's memory is aligned to 16 bytes and no more: what vector instructions want wider is boxed.
+/// Python aligns memory to 16 bytes only: types with vector registers, which need more, are boxed.
 const _: () = {
     assert!(
         align_of::<scene::Scene>() <= 16 && align_of::<motion::Motion>() <= 16 && align_of::<pulsar::Pulsar>() <= 16
@@ -31,7 +31,7 @@ mod module {
     use numpy::PyArray1;
     use pyo3::prelude::*;
 
-    /// Takes numpy's functions for arrays, at import: later a Ctrl-C that waits to be handled could make this fail.
+    /// Imports numpy's array functions at import: later a pending Ctrl-C could make this fail.
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         PyArray1::<f64>::zeros(module.py(), 0, false);

@@ -12,7 +12,7 @@ use crate::error::raised;
 use crate::pickle::{Reduced, called_with};
 use crate::scene::Scene;
 
-/// Samples for which the cheapest method is chosen.
+/// Samples assumed in the choice of the method.
 const SAMPLES: usize = 1000;
 
 /// The motion of a scene's star: its state at any time of the span, by a call. Times are in the `time_unit` of the scene.
@@ -21,7 +21,7 @@ pub struct Motion {
     of: Py<Scene>,
     scene: scene_file::Scene,
     end: f64,
-    /// As it was asked for.
+    /// The method as requested.
     method: Option<String>,
     by: &'static str,
     motion: Box<PlannedMotion<BodyState<f64>>>,
@@ -57,7 +57,7 @@ impl Motion {
         Err(format!("t = {t:?} {unit}: allowed is the span of the motion, from {first:?} to {last:?} {unit}"))
     }
 
-    /// A function at times of the span.
+    /// Evaluates a function at times of the span.
     fn at<T>(
         &self,
         mut function: impl FnMut(f64) -> Result<T, twofold::Error>,
@@ -118,7 +118,7 @@ impl Motion {
         (self.scene.times.start(), self.end)
     }
 
-    /// The scene that moves.
+    /// The scene of the motion.
     #[getter]
     fn scene(&self, py: Python<'_>) -> Py<Scene> {
         self.of.clone_ref(py)

@@ -1,9 +1,9 @@
-//! How an object is made again from a pickle.
+//! How a pickled object is restored.
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-/// What `__reduce__` gives: a callable and its arguments.
+/// The result of `__reduce__`: a callable and its arguments.
 pub type Reduced<'py> = (Bound<'py, PyAny>, Bound<'py, PyTuple>);
 
 /// A call with these keyword arguments.

@@ -24,16 +24,16 @@ use crate::pulsar::Pulsar;
 use crate::table::Table;
 use crate::writing::written;
 
-/// A star, how it starts, the coefficients for Lorentz violation, and what is observed: as in a scene file (docs/scenes.md).
+/// A star, its initial motion, the coefficients for Lorentz violation, and what is observed: as in a scene file (docs/scenes.md).
 ///
 /// `Scene("tp-1")` is a built-in scene and `Scene("my-star.toml")` that of a file; `Scene(toml=text)` that of a text. Sections are keyword
-/// arguments: `Scene("tp-1", star={"spin": 1.2})` changes one number, `Scene("tp-1", pulsar=None)` takes a section away, and a scene can be made of sections alone. Scenes are frozen, compare by their text and can be pickled.
+/// arguments: `Scene("tp-1", star={"spin": 1.2})` changes one number, `Scene("tp-1", pulsar=None)` removes a section, and a scene can be made of sections alone. Scenes are frozen, compare by their text and can be pickled.
 #[pyclass(frozen, module = "twofold", name = "Scene")]
 pub struct Scene {
     name: String,
     toml: String,
     pub(crate) scene: Arc<scene_file::Scene>,
-    /// The reason why the columns of the file cannot be written, where the scene lacks what they need.
+    /// Why the columns of the file cannot be written, if the scene lacks something that they need.
     without_columns: Option<String>,
 }
 
@@ -47,7 +47,7 @@ impl Scene {
         Ok(Self { name, toml, scene: Arc::new(scene), without_columns })
     }
 
-    /// What is measured of the scene, and the signal of it.
+    /// The measurement of the scene, and its signal.
     fn measured(
         &self,
         observe: &BTreeMap<String, Number>,
@@ -63,7 +63,7 @@ impl Scene {
         Ok((measurement, signal))
     }
 
-    /// The scene for some columns or those of the file, and by another method or tolerance.
+    /// The scene for the given columns or those of the file, and with another method or tolerance.
     fn of_columns(
         &self,
         columns: Option<Names>,
@@ -81,7 +81,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// The scene by another method or tolerance.
+    /// The scene with another method or tolerance.
     fn with(&self, method: Option<&str>, tolerance: Option<Number>) -> PyResult<scene_file::Scene> {
         let mut scene = (*self.scene).clone();
         if let Some(Number(tolerance)) = tolerance {
@@ -96,7 +96,7 @@ impl Scene {
     }
 }
 
-/// The text of a scene with sections changed. A section that is none is taken away, and a key of one too.
+/// The text of a scene with changed sections. A section or a key that is None is removed.
 fn changed(py: Python<'_>, text: &str, sections: &Bound<'_, PyDict>) -> PyResult<String> {
     let document = py.import("tomllib")?.call_method1("loads", (text,)).map_err(raised)?.cast_into::<PyDict>()?;
     for (name, section) in sections {
@@ -128,7 +128,7 @@ fn changed(py: Python<'_>, text: &str, sections: &Bound<'_, PyDict>) -> PyResult
     py.import("tomli_w")?.call_method1("dumps", (document,)).map_err(raised)?.extract()
 }
 
-/// Arrays and numbers of numpy as Python's, and so in lists.
+/// Arrays and numbers of numpy converted to Python's, also within lists.
 fn plain(value: Bound<'_, PyAny>) -> PyResult<Bound<'_, PyAny>> {
     if value.hasattr("tolist")? {
         return value.call_method0("tolist");
@@ -354,7 +354,7 @@ impl Scene {
         Ok((made_again, PyTuple::new(slf.py(), [name, toml])?))
     }
 
-    /// A scene with the name and text of another, for pickle.
+    /// A scene from the name and text of another, for pickle.
     #[staticmethod]
     fn _of_text(name: String, toml: String) -> PyResult<Self> {
         Self::of_text(name, toml)

@@ -1,4 +1,4 @@
-//! Sweeps: many scenes, any part of them computed anywhere.
+//! Sweeps: many scenes, any part of which can be computed anywhere.
 
 use std::path::PathBuf;
 use std::sync::Mutex;
@@ -15,7 +15,7 @@ use crate::table::Table;
 /// Name and text of a sweep file, and name and text of its scene if that is another file.
 type Texts = (String, String, Option<(String, String)>);
 
-/// Scenes computed together at least, in the lanes of vector registers.
+/// Smallest number of scenes computed together, in the lanes of vector registers.
 const TOGETHER: u64 = 8;
 
 /// Many scenes: grids, lists and random draws over the parameters of one (docs/sweep.md). `Sweep("grid.toml")` reads a file, `Sweep(toml=text)` a text.
@@ -47,7 +47,7 @@ impl Sweep {
         toml: Option<String>,
         _texts: Option<Texts>,
     ) -> PyResult<Self> {
-        // As pickled.
+        // From a pickle.
         if let Some((file, text, scene)) = _texts {
             return Self::of_text(SweepText { file, text, scene });
         }
@@ -133,7 +133,7 @@ impl Sweep {
 pub struct SweepFile {
     out: PathBuf,
     replaced: bool,
-    /// None if the table has its name already.
+    /// `None` if the table already has its name.
     spool: Option<Mutex<Spool>>,
     scenes: u64,
 }
@@ -144,17 +144,17 @@ impl SweepFile {
     #[new]
     #[pyo3(signature = (sweep, out, *, replace=false))]
     fn new(sweep: &Sweep, out: PathBuf, replace: bool) -> PyResult<Self> {
-        // A link is followed: the table grows beside what it points to.
+        // A link is followed: the table grows next to its target.
         let out = std::fs::canonicalize(&out).unwrap_or(out);
         let (files, scenes) = (SpoolFiles::of(&out), 0..sweep.scenes);
         let identity = Identity::new(&sweep.text, &scenes);
         let named_before = files.complete(&identity).is_some();
         if named_before && !files.rows.exists() && out.exists() {
-            // Only the tidying was interrupted.
+            // Only the removal of files was interrupted.
             files.remove().map_err(raised)?;
             return Ok(Self { out, replaced: false, spool: None, scenes: scenes.end });
         }
-        // Whether errors are from an earlier attempt to name the table is seen when it is named.
+        // Whether errors come from an earlier attempt to name the table is checked when the table is named.
         for (path, replaced) in [(&out, replace), (&errors_beside(&out), replace || named_before)] {
             if (path.exists() || path.is_symlink()) && !replaced {
                 return Err(raised(format!("{} exists: allowed is replace=True", path.display())));

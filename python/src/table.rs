@@ -26,7 +26,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table that is written as CSV.
+    /// A table written as CSV.
     pub fn of_csv(csv: Vec<u8>) -> Result<Self, String> {
         let (columns, rows) = columns_of(&csv)?;
         let mut names = HashSet::new();
@@ -46,7 +46,7 @@ fn array(column: &Column) -> ArrayRef {
 
 #[pymethods]
 impl Table {
-    /// A table from the bytes that `csv` has.
+    /// A table from the bytes of `csv`.
     #[new]
     fn new(csv: &[u8]) -> PyResult<Self> {
         Self::of_csv(csv.to_owned()).map_err(raised)
@@ -123,7 +123,7 @@ impl Table {
         let schema = Arc::new(Schema::new(self.columns.iter().map(field).collect::<Vec<_>>()));
         let batch = RecordBatch::try_new(schema.clone(), self.columns.iter().map(array).collect()).map_err(raised)?;
         let stream = FFI_ArrowArrayStream::new(Box::new(RecordBatchIterator::new([Ok(batch)], schema)));
-        // Stubs know capsules from Python 3.13 on.
+        // Stubs have capsules only from Python 3.13 on.
         Ok(PyCapsule::new_with_value(py, stream, c"arrow_array_stream")?.into_any())
     }
 }

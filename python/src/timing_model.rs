@@ -22,15 +22,15 @@ pub struct TimingModel {
     pub(crate) model: timing_model::TimingModel,
 }
 
-/// Numbers of pulses that are allowed.
+/// Allowed numbers of pulses.
 pub const WHOLE: &str = "a whole number, up to 2^53 in size";
 
-/// Whether a number is one of these.
+/// Whether it is allowed as a pulse number.
 pub fn is_whole(number: f64) -> bool {
     number.fract() == 0.0 && number.abs() <= (1_u64 << 53) as f64
 }
 
-/// The small parts of times, where the times are finite.
+/// The small parts of times. The times must be finite.
 fn small_parts(t: &Numbers, rest: Option<Numbers>) -> PyResult<Vec<f64>> {
     let rest = rest.map_or_else(|| Ok(vec![0.0; t.values.len()]), |rest| t.beside("rest", rest))?;
     for (name, value) in t.values.iter().map(|t| ("t (s)", *t)).chain(rest.iter().map(|rest| ("rest (s)", *rest))) {
@@ -98,7 +98,7 @@ impl TimingModel {
         Ok((whole, t.shaped(py, found.iter().map(|turns| turns.fraction).collect(), &[])?))
     }
 
-    /// The rate of the phase at times (Hz): of a phase off by `x` turns the pulse is late by `x` over this rate.
+    /// The rate of the phase at times (Hz): if the phase is off by `x` turns, the pulse is late by `x` over this rate.
     #[pyo3(signature = (t, rest=None))]
     fn phase_rate<'py>(&self, py: Python<'py>, t: Numbers, rest: Option<Numbers>) -> PyResult<Bound<'py, PyAny>> {
         let rest = small_parts(&t, rest)?;
@@ -166,7 +166,7 @@ impl TimingModel {
     }
 }
 
-/// Parameters by their names.
+/// Parameter values from a dict by name.
 fn values(given: &Bound<'_, PyDict>) -> PyResult<Vec<(TimingParameter, f64)>> {
     let read = |(name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
         let name: String = name.extract()?;

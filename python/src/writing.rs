@@ -1,4 +1,4 @@
-//! Work that writes a table: without Python's lock, with progress, and stopped by Ctrl-C.
+//! Writing a table: without Python's lock, with progress, and stopped by Ctrl-C.
 
 use std::io::{self, Write};
 use std::time::Instant;
@@ -10,10 +10,10 @@ use crate::error::raised;
 use crate::interrupt::LOOKED_EVERY;
 use crate::table::Table;
 
-/// Parts of the work between two calls of `progress`.
+/// Fraction of the work between two calls of `progress`.
 const STEP: f64 = 0.01;
 
-/// The table that `write` writes. `progress` is called with the part that is done, from 0 to 1; its error stops the work.
+/// The table written by `write`. `progress` is called with the completed fraction, from 0 to 1; an error in it stops the work.
 pub fn written<T: Send>(
     py: Python<'_>,
     progress: Option<Py<PyAny>>,

@@ -1,4 +1,4 @@
-"""What several files of tests use."""
+"""Fixtures used by several test files."""
 
 import signal
 import threading
@@ -8,7 +8,8 @@ import pytest
 
 @pytest.fixture
 def interrupted():
-    """A call that a signal has to end. A thread sends one whenever the last one was handled; the fourth raises KeyboardInterrupt, which a call that handles signals only when it is done never sees."""
+    """A call that a signal must end. A thread sends a signal whenever the last one was handled; the fourth raises KeyboardInterrupt, which a call
+    that handles signals only at its end never sees."""
 
     def end(call):
         over, handled, main = threading.Event(), threading.Semaphore(0), threading.get_ident()

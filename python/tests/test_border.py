@@ -49,7 +49,7 @@ objects = st.one_of(
     st.dictionaries(st.text(max_size=2), numbers, max_size=1),
 )
 
-#: Functions of one argument with the axes that their answers have behind those of the argument.
+#: Functions of one argument, with the axes that their results have after those of the argument.
 FUNCTIONS = [
     (MOTION.axis, (3,)),
     (lambda t: MOTION.state(t)[1], (3,)),
@@ -151,7 +151,7 @@ def test_processes_have_one_answer(method):
 
 @pytest.mark.skipif(not pathlib.Path("/proc/self/statm").exists(), reason="the memory of a process is read from /proc")
 def test_nothing_leaks():
-    """A call that lost an object of 64 bytes would take 19 MB in these."""
+    """If a call leaked an object of 64 bytes, this loop would take 19 MB."""
     times = np.linspace(0.0, 10.0, 8)
 
     def calls(count):

@@ -1,4 +1,4 @@
-"""The package's arrays against each other, against formulas in numpy, and at its interface to Python."""
+"""The package's arrays compared with each other and with formulas in numpy, and its interface to Python."""
 
 import functools
 import pickle
@@ -19,7 +19,7 @@ from twofold import kernels
 def test_names_that_are_offered():
     offered = {name: getattr(twofold, name) for name in twofold.__all__}
     assert offered["Scene"] is twofold.Scene and offered["Sweep"] is twofold.Sweep
-    # A file of the package, such as sweep.py, is a name too.
+    # A module of the package, such as sweep.py, is a public name, too.
     assert [name for name, value in offered.items() if isinstance(value, types.ModuleType)] == ["kernels"]
 
 
@@ -64,7 +64,7 @@ class TestScene:
         assert np.allclose(angles[:, 1], 0.4, atol=1e-13)
 
     def test_a_span_that_only_arrival_times_are_of(self):
-        """A motion of 1e11 turns has no table with angles that count them, but a pulsar."""
+        """A motion of 1e11 turns has no table of angles that count them, but it has a pulsar."""
         years = {"epoch": "55000.0", "years": 10.0, "samples": 10}
         scene = twofold.Scene("b1828-11", star={"bulge": None}, lorentz_violation={"alpha_2": None, "w": None, "eigenvalues": [0.0, 0.0, 0.0]}, time=years)
         assert len(scene.pulsar().arrivals().table) == 10
@@ -101,14 +101,14 @@ class TestScene:
         assert len(scene.table(["e_z"], tolerance=allowed)) == 4001
 
     def test_lines_are_the_strongest(self):
-        """Eq. (48) of free precession: m.n has the turns, the precession, and sums of both."""
+        """Eq. (48) of free precession: m.n has the rotation, the precession, and their sums."""
         scene = twofold.Scene("free")
         table = scene.lines("m.n", least=1e-3)
         assert np.all(np.diff(table["amplitude"]) <= 0) and table["amplitude"].min() >= 1e-3 * table["amplitude"][0]
         assert len(scene.lines("m.n", least=1e-12, most=2)) == 2
         series = scene.table(["m.n"])
         total = sum(a * np.cos(f * series["t"] + phase) for f, a, phase in zip(table["frequency"], table["amplitude"], table["phase"], strict=True))
-        # What is left is no line: a constant.
+        # The remainder is constant.
         assert np.ptp(series["m.n"] - total) < 10 * 1e-3 * table["amplitude"][0]
         with pytest.raises(twofold.Error, match="least = 1.1"):
             scene.lines("m.n", least=1.1)
@@ -153,7 +153,7 @@ class TestScene:
 
     @pytest.mark.parametrize("bare", [{}, {"method": "averaged"}])
     def test_a_scene_whose_columns_cannot_be_written(self, bare):
-        """As with the command, only a table of the columns of the file needs what these need."""
+        """As with the command, only a table with the columns of the file needs what these columns need."""
         scene = twofold.Scene("b1828-11", observer={"distance": None}, output=bare)
         assert "\"h\"" in scene.toml and pickle.loads(pickle.dumps(scene)) == scene
         whole = twofold.Scene("b1828-11")
@@ -163,7 +163,7 @@ class TestScene:
         for refused in (scene.table, scene.plan):
             with pytest.raises(twofold.Error, match=r'"h": the scene lacks `observer.distance` \[kpc\]'):
                 refused()
-        # What else is wrong is still refused at once.
+        # Other errors are still refused at once.
         with pytest.raises(twofold.Error, match="star.spn"):
             twofold.Scene("b1828-11", observer={"distance": None}, star={"spn": 1.0})
 
@@ -220,7 +220,8 @@ class TestMotion:
         assert (torus.method, motion.method) == ("torus", "taylor")
 
     def test_the_error_is_that_of_its_time(self, scene):
-        """Against a motion a million times as accurate. Errors of steps add up or grow: after a hundredth of the span a tenth is more than there can be."""
+        """Compared with a motion a million times as accurate. Errors of steps add up or grow: after a hundredth of the span they are at most a
+        tenth."""
         coarse, fine = (scene.motion(method="taylor", tolerance=tolerance) for tolerance in (1e-7, 1e-13))
         times = np.array([4.0, 40.0, 400.0])
         off = np.max(np.abs(np.array(coarse.state(times)) - fine.state(times)), axis=(0, 2))
@@ -284,7 +285,7 @@ class TestMotion:
         assert np.isnan(upright.angles([0.0, 5.0])).all() and np.array_equal(upright.axis(5.0), [0.0, 0.0, 1.0])
 
     def test_times_are_counted_from_the_start(self):
-        """The same motion, begun at another reading of the clock."""
+        """The same motion, started at another time of the clock."""
         later = twofold.Scene("tp-2", time={"start": 100.0}).motion()
         times = np.array([0.0, 7.5, 300.0])
         motion = twofold.Scene("tp-2").motion()
@@ -350,7 +351,7 @@ class TestTable:
         parts = []
         scene.table(progress=parts.append)
         assert parts == sorted(parts) and parts[-1] == 1.0
-        # A call for each hundredth at most, and one at the end.
+        # At most one call per hundredth, and one at the end.
         assert parts[0] == 0.0 and 50 < len(parts) <= 102 and np.diff(parts[:-1]).min() > 0.0099
 
     def test_the_whole_is_told_once(self):
@@ -372,7 +373,7 @@ class TestTable:
     def test_interrupt(self):
         program = (
             "import signal, twofold\n"
-            # Python leaves the signal ignored where it is: in the background of a script.
+            # Python keeps the signal ignored if it was: in the background of a script.
             "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
             "scene = twofold.Scene('tp-2', time={'span': 4e6, 'samples': 4000001}, output={'tolerance': 1e-6})\n"
             "scene.table(['angles'], progress=lambda part: print(part, flush=True))"
@@ -386,7 +387,7 @@ class TestTable:
 
 class TestInterrupts:
     def test_arrays_of_numpy_are_known_from_the_import_on(self):
-        """A Ctrl-C that waits to be handled must not meet the import of numpy's functions in the first result."""
+        """A pending Ctrl-C must not interrupt the import of numpy's functions in the first result."""
         program = (
             "import sys, numpy, twofold\n"
             "motion = twofold.Scene('tp-2').motion()\n"
@@ -397,7 +398,7 @@ class TestInterrupts:
         assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False).stdout == "(3,)\n"
 
     def test_signals_are_handled_between_costly_values(self, scene, interrupted):
-        # Turns are followed from the start: a second in all.
+        # Turns are followed from the start: about a second.
         motion = scene.motion(end=2e5)
         interrupted(lambda: motion.angles(np.linspace(0.0, 2e5, 8000)))
 
@@ -440,7 +441,7 @@ class TestPulsar:
         table, model = timing.table, pulsar.timing_model()
         since = (table["arrival_day"] - 49621) * 86400.0
         whole, rest = model.phase(since, table["arrival_fraction"] * 86400.0)
-        # The model has the geometry and the torque, not the motion of L by Lorentz violation.
+        # The model includes the geometry and the torque, not the motion of L due to Lorentz violation.
         off = whole - table["pulse"]
         assert np.ptp(off) == 0 and np.ptp(rest) < 1e-6
         assert len(timing.derivatives) == 2 and timing.tim(2e-6).count("\n") == len(table) + 1
@@ -465,7 +466,7 @@ class TestPulsar:
         turned = (plus + 1j * cross) * np.exp(2j * orientation)
         found = np.array(source.wave(times))
         size = np.hypot(*found).max()
-        # Of first order in s, the wave of the source has terms beside the two harmonics.
+        # To first order in s the wave has terms besides the two harmonics.
         assert np.abs(turned.real - found[0]).max() < 1e-6 * size
         assert np.abs(turned.imag - found[1]).max() < 1e-6 * size
 
@@ -502,7 +503,7 @@ class TestPulsar:
         assert "torque" in pulsar.arrivals(dates, causes=True).table
 
     def test_epochs_without_a_pulse(self):
-        # The beam of 0.1 rad meets the line of sight in some phases of a wobble of 20 deg alone.
+        # The beam of 0.1 rad meets the line of sight only at some phases of a wobble of 20 deg.
         timing = twofold.Scene("b1828-11", initial={"wobble": "20 deg"}).pulsar().arrivals(np.arange(49621.0, 50121.0, 10.0))
         assert 0 < timing.dark < 50 and len(timing.table) == 50 - timing.dark
 
@@ -521,7 +522,7 @@ class TestTimingModel:
         times = np.array([-3e8, -1.0, 0.0, 2e8])
         whole, rest = model.phase(times)
         exact = np.longdouble(f0) * times + np.longdouble(f1) * times**2 / 2 + np.longdouble(3 * f1**2 / f0) * times**3 / 6
-        # Longer doubles have 2e11 turns to 1e-8; the next term of a dipole is 15 F1^3 / F0^2 t^4 / 24, 1e-12.
+        # Extended doubles have 2e11 turns to 1e-8; the next term of a dipole is 15 F1^3 / F0^2 t^4 / 24, 1e-12.
         assert np.abs(np.asarray(whole - exact + rest, float)).max() < 2e-8
 
     def test_arrivals_invert_the_phase(self):
@@ -549,7 +550,7 @@ class TestTimingModel:
             assert np.allclose(column, difference, rtol=1e-5, atol=1e-12 / step), name
 
     def test_times_off_by_three_standard_deviations(self):
-        """Residuals and error bars of a star that loses a twentieth of its rotation, by the rate of its phase at each arrival."""
+        """Residuals and error bars of a star that loses a twentieth of its rotation, from the rate of its phase at each arrival."""
         model = twofold.TimingModel(30.0, f1=-3e-10, f2=9e-21)
         numbers = np.round(np.linspace(2e9, 1.4e11, 40))
         t, rest = model.arrival(numbers)
@@ -569,7 +570,7 @@ class TestTimingModel:
         assert model.width(1.0) == pytest.approx(expected, rel=1e-12)
 
     def test_rests_of_times_beyond_a_block(self):
-        """More numbers than are computed at once, each with its own rest."""
+        """More numbers than one block of the computation, each with its own rest."""
         model = twofold.TimingModel(300.0, f1=-1e-12)
         times, rest = np.arange(40_000.0), np.arange(40_000.0) * 1e-9
         whole, fraction = model.phase(times, rest)
@@ -578,7 +579,7 @@ class TestTimingModel:
             assert (whole[k], fraction[k]) == model.phase(times[k], rest[k])
             assert np.array_equal(derivatives[2][k], model.phase_and_derivatives(times[k], rest[k])[2])
         assert np.array_equal(derivatives[0], whole) and np.array_equal(derivatives[1], fraction)
-        # One rest for all.
+        # One rest for all times.
         assert np.array_equal(model.phase(times[:3], 1e-9), model.phase(times[:3], np.full(3, 1e-9)))
 
     def test_models_that_differ_in_one_number(self):
@@ -695,7 +696,7 @@ class TestFits:
             twofold.fit_timing(truth, data, ["phase"], priors={"f0": (10.0, 1.0)})
 
     def test_an_error_that_leads_out_of_the_model_has_no_parabola(self):
-        """A beam of 0.3 rad with an error of more than its radius: a standard deviation less is no beam."""
+        """A beam of 0.3 rad with an error above its radius: one standard deviation less is no beam."""
         model = twofold.TimingModel(10.0, chi=1.3, inclination=1.2, rho=0.3)
         times = [1e5, 1e6]
         data = twofold.TimingData(width_times=times, widths=model.width(times), width_sigmas=[0.02, 0.02])
@@ -750,7 +751,7 @@ class TestFits:
 
         data = read("abc", model)
         turns, fraction = model.phase(data.times[:, 0], data.times[:, 1])
-        # The rates of the model are right to some roundings, of 5e8 turns.
+        # The rates of the model are accurate to a few roundings of 5e8 turns.
         assert np.array_equal(data.numbers, turns) and np.abs(fraction).max() < 4 * 2.2e-16 * 5.1e8
         assert np.isnan(read("ac").numbers[3]) and np.array_equal(np.diff(read("ac").numbers[:3]), np.diff(data.numbers[:3]))
         with pytest.raises(twofold.Error, match=r"b.csv: it numbers its pulses, and so does an earlier file.*allowed is a model"):
@@ -769,12 +770,12 @@ class TestFits:
         data = twofold.TimingData(times, 1e-5, rest=rest + part * noise, numbers=numbers)
         found = twofold.fit_timing(twofold.TimingModel(10.0), data, ["phase", "f0"])
         assert found.judged == judged and found.chi_squared == pytest.approx(part**2 * 98, rel=0.4)
-        # Linear in both: chi^2 is its parabola.
+        # The model is linear in both: chi^2 is parabolic.
         assert abs(found.nonlinearity) < 1e-6
         assert f"; chi^2 = {found.chi_squared:.1f} of 98>" in repr(found)
 
     def test_a_wobble_that_is_there(self):
-        """Two quadratures at the period of a small wobble: what least squares of numpy find in the residuals."""
+        """Two quadratures at the period of a small wobble, compared with least squares in numpy."""
         wobble, period, chi = 2e-3, 7.1e6, 0.8
         truth = twofold.TimingModel(100.0, chi=chi, wobble=wobble, precession_rate=2 * np.pi / period, precession_phase=1.0)
         numbers = np.arange(2000) * 1e7
@@ -789,17 +790,17 @@ class TestFits:
         # The median of the posterior is near the best value, which is ten standard deviations from zero.
         assert found["limit"][0] == pytest.approx(wobble, rel=0.02)
         assert twofold.wobble_limits(twofold.TimingModel(100.0, chi=chi), data, ["phase", "f0"], [period])["limit"][0] > found["limit"][0]
-        # Any period above zero.
+        # Any positive period is allowed.
         assert twofold.wobble_limits(twofold.TimingModel(100.0, chi=chi), data, ["phase", "f0"], [0.5])["limit"][0] > 0.0
 
     def test_the_limit_of_a_wobble(self):
-        """Of arrivals that are exact the posterior is half a normal distribution, whose 95 % are at 1.96 standard deviations for both quadratures alike."""
+        """For exact arrivals the posterior is half a normal distribution with its 95 % at 1.96 standard deviations, the same for both quadratures."""
         model = twofold.TimingModel(100.0, chi=0.8)
         times, rest = model.arrival(np.arange(2000) * 1e7)
         data = twofold.TimingData(times, 1e-5, rest=rest)
         period = 7.1e6
         limits = twofold.wobble_limits(model, data, ["phase", "f0"], [period])
-        # cot(chi) sin(psi) / (2 pi F0) for each radian; the fit takes up nothing of ten and more turns but some percent.
+        # cot(chi) sin(psi) / (2 pi F0) per radian; over ten or more turns the fit absorbs only a few percent.
         size = 1 / np.tan(0.8) / (2 * np.pi * 100.0)
         sigma = 1e-5 / (size * np.sqrt(2000 / 2))
         assert limits["limit"][0] == pytest.approx(1.96 * sigma, rel=0.05)
@@ -810,7 +811,7 @@ class TestFits:
     def test_the_posterior_of_a_wobble(self):
         found = twofold.wobble_posterior([1e6, 0.0], [0.0, 1e6], [-1e3, -2e3])
         assert found["best"] == pytest.approx([1e-3, 2e-3]) and found["gain"] == pytest.approx(5e6)
-        # The prior is flat in theta, not over the plane: a factor theta^(-1/2) more.
+        # The prior is flat in theta, not over the plane, which gives a factor theta^(-1/2).
         expected = np.sqrt(5) * 1e-3 + 1.644853627e-6 - 0.5e-12 / (np.sqrt(5) * 1e-3)
         assert found["limit"] == pytest.approx(expected, abs=1e-12)
         assert twofold.wobble_posterior([1.0], [1.0], [0.0])["limit"] == np.inf
@@ -819,7 +820,7 @@ class TestFits:
         scene = twofold.Scene("tp-1", time={"span": 60.0, "samples": 61})
         names = ["spin", "s_axial"]
         fisher = scene.fisher({"arrivals": 1e-5}, names)
-        # Error bars are in proportion to the error that is stated, with all its digits.
+        # Error bars are proportional to the stated error, with all its digits.
         larger = scene.fisher({"arrivals": 1.2345e-5}, names)
         assert np.array(larger.sigmas) == pytest.approx(1.2345 * np.array(fisher.sigmas), rel=1e-12)
         found = scene.fit([scene.pulses()], {"closest_approaches": 1e-5}, names)
@@ -892,14 +893,14 @@ class TestKernels:
         assert kernels.lambda_change(angle, chi, width, 1e-3) == pytest.approx(expected, rel=1e-13)
 
     def test_eta_on_average(self):
-        """An average over directions of the observer and azimuths of the axis, of the rate by the torque of the self-energy."""
+        """An average over observer directions and azimuths of the axis, from the torque of the self-energy."""
         r, beta = 0.3, 0.7
         alpha = np.arange(360) * 2 * np.pi / 360
         n = np.stack([np.sin(beta) * np.sin(alpha), -np.sin(beta) * np.cos(alpha), np.full(360, np.cos(beta))], axis=-1)
         # s^XX, s^YY, s^ZZ with 2 s^ZZ - s^XX - s^YY = 1 and s^XX - s^YY = r, without a trace.
         s = np.array([-1 / 6 + r / 2, -1 / 6 - r / 2, 1 / 3])
         speed_squared = np.mean(np.sum(np.cross(n, s * n) ** 2, axis=1))
-        # One component of three; eta = 1 is a rate of half the combination.
+        # One of three components; eta = 1 is a rate of half the combination.
         assert kernels.root_mean_square_eta(r, beta) == pytest.approx(0.5 / np.sqrt(speed_squared / 3), rel=1e-12)
 
     def test_broadcast_beyond_a_block(self):

@@ -1,4 +1,4 @@
-"""The likelihood of arrival times against sums that numpy does, and against fits."""
+"""The likelihood of arrival times compared with sums in numpy and with fits."""
 
 import itertools
 import pickle
@@ -21,7 +21,7 @@ def model():
 
 @pytest.fixture(scope="module")
 def arrivals(model):
-    """300 pulses of 10 years and their arrival times, as sums of two doubles."""
+    """300 pulses over 10 years and their arrival times, as sums of two doubles."""
     numbers = np.sort(np.random.default_rng(20).integers(0, 777_000_000, 300)).astype(float)
     return numbers, *model.arrival(numbers)
 
@@ -47,14 +47,14 @@ def test_names_that_are_offered():
 
 
 def of_fit(fit, model):
-    """The parameters of a fit as a sampler has them."""
+    """The parameters of a fit in the form for a sampler."""
     offset = sum(a - b for a, b in zip(fit.model.frequency, model.frequency, strict=True))
     return {"f0_offset": offset} | {name: fit.model[name] for name in UNKNOWNS if name != "f0"}
 
 
 def test_the_density_of_known_errors(model, data, noise):
     likelihood = TimingLikelihood(model, data)
-    # Arrival times are rounded to 1e-16 of a day and less, far below 1e-6 of their errors.
+    # Arrival times are rounded to 1e-16 of a day or less, far below 1e-6 of their errors.
     assert abs(likelihood.residuals({}) - noise / SIGMA).max() < 1e-6
     expected = -np.sum((noise / SIGMA) ** 2) / 2 - 300 * np.log(SIGMA * np.sqrt(2 * np.pi))
     assert likelihood.log_likelihood({}) == pytest.approx(expected, abs=1e-4)
@@ -84,7 +84,8 @@ def test_residuals_change_as_the_fit_says(model, data, fit):
     likelihood = TimingLikelihood(model, data)
     best, step = of_fit(fit, model), 0.1
     keys = ["f0_offset" if name == "f0" else name for name in UNKNOWNS]
-    # Along an axis of the covariance, by a tenth of a standard deviation, the square of the residuals' change is 0.01. What is no straight line is a thousandth of that: the differences are central.
+    # Along an axis of the covariance, a tenth of a standard deviation changes the squared residuals by 0.01. Nonlinear terms are a thousandth of
+    # that: the differences are central.
     axes = np.linalg.cholesky(fit.covariance / np.outer(fit.sigmas, fit.sigmas))
     for axis in axes.T:
         ends = [
@@ -95,14 +96,14 @@ def test_residuals_change_as_the_fit_says(model, data, fit):
 
 
 def test_marginalised_is_the_integral(model, data, fit):
-    # phase and F0 on a grid of 8 standard deviations each way, against the closed form.
+    # phase and F0 on a grid of 8 standard deviations in each direction, compared with the closed form.
     best = of_fit(fit, model)
     whole = TimingLikelihood(model, data)
     short = TimingLikelihood(model, data, marginalised=["phase", "f0"])
     others = {key: value for key, value in best.items() if key not in ("phase", "f0_offset")}
     grid = twofold.fit_timing(model, data, ["phase", "f0"])
     steps = np.linspace(-8.0, 8.0, 65)
-    # The grid goes along the axes of the covariance.
+    # The grid is along the axes of the covariance.
     across = np.linalg.cholesky(grid.covariance)
     values = [
         whole.log_likelihood(others | {"phase": best["phase"] + x, "f0_offset": best["f0_offset"] + y})
@@ -117,7 +118,7 @@ def test_marginalised_is_the_integral(model, data, fit):
 
 
 def test_f0_by_small_offsets(model, data):
-    # 1e-16 Hz is less than a double of F0 resolves. Over 10 years it is 3e-8 of a turn, 1e-4 standard deviations.
+    # 1e-16 Hz is below the resolution of a double F0. Over 10 years it is 3e-8 of a turn, 1e-4 standard deviations.
     likelihood = TimingLikelihood(model, data)
     base, moved = likelihood.residuals({}), likelihood.residuals({"f0_offset": 1e-16})
     t = data.times[:, 0]
@@ -130,7 +131,7 @@ def test_numbers_of_pulses(model, arrivals, noise):
     data = twofold.TimingData(times, np.full(300, SIGMA), rest=rest + noise)
     free, counted = TimingLikelihood(model, data), TimingLikelihood(model, data, numbers=numbers + 1000)
     assert np.array_equal(free.numbers, numbers) and np.array_equal(counted.numbers, numbers)
-    # A start that is wrong by more than half a turn at the end needs the numbers.
+    # With a start that is wrong by more than half a turn at the end, the numbers must be given.
     wrong = model.moved(f0=5e-9)
     assert not np.array_equal(TimingLikelihood(wrong, data).numbers, numbers)
     assert TimingLikelihood(wrong, data, numbers=numbers).log_likelihood({"f0_offset": -5e-9}) == pytest.approx(
@@ -143,13 +144,13 @@ def test_numbers_of_pulses(model, arrivals, noise):
 
 
 def test_numbers_that_are_known_in_part(model, arrivals, noise):
-    """Those that are known count from any one; the others are the nearest turns."""
+    """Known numbers may start anywhere; unknown ones are the nearest turns."""
     numbers, times, rest = arrivals
     data = twofold.TimingData(times, np.full(300, SIGMA), rest=rest + noise)
     given = np.where(np.arange(300) % 3 == 1, numbers - 777, np.nan)
     likelihood = TimingLikelihood(model, data, numbers=given)
     assert np.array_equal(likelihood.numbers, numbers)
-    # Of a model that is off by 1.6 turns at the end, right to half a turn at the first with a number.
+    # The model is wrong by 1.6 turns at the end, but right to half a turn at the first pulse with a number.
     off = model.moved(f0=1.6 / times[-1])
     found = TimingLikelihood(off, data, numbers=given).numbers
     assert np.array_equal(found[1::3], numbers[1::3]) and found[-1] == numbers[-1] + 2
@@ -158,7 +159,7 @@ def test_numbers_that_are_known_in_part(model, arrivals, noise):
 
 
 def test_times_in_two_parts_of_any_size(model, arrivals, noise):
-    """The sum is what counts: a third of a second, most of a turn, moved from one part to the other."""
+    """Only the sum matters: a third of a second, most of a turn, is moved from one part to the other."""
     _, times, rest = arrivals
     whole = TimingLikelihood(model, twofold.TimingData(times, SIGMA, rest=rest + noise))
     cut = np.floor(times * 8.0) / 8.0 - 0.375
@@ -183,7 +184,7 @@ def test_parameters_of_a_sampler(model, data):
 
 
 def test_all_that_can_be_marginalised_is_a_normal_integral(model, data, fit):
-    """By the covariance of a fit of the four that numpy has the determinant of, beside the other parameters held."""
+    """Compared with the covariance of a fit of the four, with the other parameters fixed."""
     names = ["phase", "f0", "f1", "f2"]
     others = {name: fit.model[name] for name in UNKNOWNS if name not in names}
     held = model.moved(**{name: value - model[name] for name, value in others.items()})
@@ -192,13 +193,13 @@ def test_all_that_can_be_marginalised_is_a_normal_integral(model, data, fit):
     top = TimingLikelihood(model, data).log_likelihood(others | best)
     scales = np.outer(four.sigmas, four.sigmas)
     integral = top + 2 * np.log(2 * np.pi) + np.log(np.linalg.det(four.covariance / scales)) / 2 + np.log(four.sigmas).sum()
-    # Turns and times of pulses differ by 5e-5 of themselves.
+    # Turns and times of pulses differ by a relative 5e-5.
     assert TimingLikelihood(model, data, marginalised=names).log_likelihood(others) == pytest.approx(integral, abs=2e-3)
 
 
 @pytest.mark.parametrize("times", [[1e6], [1e6, 1e6]])
 def test_too_few_times_to_marginalise(model, times):
-    """The integral over phase and F0 is infinite with one time, or two that are one but for a picosecond."""
+    """The integral over phase and F0 is infinite with one time, or with two times a picosecond apart."""
     data = twofold.TimingData(times, 1e-4, rest=1e-12 * np.arange(len(times)))
     with pytest.raises(twofold.Error, match="marginalised: phase, f0: allowed are parameters that the arrival times determine"):
         TimingLikelihood(model, data, marginalised=["phase", "f0"])
@@ -234,7 +235,7 @@ def test_what_is_refused(model, data):
     }.items():
         with pytest.raises(twofold.Error, match=f"^{name} = 1.0: {reason}"):
             likelihood.log_likelihood({name: 1.0})
-    # Outside of its range: not probable. chi is farther from 0 than the wobble.
+    # A value outside the range has zero probability. chi is farther from 0 than the wobble.
     assert likelihood.log_likelihood({"wobble": 2.0}) == -np.inf
     assert likelihood.log_likelihood({"chi": 0.01}) == -np.inf
     assert np.isnan(likelihood.noise_log_likelihood())
@@ -245,7 +246,7 @@ def test_what_is_refused(model, data):
 
 
 def test_numbers_of_the_data_are_kept():
-    """A model whose F0 is off by five turns over the data, which a fit by their numbers finds."""
+    """A model whose F0 is wrong by five turns over the data; a fit by the pulse numbers corrects it."""
     truth = twofold.TimingModel(2.5, f1=-3.7e-13)
     numbers = np.arange(300) * 2e6
     times, rest = truth.arrival(numbers)

@@ -1,4 +1,4 @@
-"""The wobble component of PINT. Skipped as a whole where pint-pulsar is not installed, and only there."""
+"""The wobble component of PINT. Skipped as a whole if and only if pint-pulsar is not installed."""
 
 import copy
 import io
@@ -73,7 +73,7 @@ def toas_of(tmp_path, days, fractions, sigma, model, numbers=None, flags=""):
 
 @pytest.fixture
 def spread(tmp_path):
-    """Arrival times over ten years, at no particular phase."""
+    """Arrival times over ten years, at random phases."""
     random = np.random.default_rng(5)
     days = np.sort(random.uniform(EPOCH - 1800, EPOCH + 1800, 200))
     return toas_of(tmp_path, days // 1, days % 1, 2e-5, wobbling())
@@ -81,7 +81,8 @@ def spread(tmp_path):
 
 @pytest.fixture(scope="module")
 def b1828(tmp_path_factory):
-    """Arrival times of the scene b1828-11 by the pulse clock, which follows the motion and knows nothing of the component, with errors of 20 us; and what was put in, at PEPOCH."""
+    """Arrival times of the scene b1828-11 from the pulse clock, which follows the motion independently of the component, with errors of 20 us; and
+    the true parameters at PEPOCH."""
     random = np.random.default_rng(3)
     timing = twofold.Scene("b1828-11").pulsar().arrivals(np.sort(random.uniform(49621, 53271, 400)), derivatives=2)
     fractions = timing.table["arrival_fraction"] + random.normal(0.0, 2e-5, 400) / DAY
@@ -111,7 +112,7 @@ def started(b1828):
 
 
 def drawn(random):
-    """Stars of all kinds, with what the Rust library says of them."""
+    """Stars of all kinds, with their values from the Rust library."""
     while True:
         f0 = 10 ** random.uniform(-1, 2.85)
         f1 = -f0 * 10 ** random.uniform(-19, -12)
@@ -132,7 +133,8 @@ def test_names_that_are_offered():
 
 
 def test_turns_and_derivatives_are_those_of_the_timing_model():
-    """The Rust library has the phase in two doubles, so that its differences are right to 1e-16 of a turn; psi of thousands of rad is right to 1e-12."""
+    """The Rust library has the phase in two doubles, so that its differences are accurate to 1e-16 of a turn; psi of thousands of rad is accurate to
+    1e-12."""
     random = np.random.default_rng(1)
     t = np.linspace(-4e8, 4e8, 101)
     names = {
@@ -177,7 +179,8 @@ def test_no_rounding_at_1e11_turns():
 
 @pytest.mark.parametrize("name", ["WOBBLE", "WOBCHI", "WOBPERIOD", "WOBPHASE", "WOBTORQUE", "F0", "F1"])
 def test_derivatives_against_differences(spread, name):
-    """Of the component, by Richardson's differences over steps of 1e-3 and 5e-4: what they leave out is of order 1e-12, and phases of order 1 are rounded to 1e-16 over 1e-3."""
+    """Derivatives of the component compared with Richardson differences for steps of 1e-3 and 5e-4: their remainder is of order 1e-12, and phases of
+    order 1 are rounded to 1e-16 over 1e-3."""
     model = wobbling(f1=-3.7e-12)
     component, delay = model.components["Wobble"], model.delay(spread)
     analytic = component.d_wobble_phase_d_param(spread, name, delay)
@@ -210,7 +213,7 @@ def test_derivative_by_the_delay(spread):
     numeric = (4 * differences[0] - differences[1]) / 3
     analytic = component.d_wobble_phase_d_delay(spread, delay)
     assert np.max(np.abs(analytic - numeric)) < 1e-8 * np.max(np.abs(analytic))
-    # PINT sums it with that of Spindown for every parameter of a delay.
+    # PINT adds it to that of Spindown for every parameter of a delay.
     assert model.d_phase_d_delay_funcs[-1] == component.d_wobble_phase_d_delay
 
 
@@ -220,7 +223,7 @@ def test_pint_has_the_phase_and_the_derivatives(spread):
     component, delay = model.components["Wobble"], model.delay(spread)
     added = model.phase(spread, abs_phase=False) - plain.phase(spread, abs_phase=False)
     turns = np.asarray(added.int.value + added.frac.value, float)
-    # Long doubles of 4e8 turns are right to 2e-11.
+    # Extended doubles of 4e8 turns are accurate to 2e-11.
     assert np.max(np.abs(turns - component.wobble_phase(spread, delay).value)) < 1e-10
     matrix, names, _ = model.designmatrix(spread)
     for name in component.params:
@@ -245,7 +248,7 @@ def test_fits_find_the_wobble_of_the_pulse_clock(b1828, fitter):
 
 
 def test_chi_and_the_torque_can_be_fitted(b1828):
-    """The second harmonic tells chi from the wobble."""
+    """The second harmonic separates chi from the wobble."""
     model, toas, truth = started(b1828)
     model.WOBCHI.frozen = False
     fit = Fitter.auto(toas, model)
@@ -286,11 +289,11 @@ def test_the_grid_has_its_least_at_the_fit(b1828):
     best = fit.model.WOBBLE
     wobbles = (best.value + np.array([-2, 0, 2]) * best.uncertainty_value) * u.deg
     found, _ = grid_chisq(fit, ("WOBBLE",), (wobbles,), ncpu=1, printprogress=False)
-    # Of a normal posterior: four more at two standard deviations.
+    # For a normal posterior chi^2 is larger by four at two standard deviations.
     assert found - found[1] == pytest.approx([4, 0, 4], abs=0.2)
     with ThreadPoolExecutor(2) as executor:
         again, _ = grid_chisq(fit, ("WOBBLE",), (wobbles,), executor=executor, printprogress=False)
-    # Fits of PINT end where chi^2 falls by less than 1e-2.
+    # PINT ends a fit when chi^2 falls by less than 1e-2.
     assert again == pytest.approx(found, abs=1e-2)
 
 
@@ -302,7 +305,7 @@ def test_a_par_file_keeps_the_model(spread):
         for what in ("value", "uncertainty_value", "frozen"):
             assert getattr(getattr(again, name), what) == getattr(getattr(model, name), what), (name, what)
     off = again.phase(spread, abs_phase=False) - model.phase(spread, abs_phase=False)
-    # F0 and F1 are written with the digits of a long double.
+    # F0 and F1 are written with the digits of an extended double.
     assert np.max(np.abs((off.int + off.frac).value)) < 1e-10
     assert again.WOBPERIOD.quantity == 400 * u.day
 
@@ -474,7 +477,7 @@ def test_limits_with_white_noise_are_those_of_the_library(tmp_path):
         assert ours["limit"].to_value(u.rad) == pytest.approx(theirs["limit"], rel=5e-3)
         assert ours["best"].to_value(u.rad) == pytest.approx(theirs["best"], rel=5e-3)
         assert ours["gain"].value == pytest.approx(theirs["gain"], rel=2e-2, abs=1e-2)
-    # Errors are those of the model's noise: twice as large, chi^2 and all gains are a quarter.
+    # The errors include the model's noise: if they are doubled, chi^2 and all gains are a quarter.
     noisier = model_of(f"F0 {f0} 1\nF1 {f1} 1\nEFAC MJD 40000 70000 2\n")
     gains = [wobble_limits(of, toas, periods * u.day, chi=45 * u.deg)["gain"].value for of in (model, noisier)]
     assert gains[1] == pytest.approx(gains[0] / 4, rel=1e-6)
@@ -488,7 +491,7 @@ def test_limits_find_the_period(b1828):
 
 
 def test_the_gain_is_what_a_fit_finds(tmp_path):
-    """A small wobble beside red noise and noise of epochs: by how much chi^2 falls in a fit of PINT."""
+    """A small wobble with red noise and epoch noise: the decrease of chi^2 in a fit by PINT."""
     random = np.random.default_rng(11)
     f0, f1, sigma, wobble = 186.5, -6.2e-16, 1e-6, 1e-3
     given = dict(chi=np.pi / 4, precession_rate=2 * np.pi / (400 * DAY), precession_phase=2.0, torque_share=0.5)
@@ -512,7 +515,7 @@ def test_the_gain_is_what_a_fit_finds(tmp_path):
     assert wobbles.WOBPHASE.quantity.to_value(u.rad) == pytest.approx(found["phase"].value[0], rel=1e-9)
     fit = DownhillGLSFitter(toas, wobbles)
     fit.fit_toas()
-    # What is of second order in the wobble is 1e-3 of the gain; PINT's fit ends at 1e-2 of chi^2.
+    # Terms of second order in the wobble are 1e-3 of the gain; PINT's fit ends at 1e-2 of chi^2.
     assert plain.resids.chi2 - fit.resids.chi2 == pytest.approx(found["gain"].value[0], rel=2e-3, abs=2e-2)
     assert abs(fit.model.WOBBLE.quantity.to_value(u.rad) - wobble) < 3 * fit.model.WOBBLE.uncertainty.to_value(u.rad)
     assert wobble < found["limit"].value[0]
@@ -536,7 +539,7 @@ GIVEN = {"period": 400 * u.day, "chi": 0.9 * u.rad, "torque": 0.3}
 
 
 def test_a_start_is_the_nearest_of_its_grid(exact):
-    """Of a wobble of 0.2 rad with the phase 2.5: phases a sixteenth of pi apart, wobbles of 14 to the power of a ratio of 90."""
+    """For a wobble of 0.2 rad with the phase 2.5: phases a sixteenth of pi apart, 14 wobbles in geometric steps over a factor of 90."""
     model, toas = exact
     for given in ({}, {"wobble": 0.2 * u.rad}, {"phase": 2.5 * u.rad}):
         made = copy.deepcopy(model)
@@ -546,7 +549,7 @@ def test_a_start_is_the_nearest_of_its_grid(exact):
         assert (phase == pytest.approx(2.5, rel=1e-12)) if "phase" in given else abs(phase - 2.5) < np.pi / 32
         assert component.free_params_component == ["WOBBLE", "WOBPERIOD", "WOBPHASE"]
         assert component.WOBTORQUE.value == 0.3 and component.WOBCHI.quantity == 0.9 * u.rad
-        # A multiple of a sixteenth of pi, and a place of the geometric row up to nine tenths of chi.
+        # A multiple of a sixteenth of pi, and a term of the geometric row up to nine tenths of chi.
         if "wobble" in given:
             assert phase / (np.pi / 16) == pytest.approx(round(phase / (np.pi / 16)), abs=1e-9)
         if "phase" in given:
@@ -560,9 +563,9 @@ def test_chi_squared_of_stars_is_that_of_their_residuals(exact):
     stars = [data.star(400.0, 0.9, 0.3, wobble, phase) for wobble, phase in ((0.1, 0.0), (0.2, 2.5), (0.01, 4.0))]
     expected = [np.sum((data.residuals + data.project(_Beyond(star, data.t).turns / data.f0)) ** 2) for star in stars]
     assert data.chi_squared(stars) == pytest.approx(expected, rel=1e-9, abs=1e-6)
-    # The star itself leaves what its frequency changes by, 2e-5, of residuals of some hundreds.
+    # The star itself leaves the change due to its frequency, 2e-5, of residuals of some hundreds.
     assert expected[1] < 0.2 < 1e4 < expected[2]
-    # What the model can take up is gone, also of arrivals with errors of their own.
+    # Components that the model can absorb are gone, also for arrivals with different errors.
     toas = copy.deepcopy(toas)
     toas.table["error"][:] = 100.0 * (1.0 + np.arange(len(toas)) % 3)
     data = _Projected(model, toas)
@@ -579,7 +582,7 @@ def test_starts_of_any_star(exact):
     for phase in (1.0, 4.0):
         data.residuals = -data.project(_Beyond(data.star(400.0, 0.9, 0.3, 1e-3, phase), data.t).turns / data.f0)
         assert twofold.pint._start(data, 400.0, 0.9, 0.3, None, None) == pytest.approx((1e-3, phase), rel=1e-2)
-    # The magnetic axis beyond the equator of the body.
+    # The magnetic axis is beyond the equator of the body.
     assert 0.0 < twofold.pint._start(data, 400.0, 2.2, 0.3, None, 1.0)[0] < np.pi - 2.2
     made = copy.deepcopy(model)
     component = add_wobble(made, toas, period=0.5 / 365.25 * u.yr, chi=0.9 * u.rad, wobble=np.degrees(0.2) * u.deg)
@@ -654,7 +657,7 @@ def test_stars_that_a_fit_may_try(spread):
         getattr(model, name).value = value
         with pytest.raises(InvalidModelParameters, match=words):
             Residuals(spread, model)
-    # A tenth of the rotation, and no more.
+    # The limit is a tenth of the rotation.
     star = _Star(2.0, -2e-9, 0.01, 1.0, 1e-7, 0.0, 0.0)
     star.check(np.array([1.0, -1e8, 5.0]))
     star.check(np.array([]))

@@ -1,4 +1,4 @@
-"""Figures: the data of the lines that are drawn."""
+"""Figures: the data of the lines drawn."""
 
 import subprocess
 import sys
@@ -26,7 +26,7 @@ def test_names_that_are_offered():
 
 
 def drawn(axes, label):
-    """The data of the line with a label."""
+    """The data of the line with this label."""
     found = [line for line in axes.lines if line.get_label() == label]
     assert len(found) == 1, f"{label}: {[line.get_label() for line in axes.lines]}"
     return found[0].get_data()
@@ -57,14 +57,14 @@ def test_angles_without_a_printed_solution_have_one_line():
 def test_paths_on_the_sphere_are_seen_from_the_eye():
     motion = twofold.Scene("tp-2").motion()
     axes = plot.sphere(motion, until=50.0, samples=501, view=(0.0, 90.0))
-    # From above: right is Y, up is -X, and everything north of the equator is in front.
+    # Seen from above: right is Y, up is -X, and everything north of the equator is in front.
     x, y = drawn(axes, "n")
     n, momentum, _ = motion.state(np.linspace(0.0, 50.0, 501))
     assert (n[:, 2] > 0.0).all()
     np.testing.assert_allclose(np.column_stack([x, y]), np.column_stack([n[:, 1], -n[:, 0]]), atol=1e-12)
     x, y = drawn(axes, "L")
     assert x[0] == pytest.approx(momentum[0, 1] / np.linalg.norm(momentum[0]))
-    # From the equator both sides are seen, each piece on its own.
+    # From the equator both sides are visible, each piece separately.
     x, _ = drawn(plot.sphere(motion, until=50.0, samples=501, view=(0.0, 0.0)), "n")
     front = np.isfinite(x)
     assert 0 < front.sum() < 501
@@ -81,7 +81,7 @@ def test_pulses_are_drawn_where_they_are_and_gaps_break_the_line():
     np.testing.assert_array_equal(durations, table["duration"][whole])
     turns = np.diff(table["turn"][whole])
     assert (turns > 1).any()
-    # A gap in the joining line for each dark turn, and a period for each pair that follows.
+    # The joining line has a gap for each dark turn, and a period for each consecutive pair.
     joined = length.lines[0].get_ydata()
     assert np.isnan(joined).sum() == (turns != 1).sum()
     shown = drawn(period, "beam 1")[1]
@@ -100,7 +100,7 @@ def test_back_in_time_pulses_follow_one_another_too():
     corners = mesh.get_coordinates()
     np.testing.assert_allclose((corners[1:, 0, 1] + corners[:-1, 0, 1]) / 2.0, -np.arange(5.0), atol=1e-12)
     assert mean > 0.0 and first + count * mean >= -60.0 > first + (count - 1) * mean
-    # Every turn has its pulse, a tenth of the brightness at the edge of the beam.
+    # Every turn has its pulse, with a tenth of the brightness at the edge of the beam.
     light = np.asarray(mesh.get_array()).reshape(5, 101)
     step = (corners[0, -1, 0] - corners[0, 0, 0]) / 101
     np.testing.assert_allclose((light > 0.1).sum(axis=1) * step, table["duration"][whole][:5], atol=2.0 * step)
@@ -122,7 +122,7 @@ def test_shades_are_bright_where_the_pulses_are():
     mesh = axes.collections[0]
     light = mesh.get_array().reshape(-1, 201)
     pulses = scene.pulses()
-    # A tenth at the edge of the beam: as much of the time is brighter as there are pulses.
+    # The brightness is a tenth at the edge of the beam: it is exceeded for the duration of the pulses.
     turns = light.shape[0]
     good = np.isfinite(pulses["turn"]) & (pulses["turn"] < turns)
     corners = mesh.get_coordinates()
@@ -153,7 +153,7 @@ def test_shapes_over_years_are_as_late_and_as_wide_as_the_table_says():
 
 
 def test_a_pulsar_whose_pulses_come_half_a_turn_after_whole_phases():
-    """The date of a whole phase is then as near to one pulse as to the next."""
+    """The date of a whole phase is then equally near to one pulse and to the next."""
     scene = twofold.Scene("isolated-pulsar")
     mesh = plot.waterfall(scene, rows=10, samples=801).collections[0]
     light, corners = mesh.get_array().reshape(10, 801), mesh.get_coordinates()[0, :, 0]
@@ -190,7 +190,7 @@ def test_causes_add_up_and_small_ones_are_enlarged():
 
 
 def test_pulses_of_the_second_beam_alone():
-    """From the other side: the magnetic axis is nearer to the opposite of the line of sight."""
+    """The second beam: the magnetic axis is nearer to the opposite of the line of sight."""
     scene = twofold.Scene("tp-1", pulsar={"second_beam": True, "chi": np.pi - 0.5})
     table, mine = scene.pulses(), plt.subplots(2, 1)[1]
     period, length = plot.pulses(scene, axes=mine)
@@ -231,7 +231,7 @@ def test_turns_are_those_of_the_first_beam():
 
 
 def test_shades_are_of_the_angle_to_the_line_of_sight():
-    """Row by row and column by column, with an intensity that is the angle itself."""
+    """Row by row and column by column, with the angle itself as intensity."""
     scene = twofold.Scene("tp-2", time={"start": 10.0})
     mine = plt.subplots()[1]
     axes = plot.waterfall(scene, rows=5, window=(-1.0, 2.0), samples=7, intensity=lambda angle: angle, axes=mine)
@@ -256,7 +256,7 @@ def test_a_turn_is_the_window_of_a_short_scene():
     middles = (corners[0, 1:, 0] + corners[0, :-1, 0]) / 2.0
     _, period, count = plot._turns(scene)
     assert (middles[0], middles[-1]) == pytest.approx((-period / 2.0, period / 2.0)) and len(corners) - 1 == count
-    # The brightest is the axis of the beam, and a tenth its edge.
+    # The maximum is at the axis of the beam, and a tenth of it at the edge.
     light = np.asarray(mesh.get_array())
     assert 0.99 < light.max() <= 1.0 and mesh.get_clim()[0] == 0.0
 
@@ -336,7 +336,7 @@ def test_angles_over_any_span():
 
 
 def test_spans_that_are_written_in_other_ways():
-    """`end` and `times` of a scene in the paper's units, `years` of a physical star: `until` takes their place."""
+    """`end` and `times` of a scene in the paper's units, and `years` of a physical star: `until` replaces them."""
     for time in ({"span": None, "end": 20.0}, {"span": None, "samples": None, "times": [0.0, 1.0, 20.0]}):
         scene = twofold.Scene("tp-2", time=time)
         t, shown = drawn(plot.angles(scene, until=10.0, samples=11, perturbation=False)[1], "motion")
@@ -380,7 +380,7 @@ def test_frames_have_ticks_on_all_sides():
 
 
 def seen(points, view):
-    """Points from far away: turned about Z by the azimuth of the eye, then by its elevation. To the right and up on the page, and towards the eye."""
+    """Points seen from far away: rotated about Z by the azimuth of the eye, then by its elevation. Right and up on the page, and towards the eye."""
     a, e = np.radians(view)
     about_z = np.array([[np.cos(a), np.sin(a), 0.0], [-np.sin(a), np.cos(a), 0.0], [0.0, 0.0, 1.0]])
     raised = np.array([[np.cos(e), 0.0, np.sin(e)], [0.0, 1.0, 0.0], [-np.sin(e), 0.0, np.cos(e)]])
@@ -401,7 +401,7 @@ def test_everything_on_the_sphere_is_seen_from_the_same_place():
     for points, back, front in zip([*circles, *paths], [*lines[0:6:2], *lines[9::2]], [*lines[1:6:2], *lines[10::2]], strict=True):
         expected, towards = seen(points, view)
         for line, here in ((front, towards >= 0.0), (back, towards < 0.0)):
-            # With the first point of the next piece.
+            # Each piece includes the first point of the next one.
             drawn_here = here | np.append(False, here[:-1])
             assert (np.isfinite(line).all(axis=1) == drawn_here)[np.abs(towards) > 1e-12].all()
             np.testing.assert_allclose(line[drawn_here & np.isfinite(line[:, 0])], expected[drawn_here & np.isfinite(line[:, 0])], atol=1e-12)
@@ -414,19 +414,19 @@ def test_everything_on_the_sphere_is_seen_from_the_same_place():
         np.testing.assert_allclose(lines[6 + k], [[0.0, 0.0], tips[k]], atol=1e-12)
         np.testing.assert_allclose([arrows[k].get_position(), arrows[k].xy], [tips[k], 1.22 * tips[k]], atol=1e-12)
         np.testing.assert_allclose(names[f"${name}$"].xy, 1.22 * tips[k], atol=1e-12)
-        # The name stands beyond the head.
+        # The name is beyond the head.
         np.testing.assert_allclose(names[f"${name}$"].get_position(), 7.0 * tips[k] / np.linalg.norm(tips[k]), atol=1e-12)
     heads = [seen(path[0], view)[0] for path in paths]
     for arrow, head, name in zip(arrows[3:], heads, (r"$\mathbf{e}_x$", r"$\mathbf{n}$", r"$\mathbf{L}$"), strict=True):
         np.testing.assert_allclose([arrow.get_position(), arrow.xy, names[name].xy], [(0.0, 0.0), head, head], atol=1e-12)
-    # All of it lies within the limits, and the sphere fills most of them.
+    # Everything is within the limits, and the sphere fills most of them.
     for limits, part in ((axes.get_xlim(), tips[:, 0]), (axes.get_ylim(), tips[:, 1])):
         assert -1.5 < limits[0] < min(-1.0, 1.22 * part.min()) and max(1.0, 1.22 * part.max()) < limits[1] < 1.5
     assert axes.get_aspect() == 1.0 and not axes.axison
 
 
 def test_a_sphere_does_not_depend_on_the_reading_of_the_clock():
-    """The same motion, begun at another time, and e_x for the same length of time."""
+    """The same motion, started at another time, and e_x for the same length of time."""
     early, late = (
         plot.sphere(twofold.Scene("tp-2", time={"start": start}).motion(), until=start + 20.0, samples=201, equatorial=5.0)
         for start in (0.0, 3.0)
@@ -441,7 +441,7 @@ def test_limits_of_the_sphere_hold_every_view(view):
     tips, _ = seen(1.22 * np.eye(3), view)
     for limits, part in ((axes.get_xlim(), tips[:, 0]), (axes.get_ylim(), tips[:, 1])):
         np.testing.assert_allclose(limits, [min(-1.03, part.min() - 0.12), max(1.03, part.max() + 0.12)], atol=1e-12)
-    # An axis that points to the eye has its name beside it.
+    # The name of an axis that points to the eye is beside it.
     assert all(np.hypot(*text.get_position()) > 5.0 for text in axes.texts if text.get_text() in ("$X$", "$Y$", "$Z$"))
 
 
@@ -474,12 +474,12 @@ def test_lines_around_a_frequency_and_within_a_span():
     x = segments[:, 0, 0]
     room = 0.06 * np.ptp(x)
     assert axes.get_xlim() == pytest.approx((x.min() - room, x.max() + room))
-    # The feet are a power of ten not above the least height; a third of the height is room for names.
+    # The base is a power of ten not above the smallest height; a third of the height is room for names.
     foot, least = segments[0, 0, 1], 1e-3 * lines["amplitude"][0]
     assert foot <= least < 10 * foot and np.log10(foot) == pytest.approx(round(np.log10(foot)))
     bottom, top = axes.get_ylim()
     assert bottom == foot and np.log(top / foot) == pytest.approx(1.45 * np.log(lines["amplitude"][0] / foot))
-    # The ends of a span belong to it.
+    # Both ends of a span are included.
     low, high = np.sort(lines["frequency"])[[1, 3]]
     axes = plot.spectrum(scene, "m.n", least=1e-3, span=(low, high))
     assert axes.get_xlim() == (low, high) and len(axes.collections[0].get_segments()) == 3
@@ -512,7 +512,7 @@ def test_names_have_room_beside_stronger_ones(span, inches_wide):
     low, high = axes.get_xlim()
     shown = np.flatnonzero((table["frequency"] >= low) & (table["frequency"] <= high))[:8]
     inches = (table["frequency"] - low) / (high - low) * 0.8 * inches_wide
-    # Eight points: 0.11 inches.
+    # Eight points are 0.11 inches.
     roomy = [k for j, k in enumerate(shown) if all(abs(inches[k] - inches[other]) > 0.11 for other in shown[:j])]
     assert 1 < len(roomy) < 8 or len(roomy) == 8 and inches_wide == 100.0
     np.testing.assert_array_equal([text.xy for text in axes.texts], [(table["frequency"][k], table["amplitude"][k]) for k in roomy])
@@ -548,7 +548,7 @@ def test_causes_of_residuals_are_enlarged_as_they_say(torque, alpha_2, names):
     assert [panel.get_xlim() for panel in panels] == [(date.min(), date.max())] * 2
     assert [panel.get_xlabel() for panel in panels] == ["", "date [MJD]"] and panels[1].get_ylabel() == "pulse length [ms]"
     assert [panel.xaxis.get_tick_params().get("labelbottom", True) for panel in panels] == [False, True]
-    # Dates stand there in full, not as what is added to a number at the end.
+    # Dates are written in full, without an offset at the end of the axis.
     assert not panels[1].xaxis.get_major_formatter().get_useOffset() and panels[1].yaxis.get_major_formatter().get_useOffset()
 
 
@@ -558,7 +558,7 @@ def test_residuals_alone_need_no_legend():
 
 
 def test_sizes_of_figures():
-    # A column of Physical Review and both, 8.6 cm and 17.8 cm.
+    # One column of Physical Review and both, 8.6 cm and 17.8 cm.
     assert (plot.COLUMN * 2.54, plot.PAGE * 2.54) == pytest.approx((8.6, 17.8))
     axes = plot.spectrum(twofold.Scene("tp-2"), "m.n", most=3)
     assert axes.figure.get_size_inches()[0] == pytest.approx(plot.PAGE)

@@ -1,4 +1,4 @@
-"""Sweeps by executors: the same bytes however they are computed, and after a worker was killed."""
+"""Sweeps by executors: the same bytes for any way of computation, and after a worker was killed."""
 
 import multiprocessing
 import os
@@ -47,7 +47,7 @@ def one_core(sweep):
 
 
 class Slowed(twofold.Sweep):
-    """Takes a while for each part, to be killed in it."""
+    """A sweep with slow parts, so that it can be killed."""
 
     def rows(self, start, stop):
         time.sleep(0.05)
@@ -55,7 +55,7 @@ class Slowed(twofold.Sweep):
 
 
 class Cut(twofold.Sweep):
-    """Its worker is killed while it hands over a part: with half of a message in the pipe, and the lock on it."""
+    """Its worker is killed while it transfers a part: with half of a message in the pipe, and holding the lock."""
 
     first = 40
 
@@ -75,7 +75,7 @@ class Cut(twofold.Sweep):
 
 
 class CutAtTheEnd(Cut):
-    """Its worker ends itself while all parts that are left have been handed out."""
+    """Its worker exits when all remaining parts have been handed out."""
 
     first = 92
 
@@ -84,7 +84,7 @@ class CutAtTheEnd(Cut):
 
 
 class Recorded(Executor):
-    """Hands parts to another executor, and keeps which."""
+    """Passes parts to another executor, and records them."""
 
     def __init__(self, executor):
         self.executor, self.parts = executor, []
@@ -106,7 +106,7 @@ def test_processes_give_the_bytes_of_one_core(sweep, one_core, method, tmp_path)
         assert sweep.map(executor, scenes_at_once=7, parts_at_once=3).csv == one_core
         sweep.write(tmp_path / "table.csv", executor, scenes_at_once=9)
     assert (tmp_path / "table.csv").read_bytes() == one_core
-    # One file, as by the command: none of the growing ones is left but the journal of a complete table.
+    # One file, as by the command: only the journal of a complete table remains of the temporary files.
     assert not (tmp_path / "table.csv.partial").exists()
 
 
@@ -126,7 +126,7 @@ def test_shards_are_the_whole(sweep, one_core):
 
 
 def test_more_scenes_than_are_computed_at_once():
-    """Some of 601 fail: the rows and their number are those of the parts."""
+    """Some of 601 fail: rows and their number are those of the parts."""
     sweep = twofold.Sweep(toml=GRID.replace("draws = 4", "draws = 1").replace("from = 1.01, to = 2.02, points = 25", "from = -0.5, to = 2.0, points = 601"))
     rows, errors, failed = sweep.rows(0, 601)
     assert len(sweep) == 601 and rows.count(b"\n") == 601 and rows.count(b",failed,") == errors.count(b"\n") == failed > 120
@@ -174,7 +174,7 @@ def test_sizes_of_parts(scenes, expected):
 
 
 def test_a_file_that_is_replaced_or_not(sweep, tmp_path):
-    """Rows handed over one part at a time; the errors of scenes that failed have a file of their own."""
+    """Rows transferred one part at a time; the errors of failed scenes are in a separate file."""
     path, failing = tmp_path / "table.csv", twofold.Sweep(toml=GRID.replace("from = 1.01", "from = -0.5"))
     file = twofold._twofold.SweepFile(failing, path)
     assert file.next == 0
@@ -215,7 +215,7 @@ def test_never_more_parts_at_once_than_allowed(sweep, one_core):
 
 
 class Waits(Executor):
-    """Parts that are done when they are waited for; which were cancelled."""
+    """Parts that are done when they are awaited; records cancelled ones."""
 
     def __init__(self):
         self.cancelled, self.pending, self.most = [], 0, 0
@@ -240,7 +240,7 @@ def test_sixty_four_parts_at_once(sweep, tmp_path):
     for run in (sweep.map, lambda executor, **options: sweep.write(tmp_path / "table.csv", executor, **options)):
         executor, told = Waits(), []
         run(executor, scenes_at_once=1, progress=told.append)
-        # The file's executor has been woken up beside.
+        # The file's executor was woken up in addition.
         assert executor.most == 64 + (run != sweep.map) and executor.cancelled == []
         assert told == [k / 100 for k in range(1, 101)]
 
@@ -282,13 +282,13 @@ def test_a_killed_worker(one_core, method, tmp_path):
 
         slowed.write(path, executor, scenes_at_once=4, parts_at_once=4, progress=kill)
     assert not path.exists()
-    # The error is still held, with its traceback, and another executor goes on.
+    # The error and its traceback are still held, and another executor continues.
     assert error.value is not None
     with processes(method) as executor:
         recorded = Recorded(executor)
         twofold.Sweep(toml=GRID).write(path, recorded, scenes_at_once=4)
     first = recorded.parts[0][0]
-    # 20 scenes and more were told to be done, and are not computed again.
+    # At least 20 scenes were reported as done, and are not computed again.
     assert 20 <= first < 100
     assert recorded.parts == [(start, start + 4) for start in range(first, 100, 4)]
     assert path.read_bytes() == one_core
@@ -321,7 +321,7 @@ def test_a_table_whose_naming_was_cut_off_is_finished(sweep, one_core, tmp_path)
         path.unlink()
         errors.unlink()
         killed_while_named(sweep, path, one_core)
-        # Named, and killed before the journal was removed: nothing is computed again.
+        # Killed after the naming, before the journal was removed: nothing is recomputed.
         partial.rename(path)
         recorded = Recorded(executor)
         sweep.write(path, recorded)
@@ -461,7 +461,7 @@ def test_signals_are_handled_between_costly_scenes(interrupted):
 
 
 def test_any_built_in_scene_is_a_base():
-    """A template can be varied; one with spin-down or a bulge is refused for that, not as unknown."""
+    """A template can be varied; one with spin-down or a bulge is refused for that reason, not as unknown."""
     text = """
 scene = "{}"
 [[vary]]

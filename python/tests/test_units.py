@@ -1,4 +1,4 @@
-"""Quantities of astropy in and out."""
+"""Quantities of astropy as input and output."""
 
 import re
 import subprocess
@@ -28,7 +28,7 @@ def test_units_of_every_group_of_columns_are_read():
     assert paper["E"].to_value(units.I_xx / units.t_c**2) == pytest.approx(paper["E"].value)
     size = np.sqrt(sum(paper[f"L_{axis}"] ** 2 for axis in "XYZ"))
     assert size.unit == units.I_xx / units.t_c
-    # The third integral is of second order in L.
+    # The third integral is quadratic in L.
     assert (paper["K"] / size**2).unit == u.dimensionless_unscaled
     assert paper["m.n"].unit == u.dimensionless_unscaled
 
@@ -132,7 +132,7 @@ def test_arrival_times_keep_both_of_their_parts():
     assert found.meta["PEPOCH"].mjd == float(plain.epoch)
 
 
-#: Of docs/scenes.md, with a quantity in another unit and the number that a scene file would have.
+#: Keys of docs/scenes.md, with a quantity in another unit and the number for a scene file.
 KEYS = [
     ("star", "inertia_ratio", 110 * u.percent, 1.1),
     ("star", "oblateness", 0.1 * u.percent, 1e-3),
@@ -206,7 +206,7 @@ def test_rates_of_a_physical_star():
     made = units.scene(initial={**start, "alpha_rate": np.degrees(8.0) * u.deg / u.s}, **others)
     np.testing.assert_allclose(made.motion().axis(1.0), by_hand.motion().axis(1.0), atol=1e-9)
     momentum = units.state(made.motion(), 0 * u.s)[1]
-    # A sphere of 1.42e45 g cm^2 but for a part in a thousand, at 147 rad/s and a little more.
+    # A sphere of 1.42e45 g cm^2 to a part in a thousand, at slightly more than 147 rad/s.
     assert np.linalg.norm(momentum.to_value(u.kg * u.m**2 / u.s)) == pytest.approx(1.42e38 * 147.3, rel=5e-3)
     assert momentum.unit == u.g * u.cm**2 / u.s
 
@@ -227,13 +227,13 @@ def test_angles_of_any_unit_and_words():
 
 
 def test_dates_are_counted_from_the_start():
-    """Where the epoch is that of another time than zero."""
+    """The epoch is at another time than zero."""
     star = twofold.Scene("b1828-11", time={"start": 12.0})
     assert units.times(star, Time(49621.5, format="mjd", scale="tdb")) == pytest.approx(43212.0, abs=1e-6)
 
 
 def test_arrivals_are_sought_at_dates_of_any_scale():
-    """Of each date the nearest pulse, within half of its period; UTC is a minute from TDB."""
+    """For each date the nearest pulse, within half a period; UTC differs from TDB by a minute."""
     dates = Time([50000.0, 50300.0, 50700.0, 51000.0, 52000.0], format="mjd", scale="utc")
     found = units.arrivals(twofold.Scene("b1828-11").pulsar(), dates)
     assert np.abs((found["arrival"] - dates).to_value(u.s)).max() < 0.51 / 2.4688717147

@@ -1,4 +1,4 @@
-"""Harmonics against the whole wave, counted turns, series."""
+"""Harmonics compared with the complete wave, counted turns, series."""
 
 import sys
 import types
@@ -51,12 +51,12 @@ def test_harmonics_add_up_to_the_wave(hands, inclination):
     dt = np.linspace(-300.0, 300.0, 2001)
     reference = 12345.678
     whole = np.array(pulsar.wave(reference + dt))
-    # 3e4 turns a side: their phase is rounded to 5e-11 rad.
+    # 3e4 turns on each side: their phase is rounded to 5e-11 rad.
     assert abs(added(pulsar, reference, dt, hands) - whole).max() <= 1e-10 * size(pulsar, reference + dt)
 
 
 def test_hands_follow_an_angular_momentum_that_turns():
-    # s is so small that the wave has it only by the motion of L; after 30 years L has turned.
+    # s is so small that it affects the wave only through the motion of L; after 30 years L has turned.
     pulsar = source(eigenvalues=(2e-10, 1e-10, -3e-10))
     reference, dt = 1e9, np.linspace(0.0, 200.0, 1001)
     begin = pulsar.wave_harmonics(np.array([0.0, reference]))[4]
@@ -65,7 +65,7 @@ def test_hands_follow_an_angular_momentum_that_turns():
     assert abs(added(pulsar, reference, dt, ("right", "left")) - whole).max() <= 1e-10 * size(pulsar, reference)
     whole = np.array(pulsar.wave(dt))
     assert abs(added(pulsar, 0.0, dt, ("right", "left")) - whole).max() <= 1e-10 * size(pulsar, 0.0)
-    # To larger position angles and to smaller ones.
+    # Towards larger and towards smaller position angles.
     for dt in (1e9, -1e9):
         with pytest.raises(twofold.Error, match="^psi: L turns by .* hand='right'"):
             Waveform(pulsar, "twice")(dt)
@@ -74,7 +74,7 @@ def test_hands_follow_an_angular_momentum_that_turns():
 @pytest.mark.parametrize("s", [2e-2, 2e-4])
 @pytest.mark.parametrize("spin", [20.0, 200.0])
 def test_harmonics_lack_what_the_torque_does_within_a_turn(s, spin):
-    """The figure in docs/waves-in-python.md: proportional to s and to the inverse square of the spin."""
+    """The number in docs/waves-in-python.md: proportional to s and to the inverse square of the spin."""
     pulsar = source(eigenvalues=(s, s / 2, -1.5 * s), spin=spin)
     dt = np.linspace(0.0, 50.0 / spin, 2001)
     whole = np.array(pulsar.wave(dt))
@@ -83,7 +83,8 @@ def test_harmonics_lack_what_the_torque_does_within_a_turn(s, spin):
 
 
 def test_a_strong_violation_by_hands():
-    # L goes round in seconds. The harmonics are those of a torque-free star, so they are off by what s does to a turn, and no more: the hands add nothing to it.
+    # L circulates in seconds. The harmonics are those of a torque-free star, so that their error is the effect of s on a turn; the hands add nothing
+    # to it.
     pulsar = source(eigenvalues=(1e-2, 0.5e-2, -1.5e-2), spin=2.0)
     dt = np.linspace(-10.0, 10.0, 1001)
     once, twice, phase, i, angle, _ = pulsar.wave_harmonics(dt)
@@ -116,7 +117,7 @@ def test_phases_are_counted_alike_one_by_one_and_at_once():
 
 
 def test_turns_between_knots_far_apart():
-    """A star that slows down: between knots 1e5 s apart the phase is 8 rad beside a straight line, and on the cubic."""
+    """A star that slows down: between knots 1e5 s apart the phase deviates by 8 rad from a straight line, but not from the cubic."""
     sections = {"time": {"epoch": "58000.0"}, "pulsar": {"chi": 1.0, "rho": 0.3}, "spin_down": {"f1": -1e-9, "torque": "constant"}}
     pulsar = twofold.Scene("wave-source", **sections).pulsar()
     dt = np.linspace(-2e6, 2e6, 2001)
@@ -125,7 +126,7 @@ def test_turns_between_knots_far_apart():
 
 
 def test_knots_are_added_as_they_are_needed():
-    """One time after another, farther and farther to both sides, or all at once."""
+    """One time after another, farther and farther on both sides, or all at once."""
     pulsar = source()
     times = np.array([10.0, -10.0, 1e3, -2e3, 3e4, -5e4, 2e5, -1e5])
     whole, _, _ = Waveform(pulsar, "once", reference=50.0)(times)
@@ -144,7 +145,8 @@ def test_how_far_a_phase_may_be_beside_the_smooth_one():
 
 
 def test_hands_are_circular_and_the_right_one_is_seen_from_the_pole():
-    """By `h_+ = a cos(dphi)` and `h_x = a sin(dphi)`. Seen along L, the wave of twice a turn is all of one hand, and seen against it of the other."""
+    """With `h_+ = a cos(dphi)` and `h_x = a sin(dphi)`. Seen along L the wave at twice the rotation has only one hand, and seen against L only the
+    other."""
     dt = np.arange(6.0).reshape(2, 3)
     for inclination, strong, weak in (("1e-6 deg", "right", "left"), ("179.999999 deg", "left", "right")):
         pulsar = source(inclination=inclination, azimuth="40 deg")
@@ -164,7 +166,7 @@ def test_a_star_that_slows_down():
     dt = np.linspace(0.0, 1e7, 11)
     turns = Waveform(pulsar, "once")(dt)[0] / (2 * np.pi)
     fit = np.polyfit(dt / 1e7, turns, 3)
-    # F1 / 2 t^2 are 5e4 turns. F2 = n F1^2 / F0, with n up to 3, is 5 turns at most, and what follows 1e-3.
+    # F1 / 2 t^2 is 5e4 turns. F2 = n F1^2 / F0, with n up to 3, contributes at most 5 turns, and the next term 1e-3.
     assert abs(2 * fit[1] / 1e14 / -1e-9 - 1) < 1e-3
     assert abs(fit[0]) < 3e-20 * 1e21 / 6
     assert abs(turns - np.polyval(fit, dt / 1e7)).max() < 1e-3
@@ -215,7 +217,7 @@ def test_series_in_equal_steps():
 
 
 def test_a_series_has_its_last_sample():
-    """Of doubles, 0.29 times 100 is 28.999999999999996."""
+    """In doubles, 0.29 times 100 is 28.999999999999996."""
     plus, cross = strain(source(), 3.0, 0.29, 100.0, gwpy=False)
     assert plus.shape == cross.shape == (29,)
 
@@ -238,14 +240,14 @@ def test_series_that_cannot_be(arguments, words):
 
 
 def test_the_largest_series_is_allowed(monkeypatch):
-    """A thousand million samples: seen as they are asked for, not made."""
+    """A thousand million samples: detected on request, before they are made."""
     monkeypatch.setattr(np, "arange", lambda count: pytest.fail("made") if count > 10**9 else np.float64(count))
     plus, _ = strain(source(), -1e9, 1e9, 1.0, gwpy=False)
     assert plus == source().wave(0.0)[0]
 
 
 def test_what_is_handed_to_gwpy(monkeypatch):
-    """Times of GPS: MJD 58000 TDB is 51.184 s before 1188518400 s of GPS counted in days of 86400 s from 1980 January 6."""
+    """GPS times: MJD 58000 TDB is 51.184 s before 1188518400 s of GPS counted in days of 86400 s from 1980 January 6."""
     module = types.ModuleType("gwpy.timeseries")
     module.TimeSeries = lambda values, **options: (values, options)
     monkeypatch.setitem(sys.modules, "gwpy", types.ModuleType("gwpy"))

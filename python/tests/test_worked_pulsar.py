@@ -1,4 +1,4 @@
-"""The pulsar that docs/worked-pulsar.md works through: the package against what the command prints there, which a program of its own has checked."""
+"""The pulsar of docs/worked-pulsar.md: the package compared with the printed output of the command, which an independent program has checked."""
 
 import re
 from pathlib import Path
@@ -13,7 +13,7 @@ DAY = 86400.0
 
 
 def printed(command):
-    """What a command of the page prints, notes left out."""
+    """The printed output of a command on the page, without notes."""
     after = PAGE.split(f"$ {command}\n")[1]
     return [line for line in re.split(r"\n(?:\$ |```)", after)[0].splitlines() if not line.startswith("note: ")]
 
@@ -61,7 +61,7 @@ def test_the_motion_at_these_times(scene):
     same(motion.angles(t), np.stack([angles[name] for name in ("alpha", "beta", "gamma")], axis=-1))
     for found, of, name in zip(motion.state(t), (axes, momentum, axes), ("e_z", "L", "e_x"), strict=True):
         same(found, np.stack([of[f"{name}_{axis}"] for axis in "XYZ"], axis=-1))
-    # The note of the page: 7.2e-13 for these columns, to the end of the span; by any method less than ten times that.
+    # The note on the page is 7.2e-13 for these columns at the end of the span; any method is below ten times that.
     assert 0.0 < motion.error(12.3) < 7e-12
 
 
@@ -78,7 +78,7 @@ def test_pulses(scene):
 def test_arrival_times(timing):
     for command in ("1-6", "1,7-10", "1,11-16"):
         for name, expected in numbers(printed(f"cut -d, -f{command} timing/pulsar.csv")).items():
-            # Arrivals are rounded to 1e-16 d, and residuals with them.
+            # Arrivals are rounded to 1e-16 d, and so are residuals.
             same(timing.table[name], expected, abs=1e-11 if name == "residual" else 1e-13)
     text = "\n".join(printed("twofold timing pulsar.toml --to 57000 --epochs 4 --out timing"))
     frequency, epoch, rms = re.search(r"F0 = (\S+) Hz at MJD (\S+);.*rms (\S+) s", text).groups()
@@ -105,17 +105,17 @@ def test_both_precessions(pulsar):
     text = PAGE.split("precession period of the body about its axis: ")[1].splitlines()[0]
     periods = [float(word) for word in re.findall(r"(\S+) d", text)]
     same(2.0 * np.pi / np.abs(pulsar.precession_rates) / DAY, periods, rel=1e-6)
-    # F0 of the page, of a star that does not slow down; L precesses meanwhile.
+    # F0 of the page, for a star that does not slow down; L precesses meanwhile.
     same(pulsar.period, 1.0 / 23.426073396950399, rel=1e-8)
 
 
 def test_the_wave(pulsar, scene):
-    # Times of the pulsar are counted from its epoch, which is 12 s by the scene's.
+    # Times of the pulsar count from its epoch, which is at 12 s of the scene.
     strain = [line.split() for line in printed("sed -n 1,3p timing/pulsar.h_cross.txt")[1:]]
     same(pulsar.wave([float(t) for t, _ in strain])[1], [float(h) for _, h in strain], rel=1e-6)
     rows = numbers(printed("twofold run pulsar.toml --columns position_angle,h"))
     plus, cross = pulsar.wave(rows["t"] - 12.0)
-    # Of first order in s the phases leave something out.
+    # The phases have an error of first order in s.
     same(plus, rows["h_plus"], rel=1e-6)
     same(cross, rows["h_cross"], rel=1e-5)
 
@@ -156,7 +156,7 @@ def test_what_a_symmetry_hides(scene):
 
 
 def test_a_fit_to_its_own_pulses(scene):
-    """Without simulated errors the fit ends at the scene, with the standard deviations that are foretold."""
+    """Without simulated errors the fit ends at the scene, with the predicted standard deviations."""
     observe, names = {"arrivals": 1e-6, "widths": 1e-6}, ["spin", "chi", "rho"]
     foretold = scene.fisher(observe, names)
     found = scene.fit([scene.pulses()], observe, names)
@@ -164,5 +164,5 @@ def test_a_fit_to_its_own_pulses(scene):
     same(found.values, [-147.0265361880024, 1.35, 0.5])
     same(found.sigmas, foretold.sigmas, rel=1e-5)
     same(found["chi"], (found.values[1], found.sigmas[1]))
-    # Rough error bars as on the page, where two arrivals less have chi^2 off its parabola by 1.8.
+    # Error bars are rough as on the page, where with two arrivals less chi^2 deviates from its parabola by 1.8.
     assert 0.3 < found.nonlinearity < 1.8

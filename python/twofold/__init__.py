@@ -5,11 +5,11 @@
 >>> motion.axis([0.0, 10.0]).shape
 (2, 3)
 
-Scenes, motions, pulsars, timing models, fits and sweeps, by the verified equations of the Rust library of this name. Times are in the unit that a scene
-states (`t_c`, or seconds of a physical star); angles are in rad, arrays are of float64.
+Scenes, motions, pulsars, timing models, fits and sweeps, by the verified equations of the Rust library of the same name. Times are in the unit of the
+scene (`t_c`, or seconds for a physical star); angles are in rad, arrays are of float64.
 
 `twofold.units` accepts and returns quantities of astropy, `twofold.plot` draws with matplotlib, `twofold.pint` is a component of PINT's timing models,
-`twofold.waves` gives waveforms to lalpulsar, `twofold.likelihood` likelihoods to samplers. Each needs the package that it works with.
+`twofold.waves` provides waveforms for lalpulsar, `twofold.likelihood` likelihoods for samplers. Each needs the package that it works with.
 """
 
 from twofold._twofold import (

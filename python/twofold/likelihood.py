@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["TimingLikelihood"]
 
-#: What the widths of pulses alone depend on.
+#: Parameters on which only the widths of pulses depend.
 _OF_WIDTHS = ("inclination", "inclination_rate", "rho")
 
 
@@ -64,10 +64,10 @@ class TimingLikelihood(_Likelihood):  # type: ignore[misc, valid-type]
             raise Error(f"numbers: an array of shape {given.shape}: allowed are {len(self._t)} whole numbers, NaN where one is not known")
         self.numbers = whole + np.rint(fraction)
         if known.any():
-            # Numbers count from any one: the first that is known belongs to the nearest turn.
+            # The numbers may start anywhere: the first known one belongs to the nearest turn.
             first = int(np.argmax(known))
             self.numbers[known] = given[known] + (self.numbers[first] - given[first])
-        # Residuals are times.
+        # The residuals are times.
         self._scale = 1.0 / (self._sigmas * model.phase_rate(self._t, self._rest))
         self._norm = -np.log(self._sigmas).sum() - len(self._t) / 2 * np.log(2 * np.pi)
         self._basis = np.zeros((len(self._t), 0))
@@ -116,7 +116,7 @@ class TimingLikelihood(_Likelihood):  # type: ignore[misc, valid-type]
         try:
             residuals = self.residuals(parameters)
         except Error:
-            # What is no parameter stays an error; what leaves its range is not probable.
+            # An invalid parameter name stays an error; a value outside its range has zero probability.
             self._check(parameters)
             return -np.inf
         if not np.isfinite(residuals).all():

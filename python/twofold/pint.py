@@ -27,13 +27,13 @@ __all__ = ["Wobble", "add_wobble", "wobble_limits"]
 DAY = 86400.0
 
 
-#: Part of its rotation that a star may lose between the epoch and an arrival.
+#: Fraction of its rotation that a star may lose between the epoch and an arrival.
 MOST_LOST = 0.1
 
 
 @dataclass(frozen=True)
 class _Star:
-    """A wobbling star in Hz, s and rad: the symbols of docs/timing-model.md and docs/spin-down.md."""
+    """A wobbling star in Hz, s and rad, with the symbols of docs/timing-model.md and docs/spin-down.md."""
 
     f0: float
     f1: float
@@ -44,7 +44,7 @@ class _Star:
     torque: float
 
     def check(self, t: np.ndarray | None = None) -> None:
-        """Raises InvalidModelParameters for a star that the timing model does not have."""
+        """Raises InvalidModelParameters for a star outside the domain of the timing model."""
         degrees = [f"{angle:.12g} deg" for angle in np.degrees([self.wobble, self.chi])]
         least = min(self.chi, np.pi - self.chi)
         if not 0.0 < least:
@@ -102,7 +102,7 @@ class _Beyond:
         self.plain = 2.0 * t / (1.0 + np.sqrt(1.0 + 2.0 * kappa * t))
         self.delta = np.zeros_like(t)
         self._follow()
-        # What varies moves the rotation by a hundredth at most: each step is that much nearer.
+        # The torque varies the rotation by a hundredth at most: each iteration gains this factor.
         for _ in range(12 if kappa != 0.0 and self.q.any() else 0):
             last = self.delta
             self.delta = -kappa * self.late / (1.0 + kappa * (self.plain + last / 2.0))
@@ -130,10 +130,10 @@ class _Beyond:
 
     @cached_property
     def derivatives(self) -> dict[str, np.ndarray]:
-        """Derivatives of the turns by the fields of the star, in their units, and by the time (`t`)."""
+        """Derivatives of the turns with respect to the fields of the star, in their units, and to time (`t`)."""
         return self._derivatives()
 
-    # By itself: mutmut (scripts/mutation-python) makes no mutants of what is decorated.
+    # A separate function: mutmut (scripts/mutation-python) makes no mutants of decorated ones.
     def _derivatives(self) -> dict[str, np.ndarray]:
         star, kappa, tau = self.star, self.kappa, self.tau
         wobble, chi = star.wobble, star.chi
@@ -153,7 +153,7 @@ class _Beyond:
             (sin_chi * dip * sin**2 - cos * (sin_w * cos_chi + sin_chi * dip * cos)) * self.along
             - (2.0 * sin_chi * dip * cos + sin_w * cos_chi) * sin * self.across
         ) / norm
-        # The delay at a fixed tau, over kappa.
+        # The delay at a fixed tau, divided by kappa.
         by_psi = self.q[0] * sin + 2.0 * self.q[1] * self.sin_2
         by_psi_0 = self.q[0] * np.sin(star.phase) + 2.0 * self.q[1] * np.sin(2.0 * star.phase)
         a_wobble = np.array(
@@ -178,7 +178,7 @@ class _Beyond:
             "rate": by_psi * tau - 2.0 / star.rate * self.late,
             "torque": self._late(self.per_rate * self.a[1:]) / self.mean**2,
         }
-        # dt/dtau with the varying torque, without it, and what is between.
+        # dt/dtau with the varying torque, without it, and the difference.
         varying = -kappa * (self.delta + star.rate * by_psi)
         plainly = 1.0 + kappa * self.plain
         slowing = plainly - varying
@@ -239,7 +239,7 @@ class Wobble(PhaseComponent):
         super().setup()
         for name in self.params:
             self.register_deriv_funcs(self.d_wobble_phase_d_param, name)
-        # What the varying torque does depends on F0 and F1, which are parameters of Spindown.
+        # The effect of the varying torque depends on F0 and F1, which are parameters of Spindown.
         for name in ("F0", "F1"):
             self.deriv_funcs[name] = [self.d_wobble_phase_d_param]
 
@@ -265,7 +265,8 @@ class Wobble(PhaseComponent):
         return str(getattr(self, name).units) or "1"
 
     def positive(self) -> None:
-        """Writes the same star with WOBBLE above zero and WOBPHASE from 0 to 360 deg: a fit may end with a negative WOBBLE, which is one of the opposite phase."""
+        """Normalises the star to a positive WOBBLE and WOBPHASE from 0 to 360 deg: a fit may end with a negative WOBBLE, which is one of the opposite
+        phase."""
         if self.WOBBLE.value < 0.0:
             self.WOBBLE.value = -self.WOBBLE.value
             self.WOBPHASE.value = self.WOBPHASE.value + 180.0
@@ -286,7 +287,7 @@ class Wobble(PhaseComponent):
         )
 
     def _beyond(self, toas: TOAs, delay: u.Quantity) -> _Beyond:
-        """The last one again if neither the star nor the times have changed: PINT asks for each derivative by itself."""
+        """The previous result if neither the star nor the times have changed: PINT requests each derivative separately."""
         star, t = self._star(), _times(self._parent, toas, delay)
         if self._last is None or self._last[0] != star or not np.array_equal(self._last[1], t):
             star.check(t)
@@ -294,11 +295,11 @@ class Wobble(PhaseComponent):
         return self._last[2]
 
     def wobble_phase(self, toas: TOAs, delay: u.Quantity) -> u.Quantity:
-        """Turns beyond those of Spindown."""
+        """Turns in addition to those of Spindown."""
         return u.Quantity(self._beyond(toas, delay).turns, copy=False)
 
     def d_wobble_phase_d_param(self, toas: TOAs, param: str, delay: u.Quantity) -> u.Quantity:
-        """Derivative of the phase by a parameter of this component, or by F0 or F1, of which Spindown has the other part."""
+        """Derivative of the phase by a parameter of this component, or by F0 or F1, for which Spindown contributes the other part."""
         of = self._beyond(toas, delay).derivatives
         if param == "WOBPERIOD":
             period = float(self.WOBPERIOD.value)
@@ -328,7 +329,7 @@ class Wobble(PhaseComponent):
 
 
 def _times(model: TimingModel, toas: TOAs, delay: u.Quantity) -> np.ndarray:
-    """Times (s) of emission since PEPOCH. A double has them to 1e-8 s, in which a wobble makes 1e-16 of a turn."""
+    """Times (s) of emission since PEPOCH. A double resolves 1e-8 s, in which a wobble changes by 1e-16 of a turn."""
     epoch = model.PEPOCH.quantity.tdb.mjd_long
     since = (np.asarray(toas.table["tdbld"]) - epoch) * np.longdouble(DAY) - delay.to_value(u.s)
     return since.astype(float)
@@ -368,7 +369,7 @@ class _Projected:
     def project(self, seconds: np.ndarray) -> np.ndarray:
         column = np.zeros(self.rows)
         column[: len(self.sigma)] = np.asarray(seconds, float) / self.sigma
-        # Twice, so that what rounding left goes too.
+        # The projection is repeated to remove its rounding.
         for _ in range(2):
             column = column - self.basis @ (self.basis.T @ column)
         return column
@@ -388,7 +389,7 @@ class _Projected:
         return np.array(columns)
 
     def chi_squared(self, stars: list[_Star]) -> np.ndarray:
-        """With the wobbles of some stars, in full."""
+        """Chi^2 with the full wobbles of some stars."""
         shifts = np.array([_Beyond(star, self.t).turns / self.f0 / self.sigma for star in stars])
         count = len(self.sigma)
         taken_up = shifts @ self.basis[:count]

@@ -1,4 +1,4 @@
-"""Figures with matplotlib, in the style of those that the command draws.
+"""Figures with matplotlib, in the style of the command's figures.
 
 Every function takes a scene, a motion or arrival times and returns the `Axes` it drew on, for further changes: `angles(scene)`, `sphere(motion)`, `pulses(scene)`,
 `waterfall(scene)`, `spectrum(scene, "m.n")`, `arrivals(timing)`. It draws on `axes` if these are given; otherwise it makes a figure of the width of a journal's column or page.
@@ -8,7 +8,7 @@ Every function takes a scene, a motion or arrival times and returns the `Axes` i
 >>> plt.rcParams.update(plot.style())
 >>> alpha, beta = plot.angles(Scene("tp-2"), until=30.0)
 
-Sizes, colours and lines are set by the functions, fonts are yours: `plot.style()` has the fonts of the command's figures.
+The functions set sizes, colours and lines, but not fonts: `plot.style()` has the fonts of the command's figures.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ Numbers = NDArray[np.float64]
 #: Width of a column of a journal and of both (inches).
 COLUMN, PAGE = 8.6 / 2.54, 17.8 / 2.54
 
-# Okabe and Ito's colours, told apart by readers who see red and green alike. What they mean is said by line styles too.
+# Colours of Okabe and Ito, distinguishable without red-green vision. Line styles carry the same information.
 BLACK, GREY, LIGHT = "#000000", "#8c8c8c", "#c8c8c8"
 GREEN, BLUE = "#009e73", "#0072b2"
 VERMILION, PURPLE = "#d55e00", "#cc79a7"
@@ -141,7 +141,7 @@ def sphere(
     def path(points: Numbers, front: dict[str, Any], back: dict[str, Any]) -> None:
         at, seen = points @ page.T, points @ towards >= 0.0
         for side, line in ((~seen, back), (seen, front)):
-            # Each piece to the first point of the next, so that no gap is left.
+            # Each piece includes the first point of the next one, so that there is no gap.
             side = side | np.append(False, side[:-1])
             axes.plot(*np.where(side[:, None], at, np.nan).T, solid_capstyle="round", **line)
 
@@ -197,7 +197,7 @@ def pulses(scene: Scene, *, axes: Sequence[Axes] | None = None) -> list[Axes]:
         if not of.any():
             continue
         t, turn = table["midpoint"][of], table["turn"][of]
-        # Back in time where the span is.
+        # In reverse order if the span is backwards.
         follows = np.abs(np.diff(turn)) == 1.0
         period = np.where(np.append(False, follows), table["period"][of], np.nan)
         filled: dict[str, Any] = {"color": BLACK, "markersize": 3.0, "markeredgewidth": 0.8, "ls": "none", "marker": "o"}
@@ -257,12 +257,12 @@ def waterfall(
         half = 1.5 * (np.abs(residual).max() + timing.table["duration"].max() / 2.0)
         earliest, latest = window or (-half, half)
         x = np.linspace(earliest, latest, samples)
-        # A torque along L only stretches time: the same pulses of the star that does not slow down have the same shapes.
+        # A torque along L only stretches time: the pulses of the star that does not slow down have the same shapes.
         unbraked = Scene(toml=scene.toml, spin_down=None)
         steady = unbraked.pulsar()
         found = steady.arrivals(float(steady.epoch) + number * (steady.period / 86400.0)).table
         if len(found) == len(number):
-            # Whether the date of a whole phase is nearer to the pulse of its number or to the next depends on the phase of the first one.
+            # Whether the date of a whole phase is nearer to the pulse of its number or to the next one depends on the phase of the first one.
             dates = found["arrival_day"] + found["arrival_fraction"] + (number - found["pulse"]) * (steady.period / 86400.0)
             found = steady.arrivals(dates).table
         if not np.array_equal(found["pulse"], number):
@@ -332,7 +332,7 @@ def spectrum(
     axes.set_yscale("log")
     axes.vlines(x[shown], foot, height[shown], color=BLACK, lw=0.9)
     axes.set_xlim(low, high)
-    # Room for names: half as much again as the lines are high.
+    # Room for names: half of the height of the lines.
     axes.set_ylim(foot, height.max() * (height.max() / foot) ** 0.45)
     where = [(place, k) for k, place in enumerate(x) if shown[k]][: max(named, 0)]
     # A name needs 8 points of width.
@@ -408,7 +408,7 @@ _COLUMNS = {
 
 
 def _combination(text: str) -> str:
-    """`alpha' - 2 l'` as a formula, without the dashes of rates."""
+    """`alpha' - 2 l'` as a formula, without the primes of rates."""
     return "$" + re.sub(r"\b(alpha|gamma|nu|psi)\b", r"\\\1", text.replace("'", "")) + "$"
 
 
@@ -425,7 +425,8 @@ def _sampled(scene: Scene, until: float | None, samples: int) -> Scene:
 
 
 def _turns(scene: Scene) -> tuple[float, float, int]:
-    """The mean of turn zero, the mean period and the number of turns in the span, below zero back in time, by a straight line through the pulses."""
+    """The mean of turn zero, the mean period (below zero for a backward span) and the number of turns in the span, from a straight line through the
+    pulses."""
     table = scene.pulses()
     turn, t = table["turn"], table["closest_approach"]
     good = np.isfinite(turn) & np.isfinite(t) & (table["beam"] == 1)
@@ -441,11 +442,11 @@ def _beam_edge(scene: Scene) -> float:
 
 
 def _along_line_of_sight(scene: Scene, times: Numbers) -> Numbers:
-    """m.n at times that grow, equal ones allowed."""
+    """m.n at non-decreasing times."""
     different, back = np.unique(times, return_inverse=True)
     start = scene.span[0]
     parts = []
-    # A scene's times lead away from its start.
+    # The times of a scene lead away from its start.
     for side in (different[different < start][::-1], different[different >= start]):
         if side.size == 0:
             parts.append(side)
@@ -456,7 +457,7 @@ def _along_line_of_sight(scene: Scene, times: Numbers) -> Numbers:
 
 
 def _panels(axes: Sequence[Axes] | None, count: int, width: float, height: float) -> list[Axes]:
-    """Panels one below the other, made if none are given."""
+    """Panels one below the other, created if none are given."""
     if axes is None:
         figure, made = plt.subplots(
             count, 1, figsize=(width, 0.45 + height * count), squeeze=False, layout="constrained"
@@ -482,7 +483,7 @@ def _unit(unit: str) -> str:
 
 
 def frame(axes: Axes, *, minor: bool = True) -> None:
-    """Gives `axes` the frame of these figures: thin lines, ticks inwards on all sides, without minor ones if `minor` is false."""
+    """Gives `axes` the style of these figures: thin lines, ticks inwards on all sides, no minor ones if `minor` is false."""
     for spine in axes.spines.values():
         spine.set_linewidth(0.6)
     axes.tick_params(which="both", direction="in", width=0.6, labelsize=_SMALL, top=True, right=True)
@@ -495,7 +496,7 @@ def frame(axes: Axes, *, minor: bool = True) -> None:
 
 
 def _legend(axes: Axes) -> None:
-    """A row above the frame."""
+    """A legend in a row above the frame."""
     axes.legend(
         loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, frameon=False, fontsize=_SMALL, borderaxespad=0.2,
         borderpad=0.1, handlelength=2.2, columnspacing=1.2,
@@ -508,7 +509,7 @@ def _arrow(axes: Axes, tail: Numbers, head: Numbers, colour: str, width: float) 
 
 
 def _name(axes: Axes, at: Numbers, text: str, colour: str, offset: tuple[float, float]) -> None:
-    """A name beside the head of a vector, off it by `offset` points, with a white rim."""
+    """A name beside the head of a vector, displaced by `offset` points, with a white edge."""
     axes.annotate(
         text, (at[0], at[1]), xytext=offset, textcoords="offset points", ha="center", va="center", color=colour,
         fontsize=_LABEL, path_effects=[withStroke(linewidth=2.0, foreground="#ffffff")], zorder=5,
@@ -527,7 +528,7 @@ def _with_room(x: Numbers) -> tuple[float, float]:
 
 
 def _scaled(size: float) -> tuple[float, str]:
-    """The factor to the unit of time in which a size in seconds is a handy number."""
+    """The factor to the unit of time in which a size in seconds is a convenient number."""
     for factor, unit in ((1.0, "s"), (1e3, "ms"), (1e6, "\N{GREEK SMALL LETTER MU}s"), (1e9, "ns")):
         if size * factor >= 0.5:
             return factor, f"[{unit}]"
@@ -535,6 +536,6 @@ def _scaled(size: float) -> tuple[float, str]:
 
 
 def _round_factor(factor: float) -> float:
-    """1, 2 or 5 times a power of ten, not above a factor."""
+    """Largest 1, 2 or 5 times a power of ten up to a factor."""
     power = 10.0 ** np.floor(np.log10(factor))
     return float(max(step * power for step in (1, 2, 5) if step * power <= factor))

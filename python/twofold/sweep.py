@@ -15,19 +15,19 @@ from twofold._twofold import SweepFile, Table
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
 
-#: One part: the scene after its last one, rows, rows of errors, how many scenes failed.
+#: One part: the scene after its last one, rows, rows of errors, number of failed scenes.
 _Part = tuple[int, bytes, bytes, int]
 
 
-#: Rows, rows of errors, how many scenes failed.
+#: Rows, rows of errors, number of failed scenes.
 _Rows = tuple[bytes, bytes, int]
 
-#: How often processes are looked after while a part is waited for (s).
+#: Interval of checks on processes while a part is awaited (s).
 _LOOKED_AFTER = 1.0
 
 
 def _rows(sweep: Sweep, version: str, start: int, stop: int) -> _Rows:
-    """A part, in a worker. Last digits may change between versions, so workers must have that of the caller."""
+    """Computes a part in a worker. Last digits can differ between versions, so that workers must have that of the caller."""
     if _version() != version:
         raise _twofold.Error(f"a worker has twofold {_version()}: allowed is {version}, as where the sweep was begun")
     return sweep.rows(start, stop)
@@ -40,7 +40,8 @@ def _version() -> str:
 def _result(executor: Executor, future: Future[_Rows]) -> _Rows:
     """Waits for a part.
 
-    A worker that is killed while it hands over rows leaves half of a message, for whose end a `ProcessPoolExecutor` waits for ever: it still has the pipe open for writing itself.
+    A worker that is killed while it transfers rows leaves half of a message, and a `ProcessPoolExecutor` waits for its end for ever: it still has the
+    pipe open for writing itself.
     """
     if not isinstance(executor, ProcessPoolExecutor):
         return future.result()
@@ -49,13 +50,14 @@ def _result(executor: Executor, future: Future[_Rows]) -> _Rows:
             return future.result(timeout=_LOOKED_AFTER)
         except TimeoutError:
             if future.done():
-                # By the worker.
+                # The worker has raised it.
                 return future.result()
             _end_if_broken(executor)
 
 
 def _end_if_broken(executor: ProcessPoolExecutor) -> None:
-    """If a worker has died, ends the others, as the executor does where it notices, and lets it see the end of their results, so that it raises `BrokenProcessPool`."""
+    """If a worker has died, ends the others, as the executor does when it notices, and lets it see the end of their results, so that it raises
+    `BrokenProcessPool`."""
     workers = list((getattr(executor, "_processes", None) or {}).values())
     if all(worker.exitcode in (None, 0) for worker in workers):
         return
@@ -113,7 +115,7 @@ class Sweep(_twofold.Sweep):
         if not path or os.path.isdir(path) or path.endswith(".parquet"):
             raise _twofold.Error(f"path = {path!r}: allowed is the name of a file of CSV; `twofold sweep` writes Parquet")
         self._sizes(scenes_at_once, parts_at_once)
-        # Workers begin before the file is open: forked ones would have its lock as well, and keep it.
+        # Workers start before the file is open: forked ones would inherit its lock and keep it.
         executor.submit(_version)
         file = SweepFile(self, path, replace=replace)
         try:
@@ -124,11 +126,11 @@ class Sweep(_twofold.Sweep):
                         progress(stop / len(self))
             file.complete()
         finally:
-            # The traceback of an error keeps this frame: without this the file would stay locked for who goes on.
+            # The traceback of an error keeps this frame: without this the file would stay locked for a continuation.
             del file
 
     def _sizes(self, scenes_at_once: int | None, parts_at_once: int) -> int:
-        """The scenes of a part."""
+        """The number of scenes per part."""
         if scenes_at_once is None:
             scenes_at_once = max(8, min(256, len(self) // 256))
         for name, value in (("scenes_at_once", scenes_at_once), ("parts_at_once", parts_at_once)):

@@ -44,7 +44,7 @@ _NAMED = {
 }  # fmt: skip
 
 _ANGLE, _ONE = u.rad, u.dimensionless_unscaled
-# The unit of each key of a scene file; one that goes with the unit of time of the scene is a pair, in the paper's units and of a physical star.
+# The unit of each key of a scene file; a pair, in the paper's units and for a physical star, if it depends on the scene's unit of time.
 _KEYS: dict[tuple[str, str], Any] = {
     **{("star", key): _ONE for key in ("inertia_ratio", "oblateness", "bulge")},
     ("star", "spin"): u.rad / t_c,
@@ -68,7 +68,7 @@ _KEYS: dict[tuple[str, str], Any] = {
     **{("time", key): (t_c, u.s) for key in ("start", "span", "end", "times")},
     ("time", "years"): u.yr,
 }
-# One hertz is a turn in a second, not a radian.
+# One hertz is a turn per second, not a radian.
 _TURNS = [(u.Hz, u.cycle / u.s), (u.Hz / u.s, u.cycle / u.s**2), (u.Hz / u.s**2, u.cycle / u.s**3)]
 
 
@@ -93,7 +93,7 @@ def scene(source: Any = None, /, *, toml: str | None = None, **sections: Any) ->
 
 
 def unit(text: str) -> u.UnitBase | None:
-    """The unit that a table writes as `text`: `"rad/t_c"`, `"g cm^2/s"`. None of a column without one, of counts and words."""
+    """The unit that a table writes as `text`, such as `"rad/t_c"` or `"g cm^2/s"`. None for a column without one, for counts and for words."""
     if text == "":
         return None
     square = re.fullmatch(r"\((.*)\)\^(\d)", text)
@@ -123,7 +123,7 @@ def table(of: Table) -> QTable:
 
 
 def times(of: Scene, t: u.Quantity | Time) -> float | NDArray[np.float64]:
-    """Times as the numbers that a scene counts them by: of quantities in its unit of time, or of dates (`Time`), where it has a `time.epoch`."""
+    """Times as numbers in a scene's own count: from quantities in its unit of time, or from dates (`Time`) if it has a `time.epoch`."""
     if isinstance(t, Time):
         epoch = Time(of.pulsar().epoch, format="mjd", scale="tdb")
         return (t.tdb - epoch).to_value(u.s) + of.span[0]
@@ -148,7 +148,7 @@ def angles(of: Motion, t: u.Quantity | Time) -> u.Quantity:
 
 
 def arrivals(of: Pulsar, epochs: Time | None = None, *, derivatives: int | None = None, causes: bool = False) -> QTable:
-    """The pulses nearest to dates, as `Pulsar.arrivals` finds them. What is fitted is in `meta`: `F0` with what a double leaves of it in `F0_REST`, `F1` and `F2` as far as they were, and `PEPOCH`."""
+    """The pulses nearest to dates, as `Pulsar.arrivals` finds them. The fit is in `meta`: `F0` with the remainder of a double in `F0_REST`, `F1` and `F2` if they were fitted, and `PEPOCH`."""
     dates = None if epochs is None else np.atleast_1d(epochs.tdb.mjd)
     timing = of.arrivals(dates, derivatives=derivatives, causes=causes)
     made = table(timing.table)

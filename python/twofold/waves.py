@@ -80,7 +80,7 @@ class Waveform:
             raise Error("the scene lacks `observer.distance` [kpc], without which there is no strain")
         if once == 0.0 and twice == 0.0:
             raise Error("the wobble is zero: allowed is a star with a wave")
-        # Phase and rate at knots, on from the reference and back from it.
+        # Phase and rate at knots, forwards and backwards from the reference.
         self._sides = [(np.array([phase]), self._rates(np.array([self.reference])))] * 2
 
     def __repr__(self) -> str:
@@ -122,7 +122,7 @@ class Waveform:
         return self.pulsar.wave_harmonics(t)[2]
 
     def _rates(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Rates of the phase (rad/s): by differences over a sixteenth of a turn, then over eight times as much, up to the distance of knots."""
+        """Rates of the phase (rad/s): from differences over a sixteenth of a turn, then over eight times as much, up to the distance of knots."""
         half, rates = self.pulsar.period / 32, np.zeros_like(t)
         while True:
             before, after = t - half, t + half
@@ -144,7 +144,7 @@ class Waveform:
             expected = gaps * (rates[first - 1 : -1] + rates[first:]) / 2
             wrapped = self._phase(t)
             more = np.cumsum(expected + self._missed(np.diff(np.concatenate([phases[-1:], wrapped])) - expected))
-            # Whole turns are added to the phase as computed, so that nothing accumulates.
+            # Whole turns are added to the computed phase, so that errors do not accumulate.
             more = wrapped + _TAU * np.rint((phases[-1] + more - wrapped) / _TAU)
             self._sides[side] = phases, rates = np.concatenate([phases, more]), rates
         return phases, rates
@@ -176,7 +176,7 @@ class Waveform:
         return found
 
     def _missed(self, difference: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Deviations of phases from those expected, modulo a turn: at half a radian or more turns cannot be counted safely."""
+        """Deviations of phases from the expected ones, modulo a turn: from half a radian on, turns cannot be counted safely."""
         off = _nearest(difference)
         if off.size and not abs(off).max() < 0.5:
             raise Error(

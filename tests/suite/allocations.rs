@@ -1,4 +1,4 @@
-//! What plans take from the heap, counted by an allocator: no more than listed, and nothing inside a step.
+//! Heap use of plans, counted by an allocator: not more than listed, and none inside a step.
 
 use allocation_counter::{AllocationInfo, measure};
 use twofold::Error;
@@ -6,7 +6,7 @@ use twofold::plan::{Method, Output, Plan, Request, State};
 use twofold::propagation::Motion;
 use twofold_verify::reference::{ReferenceMotion, reference_motion};
 
-/// Makes the motion of a plan and evaluates it at its samples; what that took, the plan apart.
+/// Computes the motion of a plan at its samples; returns the heap use without the plan.
 fn carried_out(scene: &ReferenceMotion, plan: &Plan) -> Result<AllocationInfo, Error> {
     let problem = scene.problem();
     let times = |i: usize| plan.span.1 * i as f64 / plan.samples.max(2) as f64;
@@ -25,9 +25,9 @@ fn carried_out(scene: &ReferenceMotion, plan: &Plan) -> Result<AllocationInfo, E
     result.map(|()| info)
 }
 
-/// Every output alone, and all together, by every method that the scene allows: free rotation and steady precession take nothing from
-/// the heap, elliptic functions some short lists for the roots of a quartic, a numerical motion what the plan foresaw of its dense output, up to a factor of two of the foreseen steps and of four of a
-/// growing vector; samples take nothing.
+/// Every output alone, and all together, by every method that the scene allows: free rotation and steady precession use no heap, elliptic functions
+/// some short lists for the roots of a quartic, a numerical motion the predicted size of its dense output, up to a factor of two for the predicted
+/// steps and of four for a growing vector; samples use none.
 #[test]
 fn plans_take_no_more_than_listed() -> Result<(), Error> {
     let alone = Output::ALL.map(|output| vec![output]);
@@ -61,7 +61,7 @@ fn plans_take_no_more_than_listed() -> Result<(), Error> {
     Ok(())
 }
 
-/// Sixteen times as many steps take four more doublings of three vectors: nothing in a step itself.
+/// Sixteen times as many steps take four more doublings of three vectors: a step itself allocates nothing.
 #[test]
 fn steps_take_nothing() -> Result<(), Error> {
     let problem = reference_motion("tp-2").problem();
@@ -84,7 +84,7 @@ fn steps_take_nothing() -> Result<(), Error> {
     Ok(())
 }
 
-/// A plan itself is a few short lists, unless it tries the series on the torus.
+/// A plan itself consists of a few short lists, unless it tries the series on the torus.
 #[test]
 fn a_plan_is_small() -> Result<(), Error> {
     let problem = reference_motion("tp-2").problem();

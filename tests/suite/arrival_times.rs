@@ -1,4 +1,4 @@
-//! Fits of arrival times and clocks by cases with answers in closed form, one for each sign, factor and branch.
+//! Fits of arrival times and clocks in cases with answers in closed form, one for each sign, factor and branch.
 
 use std::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ use twofold::observables::Observer;
 use twofold::observables::pulsar::{Beam, PulsarClock, SpinFit, pulse_train};
 use twofold::propagation::PhasedMotion;
 
-/// The phase `3.25 + 2 t + 0.05 t^2` at whole numbers from 30 on: far from the time zero, and far from a straight line.
+/// The phase `3.25 + 2 t + 0.05 t^2` at whole numbers from 30 on: far from time zero, and far from a straight line.
 fn of_a_parabola() -> Vec<(i64, [f64; 2])> {
     (30..60).map(|number| (number, [time_on_parabola(number), 0.0])).collect()
 }
@@ -31,7 +31,7 @@ fn a_parabola_gives_back_its_coefficients() -> Result<(), Error> {
     for number in [-5, 0, 3, 4, 10, 45, 1000] {
         assert_relative_eq!(fit.time_of(number)[0], time_on_parabola(number), epsilon = 1e-12, max_relative = 1e-13);
     }
-    // The phase has its least value, -16.75, at t = -20.
+    // The smallest phase, -16.75, is at t = -20.
     assert!(fit.time_of(-17)[0].is_nan());
     Ok(())
 }
@@ -45,7 +45,7 @@ fn time_may_run_against_the_numbers() -> Result<(), Error> {
     Ok(())
 }
 
-/// The chord goes to the farthest point, whatever the order of the points: by way of a near one the small numbers would be lost.
+/// The chord goes to the farthest point, for any order of the points: by way of a near one the small numbers would be lost.
 #[test]
 fn the_order_of_points_makes_no_difference() -> Result<(), Error> {
     let far = |sign: f64| {
@@ -68,7 +68,7 @@ fn the_order_of_points_makes_no_difference() -> Result<(), Error> {
                 let at = points.iter().position(|&(k, _)| k == number).expect("one of the points");
                 fit.residuals[at]
             };
-            // What the near point is late by, against the first one.
+            // The delay of the near point relative to the first one.
             assert_relative_eq!(late(1) - late(0), sign * 3e-7, epsilon = 1e-15);
         }
     }
@@ -83,13 +83,13 @@ fn different_times_and_numbers_are_counted() {
         assert!(SpinFit::new(&whole(few), 0).is_err(), "{few:?}");
     }
     assert!(SpinFit::new(&whole(&[(0, 0.0), (1, 1.0)]), 0).is_ok());
-    // Two different times or numbers among three, in any order, are too few for a rate.
+    // Three points with only two different times or numbers, in any order, do not determine a rate.
     assert!(SpinFit::new(&whole(&[(0, 0.0), (1, 1.0), (2, 0.0)]), 1).is_err());
     assert!(SpinFit::new(&whole(&[(0, 0.0), (1, 1.0), (0, 2.0)]), 1).is_err());
     // A time is the sum of its two parts.
     assert!(SpinFit::new(&[(0, [0.0; 2]), (1, [1.0, 0.5]), (2, [1.5, 0.0])], 1).is_err());
     assert!(SpinFit::new(&[(0, [0.0; 2]), (1, [1.0, f64::NAN])], 0).is_err());
-    // Numbers that a double does not hold.
+    // Numbers that are not exact as doubles.
     let largest = 1 << 53;
     assert!(SpinFit::new(&whole(&[(0, 0.0), (largest, 1e16)]), 0).is_ok());
     assert!(SpinFit::new(&whole(&[(0, 0.0), (largest + 1, 1e16)]), 0).is_err());
@@ -113,7 +113,7 @@ fn the_error_of_a_clock_is_that_of_its_motion_over_the_rate_of_turns() -> Result
     Ok(())
 }
 
-/// A span that ends inside a pulse, by whichever way the train is made.
+/// A span that ends inside a pulse, for every way of computing the train.
 #[test]
 fn a_pulse_at_the_end_of_a_span_is_cut_there() -> Result<(), Error> {
     let (problem, beam, observer) = (star()?, Beam::new(1.2, 0.0, 0.6), Observer::at(0.8, 0.0));

@@ -1,4 +1,4 @@
-//! Public boundaries of the model refuse what is outside their domain, and nothing else.
+//! Public functions of the model refuse what is outside their domain, and nothing else.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -28,7 +28,7 @@ fn star() -> RigidSpheroid<f64> {
     RigidSpheroid::in_units_of_tc(1.1)
 }
 
-/// Refused for a quantity of that name, or accepted where it is empty.
+/// Requires a refusal of the named quantity, or acceptance if empty.
 fn judged<T: std::fmt::Debug>(result: Result<T, Error>, quantity: &str) {
     match &result {
         Err(Error::Domain { quantity: found, .. }) if !quantity.is_empty() && found.contains(quantity) => {}
@@ -107,7 +107,7 @@ fn steady_precession_knows_where_it_exists() {
     judged(rate(PrincipalCoefficients { xx: 0.1, yy: 0.1, zz: 0.1 }, 0.0, 0.7), "I^zz Omega^z");
     assert!(rate(symmetric, 3.0, 0.1).is_ok());
     judged(free_precession_rates(&star(), 1.0, FRAC_PI_2), "cos beta");
-    // Without spin the two roots differ in sign only, and the twofold one is the upper.
+    // Without spin the two roots differ only in sign, and the twofold one is the upper.
     let pendulum = PrincipalCoefficients { xx: 0.0, yy: 0.0, zz: -0.2 };
     let spinless = |kind| steady_precession_rate(kind, &star(), &pendulum, 0.0, 0.7).expect("real roots");
     assert!(spinless(Precession::Twofold) > 0.0);
@@ -123,7 +123,7 @@ fn bounds_know_where_they_say_nothing() {
     assert!(drift.combination_bound(eta_from_inclination(2.5).unwrap()).is_ok_and(|bound| bound > 0.0));
     assert_eq!(eta_from_inclination(PI), Ok(1.0));
     judged(preferred_frame_bound(1e-14, &Vector3::zeros()), "|w|^2");
-    // The line of sight through the axis of the beam: the width is the widest, and stationary.
+    // If the line of sight passes through the axis of the beam, the width is largest and stationary.
     judged(lambda_change(PI - 0.6, 0.6, 0.0, 1e-3), "line of sight");
     judged(lambda_change(FRAC_PI_2, FRAC_PI_2, 0.3, 1e-3), "line of sight");
     let ([sine, turning], lambda) =
@@ -152,8 +152,8 @@ fn tensors_may_be_asymmetric_by_rounding_only() {
     judged(with_asymmetry(2e-10), "s^JI");
 }
 
-/// The convention for what an eigenvalue problem leaves free: descending values, X and Y axes with their largest component
-/// positive, Z to the right hand.
+/// The convention for what an eigenvalue problem leaves free: descending values, X and Y axes with a positive largest
+/// component, Z right-handed.
 #[test]
 fn principal_axes_have_settled_signs() {
     let frame = principal_frame(&S.tensor()).expect("a diagonal tensor");
@@ -179,7 +179,7 @@ fn coefficients_scale_and_combine() {
     assert_eq!(doubled.permuted(), PrincipalCoefficients::new([0.02, -0.08, 0.04]));
 }
 
-/// In steady precession the rates' derivatives are the time derivatives of the angles' derivatives.
+/// In steady precession the derivatives of the rates are the time derivatives of those of the angles.
 #[test]
 fn steady_rates_carry_the_derivatives_of_the_angles() {
     let lift = |x: f64| Dual64::from_re(x);
@@ -196,7 +196,7 @@ fn steady_rates_carry_the_derivatives_of_the_angles() {
     assert!((carried - slope).abs() < 1e-7 && slope.abs() > 0.1, "{carried} and {slope}");
 }
 
-/// Axes that nearly agree keep the digits of their difference, which their ratio has lost.
+/// Nearly equal axes keep the digits of their difference, which their ratio has lost.
 #[test]
 fn eccentricity_comes_from_the_axes_themselves() {
     let (a1, difference) = (3.0, 2f64.powi(-40));
@@ -247,10 +247,10 @@ fn propagation_refuses_what_it_cannot_follow() {
     assert!(motion.state(1.0).is_ok() && motion.state(3.0).is_ok());
 }
 
-/// A pulse search that would look at more turns than there is time for, or at turns that doubles do not tell apart, is refused at once.
+/// A pulse search over too many turns, or over turns that doubles do not resolve, is refused at once.
 #[test]
 fn pulses_are_searched_in_turns_that_can_be_counted() {
-    // Steps are those of the symmetry axis, a slow one here, however many turns the body makes about it.
+    // The steps follow the symmetry axis, here a slow one, however many turns the body makes about it.
     let needle = RigidSpheroid { inertia_xx: 1e68, inertia_zz: 1.6, constant_c: 1.0 };
     let spinning = |spin| BodyState {
         axis: Vector3::z(),
@@ -279,7 +279,7 @@ fn pulses_are_searched_in_turns_that_can_be_counted() {
     assert!(both(1.0, (1e15, 1e15 + 128.0)).is_ok_and(|train| train.pulses.len() == 21));
     assert!(both(0.0, (0.0, 1e15)).is_ok_and(|train| train.pulses.len() == 1));
 
-    // Turns of the train of a slower star, counted along a faster one.
+    // The turns of the train of a slower star, counted along a faster one.
     let train = both(1.0, (0.0, 100.0)).expect("a train");
     let faster = taylor(needle, none, spinning(1e52), (0.0, 100.0), 1e-10).expect("a motion");
     judged(arrivals(&faster, &beam, &n, &train), "rotation (rad)");
@@ -301,7 +301,7 @@ fn a_clock_takes_finite_times_of_two_parts() {
     assert_eq!((whole.number, whole.midpoint[0]), (parts.number, parts.midpoint[0]));
 }
 
-/// An axis that stays on a pole, or passes next to it, neither hangs nor loses count.
+/// An axis that stays at a pole, or passes close to it, neither hangs the count nor spoils it.
 #[test]
 fn turns_are_counted_next_to_the_poles() {
     for beta in [1e-9, 1e-3, PI - 1e-9] {
@@ -310,7 +310,7 @@ fn turns_are_counted_next_to_the_poles() {
         let symmetric = PrincipalCoefficients { xx: 0.01, yy: 0.01, zz: -0.04 };
         let motion = taylor(star(), symmetric.tensor(), start, (0.0, 100.0), 1e-13).expect("a motion");
         let end = ContinuousAngles::new(&motion, 0.0, &angles).and_then(|mut a| a.at(100.0)).expect("angles");
-        // Rotation about Z as a whole: alpha + gamma near the upper pole, alpha - gamma near the lower one.
+        // Rotation about Z: alpha + gamma near the upper pole, alpha - gamma near the lower one.
         let (turned, expected) =
             if beta < 1.0 { (end.alpha + end.gamma, 0.4 + 120.0) } else { (end.alpha - end.gamma, 0.2 - 80.0) };
         let lost = (turned - expected).abs();
@@ -318,7 +318,7 @@ fn turns_are_counted_next_to_the_poles() {
     }
 }
 
-/// A motion that leaves the torque out may stay where the torque would turn the azimuth at any time.
+/// A motion that neglects the torque may stay where the torque could turn the azimuth at any time.
 #[test]
 fn turns_next_to_a_pole_are_refused_where_they_cannot_be_counted() {
     let s = Matrix3::new(0.2, 0.1, 0.1, 0.1, -0.1, 0.0, 0.1, 0.0, -0.1);
@@ -333,7 +333,7 @@ fn turns_next_to_a_pole_are_refused_where_they_cannot_be_counted() {
     assert!(count(0.3, 1.5).is_ok());
 }
 
-/// What was counted before a refusal is not counted again.
+/// Turns that were counted before a refusal are not counted again.
 #[test]
 fn turns_go_on_after_a_refusal() {
     let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
@@ -341,7 +341,7 @@ fn turns_go_on_after_a_refusal() {
     let none = Matrix3::zeros();
     let whole = UniformMotion::free(&Problem::new(star(), none, start).expect("a problem"), (0.0, 30.0));
     let exact = ContinuousAngles::new(&whole, 0.0, &angles).and_then(|mut turns| turns.at(15.0)).expect("angles");
-    // Not finite for a moment.
+    // The state is not finite for a moment.
     let broken = GivenStates::like(&whole, |t| {
         let state = whole.state(t)?;
         let is_gone = (18.7..18.8).contains(&t);
@@ -356,7 +356,7 @@ fn turns_go_on_after_a_refusal() {
     );
 }
 
-/// A motion counted in units of time from 1e-30 to 1e30 of its own: the same motion, or an error, never something else.
+/// A motion in units of time from 1e-30 to 1e30: the same motion, or an error, but never a wrong motion.
 #[test]
 fn the_unit_of_time_does_not_matter() {
     let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
@@ -384,7 +384,7 @@ fn the_unit_of_time_does_not_matter() {
     }
 }
 
-/// An isotropic `s^IJ` exerts no torque, and a body at rest without torque stays; the error estimates know it.
+/// An isotropic `s^IJ` exerts no torque, and a body at rest without torque stays at rest; the error estimates reflect this.
 #[test]
 fn what_exerts_no_torque_makes_no_error() {
     let state = BodyState { axis: Vector3::z(), momentum: Vector3::new(0.1, 0.7, 1.3), equatorial_axis: Vector3::x() };
@@ -433,7 +433,7 @@ fn elliptic_functions_are_not_numbers_outside_their_domain() {
     assert!((complete_integral(f64::MIN_POSITIVE) / (4.0 / f64::MIN_POSITIVE.sqrt()).ln() - 1.0).abs() < 1e-15);
 }
 
-/// A needle that spins fast about itself, and slowly about L, is no clock.
+/// A needle that spins fast about its axis and slowly about L is not a clock.
 #[test]
 fn a_clock_turns_about_its_momentum() {
     let (beam, observer) = (Beam::new(0.2, 0.0, 0.3), Observer::at(0.6, 0.0));
@@ -461,7 +461,7 @@ fn pulses_are_counted_up_to_9e15() {
     judged(star.phase([0.0, f64::NAN]), "phase");
 }
 
-/// The sum of two doubles in any order, of a star that keeps its frequency, and of one that slows down with an F2 of its own.
+/// The sum of two doubles in either order, for a star with constant frequency and for one that slows down with its own F2.
 #[test]
 fn the_greater_part_of_a_time_may_be_the_second() {
     let slowing = [(TimingParameter::F1, -1e-12), (TimingParameter::F2, 1e-20)];
@@ -479,7 +479,7 @@ fn the_greater_part_of_a_time_may_be_the_second() {
     }
 }
 
-/// Squares of residuals and of derivatives, in standard deviations, that are no doubles.
+/// Squares of residuals and of derivatives, in standard deviations, that overflow a double.
 #[test]
 fn errors_that_are_too_small_are_refused() {
     let star = TimingModel::new([2.0, 0.0], &[]).expect("a model");

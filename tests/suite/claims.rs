@@ -1,4 +1,4 @@
-//! Claims rest on checks that exist. That `docs/claims.md` is the generated page is a test of `tests/checks.rs`, which has the figures.
+//! Claims rest on checks that exist. A test in `tests/checks.rs`, which has the figures, compares `docs/claims.md` with the generated page.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -18,7 +18,7 @@ fn every_claim_has_a_name_of_its_own_and_evidence() {
     }
 }
 
-/// What is not confirmed as it stands is derived in `docs/discrepancies.md`, by one of the checks that the verdict rests on.
+/// Every claim that is not simply confirmed is derived in `docs/discrepancies.md`, with one of the checks behind the verdict.
 #[test]
 fn discrepancies_hold_every_claim_that_is_not_confirmed() {
     let page = fs::read_to_string("docs/discrepancies.md").expect("the page is there");

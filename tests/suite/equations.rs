@@ -1,4 +1,4 @@
-//! Keeps `docs/equations.md` true: it is the generated table, and every equation has a row, functions and a check.
+//! `docs/equations.md` is the generated table, and every equation has a row, functions and a check.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -20,7 +20,7 @@ fn every_equation_in_scope_has_a_row_with_an_item_and_a_check() {
     }
     let checks = twofold_verify::checks::all();
     for equation in EQUATIONS {
-        // The action is no function of anything.
+        // The action is not a function.
         assert!(!equation.items.is_empty() || equation.label == "action", "Eq. ({}) has no item", equation.number);
         let checked = checks.iter().any(|check| check.equations.contains(&equation.number));
         assert!(checked, "Eq. ({}) has no check", equation.number);
@@ -42,7 +42,7 @@ fn every_check_is_about_an_equation_with_a_row_and_has_an_id_of_its_own() {
     }
 }
 
-/// Checks named in the discrepancies exist: the page is prose, its evidence is not.
+/// Checks named in the discrepancies exist.
 #[test]
 fn discrepancies_name_existing_checks() {
     let page = fs::read_to_string("docs/discrepancies.md").expect("docs/discrepancies.md is there");

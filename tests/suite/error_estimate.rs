@@ -1,4 +1,4 @@
-//! The estimated error of a numerical motion is not below its true error, in 64 random scenes of `physical_domain::scenes`.
+//! The estimated error of a numerical motion is not below the true error, in 64 random scenes of `physical_domain::scenes`.
 
 use proptest::prelude::*;
 use twofold::plan::Method;

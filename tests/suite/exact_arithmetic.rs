@@ -1,4 +1,4 @@
-//! Algebraic laws of the number types that the exact checks stand on: prime field, duals, conditioned numbers.
+//! Algebraic laws of the number types behind the exact checks: prime field, duals, conditioned numbers.
 
 use nalgebra::{Matrix3, Vector3};
 use num_traits::{One, Zero};
@@ -120,7 +120,7 @@ fn duals_differentiate() {
     fn property(x: Triple, dx: Triple) -> bool {
         let [a, b, _] = duals(x, dx);
         let (sin, cos) = a.sin_cos();
-        // Leibniz's rule and the chain rule, written on the field.
+        // Leibniz's rule and the chain rule, in terms of the field.
         (a * b).eps == a.re * b.eps + a.eps * b.re
             && (b.re.is_zero() || (a / b).eps * b.re * b.re == a.eps * b.re - a.re * b.eps)
             && sin.eps == cos.re * a.eps
@@ -172,7 +172,7 @@ fn conditioned_numbers_have_the_value_and_bound_it() {
         let (sin, cos) = w.sin_cos();
         let values = (term.value == x * y - z / x) && (sin.value, cos.value) == z.sin_cos();
         let bounded = [term, sin, cos].iter().all(|n| n.value.abs() <= n.magnitude);
-        // What cancels stays in the magnitude.
+        // Terms that cancel remain in the magnitude.
         values && bounded && term.magnitude >= 2.0 * y.abs() && (v - v).value == 0.0
     }
     holds(property as fn(i16, i16, i16) -> bool);

@@ -1,4 +1,4 @@
-//! Derivatives of order up to eight, by nested dual numbers: series are right to their last term, and rotations stay rotations.
+//! Derivatives of order up to eight, by nested dual numbers: series are correct to their last term, and rotations stay rotations.
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::{Dual2_64, Dual3, Dual3_64, Dual64, DualNum};
@@ -18,7 +18,7 @@ fn eighth(value: f64) -> Eighth {
     Eighth::from_re(middle).derivative()
 }
 
-/// Largest size, not a number if one is none.
+/// Largest magnitude; NaN if one is NaN.
 fn larger(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |most, v| if v.is_nan() || most.is_nan() { f64::NAN } else { most.max(v.abs()) })
 }
@@ -42,7 +42,7 @@ fn small_rotations_have_eight_derivatives() {
         let along = axis * axis.dot(&v);
         let exact = constant(&(v - along)) * cos + constant(&axis.cross(&v)) * sin + constant(&along);
         let error = larger((found - exact).iter().map(|x| largest(*x)));
-        // The terms left out of the series are of the order ten; beyond it quotients by the angle lose its powers in high derivatives.
+        // The omitted terms of the series are of order ten; beyond it quotients by the angle lose its powers in high derivatives.
         let allowed = if angle.abs() < 0.01 {
             1e-13 + angle * angle / 100.0
         } else {
@@ -77,7 +77,7 @@ fn a_principal_frame_is_one_to_the_third_order() {
     assert!(size(&turned) < 1e-12 * scale * 0.02);
     let frame = principal_frame(&tensor.map(|x| x.re)).expect("distinct eigenvalues");
     assert_eq!(rotation.map(|x| x.re), frame.principal_from_given);
-    // By the slope of the eigenvalues, which is that of the tensor along the axes.
+    // From the slope of the eigenvalues, which is that of the tensor along the axes.
     let axes = frame.principal_from_given;
     let slopes = axes * tensor.map(|x| x.v1) * axes.transpose();
     for (i, value) in [values.xx, values.yy, values.zz].into_iter().enumerate() {
@@ -85,7 +85,7 @@ fn a_principal_frame_is_one_to_the_third_order() {
     }
 }
 
-/// What is told of two equal eigenvalues is relative to the largest.
+/// Equality of two eigenvalues is relative to the largest one.
 #[test]
 fn equal_eigenvalues_have_no_derivatives() {
     let diagonal = |values: [f64; 3]| Matrix3::from_diagonal(&Vector3::from(values)).map(|x| Dual64::new(x, 0.1));
@@ -104,7 +104,7 @@ fn equal_eigenvalues_have_no_derivatives() {
     }
 }
 
-/// Two equal eigenvalues that part along a path are in descending order as they do; of three there is no such order.
+/// Two equal eigenvalues that separate along a path are in descending order afterwards; three have no such order.
 #[test]
 fn equal_eigenvalues_part_in_descending_order() {
     let turn = body_from_inertial(&EulerAngles { alpha: 0.4, beta: 1.2, gamma: -0.7 });

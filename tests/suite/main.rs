@@ -1,4 +1,4 @@
-//! Properties of the model, and tables that are kept true.
+//! Properties of the model, and tables that must stay up to date.
 
 mod allocations;
 mod arrival_times;

@@ -59,8 +59,8 @@ fn departure_from_rotation(r: &Matrix3<f64>) -> f64 {
 proptest! {
     #![proptest_config(config())]
 
-    /// Angles -> rotation -> angles: the arc tangents see ratios in which the small `sin beta` cancels, so the errors are a
-    /// few roundings of numbers up to pi, near the poles too.
+    /// Angles -> rotation -> angles: the small `sin beta` cancels in the ratios of the arc tangents, so that the errors are
+    /// a few roundings of numbers up to pi, also near the poles.
     #[test]
     fn angles_come_back_from_the_rotation(angles in orientations()) {
         let back = angles_from_rotation(&body_from_inertial(&angles)).unwrap();
@@ -69,7 +69,7 @@ proptest! {
         prop_assert!(wrapped(back.gamma - angles.gamma).abs() <= 8.0 * EPS, "{back:?}");
     }
 
-    /// Rotation -> angles -> rotation, of a matrix with rounded entries: `alpha` and `gamma` are known to `eps / sin beta`.
+    /// Rotation -> angles -> rotation, for a matrix with rounded entries: `alpha` and `gamma` are known to `eps / sin beta`.
     #[test]
     fn the_rotation_comes_back_from_its_angles(a in orientations(), b in orientations()) {
         let rotation = body_from_inertial(&a) * body_from_inertial(&b).transpose();
@@ -79,7 +79,7 @@ proptest! {
         prop_assert!(error <= 8.0 * EPS / angles.beta.sin(), "{error:e}");
     }
 
-    /// Rates -> angular velocity -> rates: a rounding of `b'` comes back in `a'` divided by `sin beta`.
+    /// Rates -> angular velocity -> rates: a rounding of `b'` appears in `a'` divided by `sin beta`.
     #[test]
     fn rates_come_back_from_the_angular_velocity(angles in orientations(), rates in rates()) {
         let back = euler_rates(&angles, &body_rates(&angles, &rates)).unwrap();
@@ -110,7 +110,7 @@ proptest! {
         prop_assert!(largest((tensor * q.row(2).transpose() - q.row(2).transpose() * s.zz).iter().map(|x: &f64| x.abs())) <= 16.0 * EPS * size);
     }
 
-    /// Any numbers in, infinities and subnormals too: an answer with a rotation, or an error.
+    /// Arbitrary numbers, including infinities and subnormals: a result with a rotation, or an error.
     #[test]
     fn no_tensor_makes_the_principal_frame_panic(x in prop::array::uniform6(prop::num::f64::ANY)) {
         let [xx, yy, zz, xy, xz, yz] = x;
@@ -121,7 +121,7 @@ proptest! {
         }
     }
 
-    /// PPN replacement, Eq. (5), both ways; a tensor that is not of its form is refused.
+    /// PPN replacement, Eq. (5), in both directions; a tensor of another form is refused.
     #[test]
     fn the_preferred_frame_parameter_comes_back(
         alpha_2 in -1e-3..1e-3f64,

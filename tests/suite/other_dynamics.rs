@@ -1,5 +1,5 @@
-//! Pulses of motions that follow other laws than the equations of the library: every pulse is found, with exact edges, or the
-//! motion is refused.
+//! Pulses of motions that do not obey the equations of the library: every pulse is found, with exact edges, or the motion is
+//! refused.
 
 use std::f64::consts::TAU;
 
@@ -18,7 +18,7 @@ fn given<F>(state: F, law: Option<Law>) -> GivenStates<F> {
     GivenStates { spheroid: RigidSpheroid::in_units_of_tc(1.1), violation: Matrix3::zeros(), span: SPAN, state, law }
 }
 
-/// A star turned about Z at a rate, with the momentum of one radian a unit of time.
+/// A star rotating about Z at a rate, with the momentum of one radian per unit of time.
 fn turned(rate: f64) -> impl Fn(f64) -> Result<BodyState<f64>, Error> {
     move |t| {
         let (sin, cos) = (rate * t).sin_cos();
@@ -30,7 +30,7 @@ fn beam_and_sight() -> (Beam<f64>, Vector3<f64>) {
     (Beam::new(0.5, 0.4, 0.3), Observer::at(0.6, 0.3).direction)
 }
 
-/// Times at which the margin of a beam changes its sign, by a scan in steps of 1e-3 and bisection, and whether upwards.
+/// Times at which the margin of a beam changes sign, by a scan in steps of 1e-3 and bisection, and the direction of the change.
 fn scanned<M: Motion<f64, State = BodyState<f64>>>(motion: &M, beam: &Beam<f64>, n: &Vector3<f64>) -> Vec<(f64, bool)> {
     let inside = |t: f64| beam.margin(&motion.state(t).expect("a state"), n) > 0.0;
     let changes = (0..100_000).map(|k| f64::from(k) * 1e-3).filter(|&t| inside(t) != inside(t + 1e-3));
@@ -73,7 +73,7 @@ fn assert_all_found<M: Motion<f64, State = BodyState<f64>>>(motion: &M, least: u
     }
 }
 
-/// About Z at four radians a unit of time, with the momentum of one: 63 turns.
+/// About Z at four radians per unit of time, with the momentum of one: 63 turns.
 #[test]
 fn a_star_turned_rigidly_at_another_rate_shows_every_pulse() {
     let law: Law = (|_| [Vector3::z() * 4.0, Vector3::zeros(), Vector3::zeros()], [4.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
@@ -85,7 +85,7 @@ fn a_star_turned_rigidly_at_another_rate_shows_every_pulse() {
     assert_eq!(numbers, (0..numbers.len() as i64).collect::<Vec<_>>());
 }
 
-/// A star that claims to follow the equations of motion, which would turn it at 1 radian a unit of time.
+/// A star that claims to obey the equations of motion, which would turn it at 1 radian per unit of time.
 #[test]
 fn a_motion_that_does_not_turn_as_it_says_is_refused() {
     let (beam, n) = beam_and_sight();
@@ -97,7 +97,7 @@ fn a_motion_that_does_not_turn_as_it_says_is_refused() {
     assert_eq!(pulses(1.0).expect("as it says").pulses.len(), 17, "15 whole ones, and one cut at either end");
 }
 
-/// A torque along Z that changes its sign, `Omega = (1.3 + 3 cos 2t) Z`: the star turns back now and then.
+/// A torque along Z that changes sign, `Omega = (1.3 + 3 cos 2t) Z`: the star turns backwards at times.
 #[test]
 fn a_star_with_a_torque_of_its_own_shows_every_pulse() {
     let state = |t: f64| {
@@ -114,7 +114,7 @@ fn a_star_with_a_torque_of_its_own_shows_every_pulse() {
     assert_all_found(&motion, 60);
 }
 
-/// A torque that carries the axis of a star round a cone about Z, seventeen radians for two of the rotation about the axis.
+/// A torque that moves the axis of a star on a cone about Z, by seventeen radians for two of the rotation about the axis.
 #[test]
 fn a_star_that_is_made_to_precess_shows_every_pulse() {
     const TILT: f64 = 0.4;
@@ -145,7 +145,7 @@ fn a_star_that_is_made_to_precess_shows_every_pulse() {
     assert_all_found(&motion, 10);
 }
 
-/// Rates above the bounds that their motion states, and bounds that are none.
+/// Rates above the bounds stated by their motion, and invalid bounds.
 #[test]
 fn rates_above_their_bounds_are_refused() {
     let rates = |_| [Vector3::z() * 4.0, Vector3::x() * 0.1, Vector3::zeros()];

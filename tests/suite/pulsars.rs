@@ -1,4 +1,4 @@
-//! Tables of pulsars: the paper's is as printed, every bad one is refused for the reason expected.
+//! Tables of pulsars: the paper's table is as printed, every bad one is refused for the expected reason.
 
 use std::fs;
 use std::path::Path;
@@ -19,7 +19,7 @@ fn the_built_in_table_is_that_of_the_paper() {
         assert_eq!(pulsar.name, name);
         let read = [pulsar.spin, pulsar.width, pulsar.width_change, pulsar.lambda, pulsar.chi, pulsar.years];
         assert_eq!(read.map(|quantity| quantity.value), values, "{name}");
-        // Half of the unit of the last printed digit; the change has an error instead, which is not the paper's.
+        // Half a unit of the last printed digit; the change has an error instead, which is not from the paper.
         let rounding = [5e-5, if pulsar.width.value < 10.0 { 0.05 } else { 0.5 }, 0.5, 0.5, 0.5];
         let [spin, width, change, lambda, chi, years] = read;
         assert!(change.spread == Spread::Given && change.uncertainty > 0.0, "{name}: {change:?}");
@@ -31,7 +31,7 @@ fn the_built_in_table_is_that_of_the_paper() {
     }
 }
 
-/// The example of `docs/bounds.md`, as it stands there.
+/// The example of `docs/bounds.md`, verbatim.
 #[test]
 fn the_documented_table_is_accepted() {
     let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/bounds.md")).expect("page");
@@ -41,7 +41,7 @@ fn the_documented_table_is_accepted() {
     assert!(table.iter().all(|pulsar| pulsar.figures().is_ok()));
 }
 
-/// One pulse in two ways of writing is one pulse.
+/// Two notations of a pulse give the same pulse.
 #[test]
 fn forms_of_a_number_are_the_same_number() {
     let one = |text: &str| -> Pulsar {

@@ -1,4 +1,4 @@
-//! Scene files: every built-in scene is accepted and is what it says, every bad one is refused for the reason expected.
+//! Scene files: every built-in scene is accepted and agrees with its description, every bad one is refused for the expected reason.
 
 use std::f64::consts::FRAC_PI_2;
 use std::fs;
@@ -24,7 +24,7 @@ fn every_built_in_scene_runs() {
     }
 }
 
-/// Captions of the figures of the four examples: alpha, beta, their rates at t = 0, to the three decimals printed.
+/// Captions of the figures of the four examples: alpha, beta and their rates at t = 0, to the three printed decimals.
 #[test]
 fn the_four_examples_start_as_the_captions_say() {
     let captions =
@@ -42,7 +42,7 @@ fn the_four_examples_start_as_the_captions_say() {
     }
 }
 
-/// The examples of `docs/scenes.md`, as they stand there.
+/// The examples of `docs/scenes.md`, verbatim.
 #[test]
 fn the_documented_scenes_run() {
     let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/scenes.md")).expect("page");
@@ -66,7 +66,7 @@ fn every_bad_scene_is_refused_for_the_reason_expected() {
     assert!(files.len() >= 95, "only {} bad scenes found", files.len());
 }
 
-/// A tensor given in a rotated frame is the same physics: the motion of the rotated star is the rotated motion.
+/// A tensor given in a rotated frame describes the same physics: the motion of the rotated star is the rotated motion.
 #[test]
 fn a_tensor_in_a_rotated_frame_gives_the_rotated_motion() {
     // A quarter turn about X: (X, Y, Z) -> (X, -Z, Y), so that s^ZZ of tp-1 becomes s^YY.
@@ -90,8 +90,8 @@ fn a_tensor_in_a_rotated_frame_gives_the_rotated_motion() {
     assert!(energy_of_axis.abs() < 1e-16, "{energy_of_axis:e}");
 }
 
-/// The wobble, the precession period and the frequency of the pulses stand for angles, rates, oblateness and spin; degrees for radians. Of B1828-11 the latter follow by hand from
-/// `epsilon Omega^z = 2 pi / T` and `2 pi F0 = Omega^z ((1 + epsilon) / cos theta - epsilon)`.
+/// The wobble, the precession period and the pulse frequency determine angles, rates, oblateness and spin; degrees are converted to radians. For
+/// B1828-11 the latter follow by hand from `epsilon Omega^z = 2 pi / T` and `2 pi F0 = Omega^z ((1 + epsilon) / cos theta - epsilon)`.
 #[test]
 fn what_is_observed_of_a_pulsar_stands_for_its_star() {
     let observed = Scene::named("b1828-11").expect("a scene");
@@ -111,7 +111,7 @@ fn what_is_observed_of_a_pulsar_stands_for_its_star() {
         assert!((x - y).norm() < 1e-13 * y.norm(), "{x:?} {y:?}");
     }
     assert!((observed.pulsar.expect("a beam").chi - by_hand.pulsar.expect("a beam").chi).abs() < 1e-15);
-    // Against other angles, by the definitions: n to L, and the magnetic axis to L about n.
+    // With other angles, by the definitions: n to L, and the magnetic axis to L about n.
     let lines = [
         ("wobble = \"3.0 deg\"", "wobble = 0.7\nmomentum = [1.0, -2.0, 0.5]"),
         ("azimuth = \"-90 deg\"", "azimuth = 2.0"),
@@ -132,7 +132,7 @@ fn what_is_observed_of_a_pulsar_stands_for_its_star() {
     assert!((phase - 0.4).abs() < 1e-14 && (m.angle(&n) - 1.2).abs() < 1e-14, "{phase}");
 }
 
-/// The observer at an angle to L, and where the star's place in the sky says.
+/// The observer at an angle to L, and in the direction opposite to the star's place in the sky.
 #[test]
 fn an_observer_is_given_by_inclination_or_by_the_place_of_the_star() {
     let toml = twofold_scene::scene_file::built_in("b1937+21").expect("built in").toml;
@@ -168,7 +168,7 @@ fn an_observer_is_given_by_inclination_or_by_the_place_of_the_star() {
     }
 }
 
-/// A physical star is the same motion in other units.
+/// A physical star has the same motion in other units.
 #[test]
 fn a_physical_star_moves_as_in_its_own_units() {
     let rest = "[initial]\nalpha = 0.3\nbeta = 0.7\n[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n";
@@ -253,7 +253,7 @@ fn columns_are_those_asked_for_in_their_order() {
     }
 }
 
-/// Each rate column is the slope of the column beside it, and the direction of the magnetic axis is Eq. (49).
+/// Each rate column is the slope of the neighbouring column, and the direction of the magnetic axis is Eq. (49).
 #[test]
 fn columns_of_observables_agree_with_one_another() {
     let scene = || {

@@ -1,4 +1,4 @@
-//! Keeps `docs/reliability/stability.md` true.
+//! `docs/reliability/stability.md` agrees with measured maxima.
 
 use std::fs;
 
@@ -29,7 +29,7 @@ fn maxima_are_at_most_those_stated() {
     }
 }
 
-/// Numbers below the smallest normal one, where 31 digits end: see `twofold_verify::stability::denormal`.
+/// Numbers below the smallest normal one, where 31 digits are not available: see `twofold_verify::stability::denormal`.
 #[test]
 fn denormal_inputs_give_the_limit() {
     let (mut sweeps, mut whole, mut numbers) = (0, 0, 0);

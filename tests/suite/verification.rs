@@ -1,4 +1,4 @@
-//! What the checks themselves stand on: bounds, double-double numbers, printed digits, enclosures.
+//! Foundations of the checks: bounds, double-double numbers, printed digits, enclosures.
 
 use num_traits::One;
 use twofold::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
@@ -77,7 +77,7 @@ fn a_motion_agrees_with_the_reference_beyond_double_precision() {
         let state = motion.state(row[0]).expect("a time of the span");
         let found = state.vectors();
         let error = largest(found.iter().flatten().zip(&row[1..]).map(|(ours, theirs)| (*ours - *theirs).high().abs()));
-        // The initial values are rounded to 22 digits and a phase of 600 rad makes more of that.
+        // The initial values are rounded to 22 digits, and a phase of 600 rad increases that error.
         assert!(error < 1e-18, "t = {}: {error:e}", row[0].high());
     }
 }
@@ -107,7 +107,7 @@ fn a_printed_number_is_met_by_what_rounds_to_it() {
     }
 }
 
-/// The magnetic axis is at the angle `gamma + delta` from the line of nodes: only that sum counts.
+/// The magnetic axis is at the angle `gamma + delta` from the line of nodes: only that sum matters.
 #[test]
 fn the_azimuth_of_the_magnetic_axis_in_the_body_adds_to_gamma() {
     let viewing = |delta: f64| Viewing { chi: 0.5, delta, rho: 0.9, theta_o: 0.8 };

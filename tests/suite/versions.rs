@@ -1,4 +1,4 @@
-//! The version stands in the manifest, in the citation and in the change log, and is one.
+//! The manifest, the citation and the change log have the same version.
 
 use std::fs::read_to_string;
 

@@ -1,4 +1,4 @@
-//! What several campaigns need: arguments, times of work, distributions of ratios, and long motions in double-double numbers.
+//! Common parts of several campaigns: arguments, times, distributions of ratios, and long motions in double-double numbers.
 
 use std::hint::black_box;
 use std::str::FromStr;
@@ -9,16 +9,16 @@ use twofold::propagation::Motion;
 use twofold_bench::timing::clock;
 use twofold_verify::double_double::DoubleDouble;
 
-/// The argument of the program at a place, from zero, or what is taken without one.
+/// The argument of the program at a place, counted from zero, or `otherwise` if there is none.
 ///
 /// # Panics
-/// For one that cannot be read.
+/// If it cannot be read.
 pub fn argument<T: FromStr>(place: usize, otherwise: T) -> T {
     let read = |text: String| text.parse().unwrap_or_else(|_| panic!("`{text}` is no argument"));
     std::env::args().nth(place + 1).map_or(otherwise, read)
 }
 
-/// The least time of some runs (s), in the work of this thread where the system tells it.
+/// The shortest time of some runs (s), as processor time of this thread if the system provides it.
 pub fn least_time<T>(runs: usize, mut work: impl FnMut() -> T) -> f64 {
     (0..runs).fold(f64::INFINITY, |least, _| {
         let start = clock();
@@ -27,7 +27,7 @@ pub fn least_time<T>(runs: usize, mut work: impl FnMut() -> T) -> f64 {
     })
 }
 
-/// The ratio of an estimate to a true error, none below zero: what is not a number counts as below one, and no error as far above.
+/// The ratio of an estimate to a true error, both non-negative: NaN counts as below one, a vanishing error as far above.
 pub fn estimate_over_error(estimate: f64, error: f64) -> f64 {
     match estimate / error {
         _ if estimate.is_nan() || error.is_nan() => 0.0,
@@ -49,49 +49,49 @@ impl FromIterator<f64> for Ratios {
 }
 
 impl Ratios {
-    /// How many.
+    /// Number of ratios.
     pub fn count(&self) -> usize {
         self.0.len()
     }
 
-    /// The ratio below which a part of them lies; NaN if there are none.
+    /// The ratio below which the fraction `part` of them lies; NaN if there are none.
     pub fn quantile(&self, part: f64) -> f64 {
         let place = (self.0.len().saturating_sub(1) as f64 * part) as usize;
         self.0.get(place).copied().unwrap_or(f64::NAN)
     }
 
-    /// How many are below a limit.
+    /// Number of ratios below a limit, with NaN.
     pub fn below(&self, limit: f64) -> usize {
         self.0.iter().filter(|ratio| ratio.is_nan() || **ratio < limit).count()
     }
 
-    /// How many are above a limit.
+    /// Number of ratios above a limit, with NaN.
     pub fn above(&self, limit: f64) -> usize {
         self.0.iter().filter(|ratio| ratio.is_nan() || **ratio > limit).count()
     }
 }
 
-/// Length of the stretches of a long motion (t_c). Over one of them the tolerance 1e-16 asks for a truncation below 2e-25 per t_c.
+/// Length of the stretches of a long motion (t_c). Over one of them the tolerance 1e-16 needs a truncation below 2e-25 per t_c.
 const STRETCH: f64 = 25_000.0;
 
-/// A long motion by the Taylor series over double-double numbers, made of stretches that are restarted from the end of the one before.
+/// A long motion by the Taylor series over double-double numbers, in stretches that each restart from the end of the one before.
 #[derive(Debug, Clone)]
 pub struct LongMotion<X: RotationState<DoubleDouble>> {
-    /// What moves, from where it is.
+    /// The problem with its present state.
     pub problem: Problem<DoubleDouble, X>,
-    /// The time gone (t_c).
+    /// The present time (t_c).
     pub time: f64,
 }
 
 impl<X: RotationState<DoubleDouble>> LongMotion<X> {
-    /// Goes on to a time.
+    /// Advances to a time.
     ///
     /// # Errors
-    /// What the series refuses.
+    /// If the series refuses the motion.
     pub fn advance_to(&mut self, end: f64) -> Result<(), twofold::Error> {
         while self.time < end {
             let step = STRETCH.min(end - self.time);
-            // Also a part of a stretch is computed with the small truncation of a whole one.
+            // Part of a stretch is also computed with the small truncation of a whole one.
             let motion = self.problem.taylor((0.0, STRETCH), 1e-16)?;
             self.problem = self.problem.starting_from(motion.state(DoubleDouble::from_f64(step))?)?;
             self.time += step;

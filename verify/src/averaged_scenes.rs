@@ -3,21 +3,21 @@
 
 use crate::prelude::*;
 
-/// A problem in the principal frame of `s`, which is traceless, and how long its motion is followed from the time zero.
+/// A problem in the principal frame of the traceless tensor `s`, and the time up to which its motion is followed from zero.
 #[derive(Debug, Clone, Copy)]
 pub struct AveragedScene {
-    /// What moves.
+    /// Body, tensor and start.
     pub problem: Problem<f64>,
-    /// The end.
+    /// End time.
     pub end: f64,
 }
 
-/// The worst ratio of true error to estimate at twelve times.
+/// Largest ratio of true error to estimate at twelve times.
 #[derive(Debug, Clone, Copy)]
 pub struct EstimateSeen {
     /// The ratio.
     pub worst: f64,
-    /// True error, estimate and time there.
+    /// True error and estimate, and their time.
     pub at: [f64; 3],
 }
 
@@ -29,7 +29,7 @@ fn sign(random: &mut Random) -> f64 {
     if random.word().is_multiple_of(2) { 1.0 } else { -1.0 }
 }
 
-/// A random direction, all alike.
+/// A random direction, uniform on the sphere.
 pub fn direction(random: &mut Random) -> Vector3<f64> {
     let z = random.within(-1.0, 1.0);
     let (sin, cos) = random.within(0.0, TAU).sin_cos();
@@ -37,12 +37,12 @@ pub fn direction(random: &mut Random) -> Vector3<f64> {
     Vector3::new(rho * cos, rho * sin, z)
 }
 
-/// Principal values of which the torque on a body has a given strength, `|C| (s_max - s_min) I^xx / L.L`.
+/// Principal values scaled to a given strength of the torque on a body, `|C| (s_max - s_min) I^xx / L.L`.
 fn of_strength(strength: f64, s: Vector3<f64>, body: &RigidSpheroid<f64>, size: f64) -> Vector3<f64> {
     s * (strength * size * size / (body.constant_c.abs() * body.inertia_xx * (s.max() - s.min())))
 }
 
-/// The problem of a body whose axis has the cosine `c` to `momentum`, on the side of `side`.
+/// The problem of a body whose axis has the cosine `c` to `momentum` and is tilted to `side`.
 fn problem(
     random: &mut Random,
     body: RigidSpheroid<f64>,
@@ -59,7 +59,7 @@ fn problem(
     Problem::new(body, tensor, BodyState { axis, momentum, equatorial_axis }).expect("parts of the domain")
 }
 
-/// The direction on the separatrix with a given component along the middle axis, and the index of the least principal value; none where two
+/// The direction on the separatrix with a given component along the middle axis, and the index of the least principal value; `None` if two
 /// principal values are equal.
 fn on_separatrix(s: &Vector3<f64>, along: f64) -> Option<(Vector3<f64>, usize)> {
     let (low, high) = (s.imin(), s.imax());
@@ -72,8 +72,8 @@ fn on_separatrix(s: &Vector3<f64>, along: f64) -> Option<(Vector3<f64>, usize)> 
 }
 
 impl AveragedScene {
-    /// The scene of a number: strengths from 1e-6 to 0.19, both signs of `C`, two equal or nearly equal principal values, `L` anywhere, near an
-    /// axis, and near the separatrix up to 1e-12, `n` on `L` or near it, normal to it, at `c^2 = 1/3` or anywhere, followed for 3 to `turned` rad.
+    /// Scene `number`: strengths from 1e-6 to 0.19, both signs of `C`, two equal or nearly equal principal values, `L` anywhere, near an axis or
+    /// down to 1e-12 from the separatrix, `n` on or near `L`, normal to it, at `c^2 = 1/3` or anywhere, over 3 to `turned` rad.
     pub fn draw(seed: u64, number: u64, turned: f64) -> Self {
         let mut random = Random::with_seed(seed.wrapping_mul(1_000_003) ^ number.wrapping_mul(0x9e37_79b9_7f4a_7c15));
         let random = &mut random;
@@ -113,8 +113,8 @@ impl AveragedScene {
         Self { problem, end: from_to(random, 3.0, turned) * body.inertia_xx / size }
     }
 
-    /// A scene whose `L` begins beside the separatrix, nearer to it than a few times what the first order leaves out, and goes round a few times:
-    /// where neighbours part.
+    /// A scene whose `L` starts beside the separatrix, within a few times the error of the first order, and goes round a few times. Neighbouring
+    /// motions separate there.
     pub fn beside_separatrix(seed: u64, number: u64) -> Self {
         // Three distinct principal values.
         let scene = Self::draw(seed, 6 * number + 4, 10.0);
@@ -125,7 +125,7 @@ impl AveragedScene {
         let s = of_strength(strength, scene.principal_values(), &body, size);
         let (mut l, low) = on_separatrix(&s, random.within(-0.95, 0.95)).expect("three distinct principal values");
         l[low] += from_to(&mut random, 0.1 * strength * strength, 3.0 * strength) * sign(&mut random);
-        // n at its angle to L.
+        // The angle between n and L is kept.
         let (c, side) = (start.axis.dot(&start.momentum) / size, direction(&mut random));
         let problem = problem(&mut random, body, &s, l.normalize() * size, (c, side));
         Self { problem, end: from_to(&mut random, 3.0, 60.0) / strength * body.inertia_xx / size }
@@ -144,7 +144,8 @@ impl AveragedScene {
         AveragedSolution::new(&self.problem.map(S::from_f64), order)
     }
 
-    /// True error over estimate of the first and the second order, at random times and the end. What the numerical motion may be off does not count.
+    /// True error over estimate of the first and the second order, at random times and at the end. The estimated error of the numerical motion is
+    /// subtracted.
     ///
     /// # Errors
     /// A motion that is refused.
@@ -178,7 +179,7 @@ impl AveragedScene {
     }
 }
 
-/// A direction near the separatrix; none where two principal values are equal.
+/// A direction near the separatrix; `None` if two principal values are equal.
 fn near_separatrix(random: &mut Random, s: &Vector3<f64>) -> Option<Vector3<f64>> {
     on_separatrix(s, 0.0)?;
     let (mut l, low) = on_separatrix(s, random.within(-1.0, 1.0))?;

@@ -1,4 +1,4 @@
-//! Random stars that slow down, and the stated error of their stretched time compared with the true one.
+//! Random stars that slow down: the stated error of their stretched time compared with the true one.
 
 use std::num::NonZeroUsize;
 
@@ -7,13 +7,13 @@ use twofold::spin_down::{Braking, Precession, StretchedTime};
 
 use crate::prelude::*;
 
-/// Most turns of the precession.
+/// Largest number of precession turns.
 const TURNS: f64 = 300.0;
 
-/// Roundings of the delay, of what it is the difference of and of the phase, below which an error says nothing.
+/// The comparison needs a stated error of at least this many roundings of the delay, of its terms and of the phase.
 const ROUNDINGS: f64 = 100.0;
 
-/// A star, and the stretched time at which it is looked at.
+/// A star and a stretched time.
 #[derive(Debug, Clone, Copy)]
 pub struct BrakedStar {
     /// Its torque.
@@ -25,7 +25,7 @@ pub struct BrakedStar {
 }
 
 impl BrakedStar {
-    /// Star `number` of those that start from `seed`: with any braking index, or with a damped wobble and the index 3.
+    /// Star `number` drawn from `seed`: with any braking index, or with a damped wobble and the index 3.
     pub fn draw(seed: u64, number: u64, damped: bool) -> Self {
         let random = &mut Random::with_seed(seed << 32 | number);
         let log = |random: &mut Random, low: f64, high: f64| 10f64.powf(random.within(low, high));
@@ -48,7 +48,7 @@ impl BrakedStar {
         Self { braking: Braking { rate: kappa, index, torque_share }, precession, tau }
     }
 
-    /// What [`StretchedTime::truncation`] states over the true error of the delay; `None` where it is no more than rounding.
+    /// Error stated by [`StretchedTime::truncation`] over the true error of the delay; `None` if the stated error is not above rounding.
     ///
     /// # Errors
     /// What the model refuses.
@@ -61,9 +61,10 @@ impl BrakedStar {
         Ok((stated >= ROUNDINGS * rounding).then(|| stated / (delay - stretched.delay(self.tau)).abs()))
     }
 
-    /// The delay by the law, and the rounding of both delay and law.
+    /// The delay from the braking law, and the rounding of both delay and law.
     ///
-    /// `dt/dtau = (1 + (n - 2) kappa (tau + P))^(1 / (n - 2))` less the same without `P`, the integral of the varying torque; for `n = 3` with damping `d^2 t / dtau^2 = kappa (1 - q + q sin^2 theta_m) / (1 - q + q a_0)`.
+    /// The integral of `dt/dtau = (1 + (n - 2) kappa (tau + P))^(1 / (n - 2))` minus the same without `P`, the integral of the varying torque; for
+    /// `n = 3` with damping `d^2 t / dtau^2 = kappa (1 - q + q sin^2 theta_m) / (1 - q + q a_0)`.
     fn delay(&self, stretched: &StretchedTime) -> (f64, f64) {
         let Braking { rate: kappa, index, torque_share: q } = self.braking;
         let Precession { wobble, chi, phase, rate: w, damping, .. } = self.precession;
@@ -77,7 +78,7 @@ impl BrakedStar {
         };
         let [mean, once, twice] = harmonics(wobble);
         let g = q / (1.0 - q + q * mean);
-        // Two in a turn where it is fastest: psi grows as cos theta.
+        // Two per turn at the fastest rate of psi, which grows as cos theta.
         let fastest = w * (self.precession.wobble_at(self.tau).cos() / wobble.cos()).max(1.0);
         let panels = (2.0 * fastest * self.tau.abs() / TAU).ceil().max(8.0);
         let step = self.tau / panels;
@@ -101,7 +102,7 @@ impl BrakedStar {
             };
             return (integral(&|tau| law(tau)), f64::EPSILON * size);
         }
-        // psi is w / cos theta_0 times the integral of cos theta, d tau = -d ln(tan theta) / gamma: that of the inverse hyperbolic sine of cot theta, as a difference.
+        // psi is w / cos theta_0 times the integral of cos theta. With d tau = -d ln(tan theta) / gamma it is a difference of asinh(cot theta).
         let cot = |tau: f64| (damping * tau).exp() / wobble.tan();
         let psi = |tau: f64| phase + w / (damping * wobble.cos()) * (cot(tau).asinh() - cot(0.0).asinh());
         let torque = |tau: f64| {

@@ -1,8 +1,8 @@
-//! A check: written once as data, run individually by `cargo test` and listed by the command `twofold verify`.
+//! A check: written once as data, run individually by `cargo test` and listed by `twofold verify`.
 
 use twofold::dynamics::RotationState;
 
-/// What a check compares with what; the kinds of evidence.
+/// The kinds of evidence: what a check compares with what.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// An identity of rational functions over a prime field: no tolerance.
@@ -11,9 +11,9 @@ pub enum Kind {
     Autodiff,
     /// A different method or a different source.
     Oracle,
-    /// An invariant, symmetry or round trip at random points of the physical domain.
+    /// An invariant, a symmetry or a round trip at random points of the physical domain.
     Property,
-    /// An approximation's error against the numerical motion: its order and where it holds.
+    /// The error of an approximation against the numerical motion: its order and its range of validity.
     Regime,
 }
 
@@ -30,7 +30,7 @@ impl Kind {
     }
 }
 
-/// What the measured figure must satisfy, in words of its unit.
+/// The condition on the measured figure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bound {
     /// The figure is at most this; NaN fails.
@@ -72,12 +72,12 @@ fn short(x: f64) -> String {
     format!("{}e{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.'))
 }
 
-/// The figure that a check measured, with what a reader needs to find the worst case again (seed, point, table).
+/// The figure that a check measured, with what is needed to find the worst case again (seed, point, table).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
-    /// The figure that the bound is about.
+    /// The figure to which the bound applies.
     pub figure: f64,
-    /// One line: where the worst case was, or the numbers behind the figure.
+    /// One line: the place of the worst case, or the numbers behind the figure.
     pub detail: String,
 }
 
@@ -91,27 +91,27 @@ impl Measured {
 /// One check.
 #[derive(Clone, Copy)]
 pub struct Check {
-    /// Kebab-case id, `kind` prefix not included: `euler-lagrange-equations`.
+    /// Kebab-case id without a prefix for the kind: `euler-lagrange-equations`.
     pub id: &'static str,
     /// Kind of evidence.
     pub kind: Kind,
-    /// Equation numbers it is about, in order: `&[25]`.
+    /// Numbers of the equations that it concerns, in order: `&[25]`.
     pub equations: &'static [u8],
-    /// What holds if it passes, one sentence.
+    /// The statement, one sentence.
     pub statement: &'static str,
     /// What the figure is: `mismatches at 24 points`, `largest error / ulp of the sum of magnitudes`.
     pub figure: &'static str,
     /// The bound on the figure.
     pub bound: Bound,
-    /// Why this bound: where it comes from, in one sentence.
+    /// Origin of the bound, in one sentence.
     pub reason: &'static str,
     /// Measures the figure. An error is a failure of the check.
     pub measure: fn() -> Result<Measured, String>,
 }
 
-/// The checks of a module, as its function `checks()`. What holds is the doc comment of a row. A row is either one check, with the function that
-/// measures its figure, or an [`Identity`](crate::identity::Identity): the function of a point whose components vanish, the kind of its check in
-/// floating point ([`Kind::Autodiff`] if derivatives are in it), id and equation numbers.
+/// The checks of a module, as its function `checks()`. The doc comment of a row is the statement of the check. A row is either one check with
+/// the function that measures its figure, or an [`Identity`](crate::identity::Identity): the function of a point whose components vanish, the
+/// kind of its check in floating point ([`Kind::Autodiff`] if it contains derivatives), id and equation numbers.
 macro_rules! checks {
     (@rows $checks:ident) => {};
     (@rows $checks:ident $(#[doc = $statement:literal])+ $residuals:ident: $kind:ident $id:literal $equations:tt; $($rest:tt)*) => {
@@ -160,10 +160,10 @@ macro_rules! checks {
 }
 pub(crate) use checks;
 
-/// What became of a check.
+/// The result of a check.
 #[derive(Debug, Clone)]
 pub struct Outcome {
-    /// The measured figure, or why there is none.
+    /// The measured figure, or the reason why there is none.
     pub measured: Result<Measured, String>,
     /// Whether the bound holds.
     pub passed: bool,
@@ -188,7 +188,7 @@ impl Check {
     }
 }
 
-/// Keeps the largest of many figures and where it was seen. A figure that is not a number counts as infinite.
+/// Keeps the largest of many figures and its place. NaN counts as infinite.
 #[derive(Debug, Clone)]
 pub struct Worst {
     measured: Measured,
@@ -202,7 +202,7 @@ impl Default for Worst {
 }
 
 impl Worst {
-    /// Takes one figure; `place` is asked only where it is the largest so far.
+    /// Takes one figure; `place` is called only if the figure is the largest so far.
     pub fn see(&mut self, figure: f64, place: impl FnOnce() -> String) {
         let figure = if figure.is_nan() { f64::INFINITY } else { figure };
         self.cases += 1;
@@ -211,12 +211,12 @@ impl Worst {
         }
     }
 
-    /// Takes the figure of one case. Not generic, as it would be compiled once for each check.
+    /// Takes the figure of one case. Not generic: it would otherwise be compiled once for each check.
     fn see_case(&mut self, found: &Measured, case: &dyn std::fmt::Debug) {
         self.see(found.figure, || format!("{case:?} {}", found.detail));
     }
 
-    /// The largest figure, or an error if none was seen: a check without a case has shown nothing.
+    /// The largest figure, or an error if there was no figure: a check without cases shows nothing.
     pub fn finish(self) -> Result<Measured, String> {
         match self.cases {
             0 => Err("no case was measured".into()),
@@ -225,9 +225,9 @@ impl Worst {
     }
 }
 
-/// What a case shows: a figure, or the worst figure of cases within it.
+/// The result of a case: a figure, or the worst figure of cases within it.
 pub trait Figure {
-    /// The figure and its line of detail; none for a case that shows nothing, which is not counted.
+    /// The figure and its line of detail; `None` for a case that shows nothing. Such a case is not counted.
     fn measured(self) -> Option<Measured>;
 }
 
@@ -249,7 +249,7 @@ impl<F: Figure> Figure for Option<F> {
     }
 }
 
-/// The largest figure over some cases, and in which it was seen.
+/// The largest figure over some cases, and the case in which it occurred.
 pub(crate) fn worst_of<C: std::fmt::Debug, F: Figure>(
     cases: impl IntoIterator<Item = C>,
     mut figure: impl FnMut(&C) -> Result<F, String>,
@@ -263,7 +263,7 @@ pub(crate) fn worst_of<C: std::fmt::Debug, F: Figure>(
     worst.finish()
 }
 
-/// The smallest figure over some cases, and in which it was seen.
+/// The smallest figure over some cases, and the case in which it occurred.
 pub(crate) fn least_of<C: std::fmt::Debug>(
     cases: impl IntoIterator<Item = C>,
     mut figure: impl FnMut(&C) -> Result<f64, String>,
@@ -272,24 +272,24 @@ pub(crate) fn least_of<C: std::fmt::Debug>(
     Ok(Measured::new(-figure, detail))
 }
 
-/// The largest of some figures, none of them negative; NaN if one is NaN, which `f64::max` would drop, and without any: nothing was measured.
+/// The largest of some non-negative figures. NaN if one is NaN, which `f64::max` would drop, and NaN without figures: nothing was measured.
 pub fn largest(figures: impl IntoIterator<Item = f64>) -> f64 {
     let more = |most: f64, x: f64| if x.is_nan() || most.is_nan() { f64::NAN } else { most.max(x) };
     figures.into_iter().reduce(more).map_or(f64::NAN, |most| if most < 0.0 { 0.0 } else { most })
 }
 
-/// As [`largest`], of figures that may fail.
+/// As [`largest`], for figures that may fail.
 pub(crate) fn largest_of<E>(figures: impl IntoIterator<Item = Result<f64, E>>) -> Result<f64, E> {
     Ok(largest_if_any(figures)?.unwrap_or(f64::NAN))
 }
 
-/// As [`largest_of`], and nothing where there are no figures.
+/// As [`largest_of`], but `None` without figures.
 pub(crate) fn largest_if_any<E>(figures: impl IntoIterator<Item = Result<f64, E>>) -> Result<Option<f64>, E> {
     let figures = figures.into_iter().collect::<Result<Vec<_>, E>>()?;
     Ok((!figures.is_empty()).then(|| largest(figures)))
 }
 
-/// The smallest of some figures; NaN if one is NaN, which `f64::min` would drop, and infinite without one.
+/// The smallest of some figures. NaN if one is NaN, which `f64::min` would drop, and infinite without figures.
 pub fn smallest(figures: impl IntoIterator<Item = f64>) -> f64 {
     let less = |least: f64, x: f64| if x.is_nan() || least.is_nan() { f64::NAN } else { least.min(x) };
     figures.into_iter().fold(f64::INFINITY, less)
@@ -300,7 +300,7 @@ pub fn largest_component(v: &nalgebra::Vector3<f64>) -> f64 {
     largest(v.iter().map(|x| x.abs()))
 }
 
-/// The largest difference of a component of two states, of those of `L` in units of `unit`.
+/// The largest difference between components of two states; those of `L` are in units of `unit`.
 pub fn largest_difference<X: RotationState<f64>>(a: &X, b: &X, unit: f64) -> f64 {
     let ([n, l, e], [n_b, l_b, e_b]) = (a.vectors(), b.vectors());
     largest([n - n_b, (l - l_b) / unit, e - e_b].iter().map(largest_component))

@@ -7,16 +7,16 @@ use crate::simulation::Simulation;
 use crate::timing_simulation::{TimingSimulation, UNKNOWNS};
 use twofold::inference::{Fit, Model, fit_timing};
 
-/// One fit against the truth.
+/// One fit compared with the truth.
 #[derive(Debug, Clone)]
 pub struct Case {
     /// Number of the simulation.
     pub seed: u64,
-    /// Scenes drawn before it and not taken.
+    /// Number of scenes rejected before this one.
     pub refused: usize,
-    /// Fitted less true, in standard deviations, for each unknown.
+    /// Fitted minus true value, in standard deviations, for each unknown.
     pub pulls: Vec<f64>,
-    /// `d^T C^-1 d` of the differences `d` with the covariance `C`: chi^2 of as many degrees as there are unknowns.
+    /// `d^T C^-1 d` for the differences `d` and the covariance `C`: a chi^2 with as many degrees of freedom as unknowns.
     pub distance: f64,
     /// `chi^2` of the residuals.
     pub chi_squared: f64,
@@ -29,9 +29,9 @@ pub struct Case {
 /// The fits of simulations.
 #[derive(Debug, Clone, Default)]
 pub struct Coverage {
-    /// Those that ended at a minimum.
+    /// The fits that ended at a minimum.
     pub cases: Vec<Case>,
-    /// Those that did not.
+    /// The fits that did not.
     pub failed: Vec<(u64, InferenceError)>,
 }
 
@@ -54,34 +54,34 @@ impl Case {
         }
     }
 
-    /// Of a motion over 60 to 120 t_c.
+    /// The fit of a motion over 60 to 120 t_c.
     pub fn of_motion(seed: u64) -> Result<Self, InferenceError> {
         let simulation = Simulation::new(seed)?;
         Ok(Self::new(seed, simulation.refused, &simulation.fit()?, &simulation.truth))
     }
 
-    /// Of a pulsar over 10 to 20 years.
+    /// The fit of a pulsar over 10 to 20 years.
     pub fn of_pulsar(seed: u64) -> Result<Self, InferenceError> {
         let TimingSimulation { truth, start, data, refused } = TimingSimulation::new(seed)?;
         Ok(Self::new(seed, refused, &fit_timing(&start, &data, &UNKNOWNS)?, &truth))
     }
 }
 
-/// A number that should be standard normal, and what it is of.
+/// A number that should be standard normal.
 #[derive(Debug, Clone)]
 pub struct Score {
-    /// What was counted or summed.
+    /// The quantity that was counted or summed.
     pub what: &'static str,
-    /// Found.
+    /// Value found.
     pub found: f64,
-    /// Expected.
+    /// Value expected.
     pub expected: f64,
     /// The difference in standard deviations.
     pub score: f64,
 }
 
 impl Coverage {
-    /// The simulations with some numbers, on all threads: [`Case::of_motion`] or [`Case::of_pulsar`].
+    /// The simulations with the given numbers, on all threads: [`Case::of_motion`] or [`Case::of_pulsar`].
     pub fn of(seeds: std::ops::Range<u64>, case: fn(u64) -> Result<Case, InferenceError>) -> Self {
         let mut coverage = Self::default();
         let cases: Vec<_> = seeds.into_par_iter().map(|seed| (seed, case(seed))).collect();
@@ -94,8 +94,8 @@ impl Coverage {
         coverage
     }
 
-    /// What should be standard normal if every error bar holds: sums over cases, which are independent of each other. The pulls of
-    /// one case are not, so that counts take one unknown of each case, a different one from case to case.
+    /// Scores that are standard normal if every error bar holds: sums over independent cases. The pulls of one case are dependent,
+    /// so that counts take one unknown of each case, a different one from case to case.
     pub fn scores(&self) -> Vec<Score> {
         let count = self.cases.len() as f64;
         let one_each = || self.cases.iter().map(|case| case.pulls[(case.seed as usize / 3) % case.pulls.len()]);
@@ -120,7 +120,7 @@ impl Coverage {
         ]
     }
 
-    /// The largest score, if every fit ended at a minimum. Of a hundred cases too few are outside of three standard deviations for a normal score: that one is left out.
+    /// The largest score, if every fit ended at a minimum. The count within three standard deviations is left out: it is not normal for so few cases.
     pub(crate) fn worst_score(&self) -> Result<Measured, String> {
         if let Some((seed, error)) = self.failed.first() {
             return Err(format!("seed {seed}: {error}"));

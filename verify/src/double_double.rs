@@ -1,7 +1,7 @@
 //! Double-double numbers, about 31 digits, as a scalar of the model: the reference where 16 digits are not enough.
 //!
 //! The arithmetic is that of the crate `xprec` (Joldes, Muller and Popescu 2017, ACM Trans. Math. Softw. 44, 15). The type
-//! here only implements the model's traits for it.
+//! here only implements the traits of the model.
 
 use core::fmt;
 use core::str::FromStr;
@@ -14,22 +14,22 @@ use xprec::Df64;
 pub struct DoubleDouble(Df64);
 
 impl DoubleDouble {
-    /// The exact sum of two doubles, as far as 106 bits hold it.
+    /// The sum of two doubles, exact within 106 bits.
     pub fn sum_of(high: f64, low: f64) -> Self {
         Self(Df64::new(high) + Df64::new(low))
     }
 
-    /// `2 pi`, to its last digit.
+    /// `2 pi` to 32 digits.
     pub fn tau() -> Self {
         Self::sum_of(core::f64::consts::TAU, 2.449_293_598_294_706_4e-16)
     }
 
-    /// The double nearest to it.
+    /// The nearest double.
     pub fn high(self) -> f64 {
         self.0.hi()
     }
 
-    /// What [`high`](Self::high) lacks.
+    /// The difference from [`high`](Self::high).
     pub fn low(self) -> f64 {
         self.0.lo()
     }
@@ -56,7 +56,7 @@ impl Scalar for DoubleDouble {
     }
 
     fn sin_cos(self) -> (Self, Self) {
-        // The crate loses digits of angles from some 1e9: whole turns are taken away here, with 48 digits of `2 pi`.
+        // The crate loses digits of angles above some 1e9: whole turns are subtracted here, with 48 digits of `2 pi`.
         let turns = (self.high() / core::f64::consts::TAU).round();
         let angle = if turns == 0.0 {
             self
@@ -99,7 +99,7 @@ impl Real for DoubleDouble {
 impl FromStr for DoubleDouble {
     type Err = String;
 
-    /// Reads a decimal number such as `-1.5e-3`, rounded to some 31 digits.
+    /// Reads a decimal number such as `-1.5e-3`, rounded to about 31 digits.
     fn from_str(text: &str) -> Result<Self, String> {
         let malformed = || format!("`{text}` is not a decimal number");
         let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
@@ -115,7 +115,7 @@ impl FromStr for DoubleDouble {
             if value.high() < 1e31 {
                 value = value * ten + Self::from_f64(f64::from(digit));
             } else {
-                // Beyond what 106 bits hold.
+                // The digit is beyond 106 bits.
                 exponent += 1;
             }
         }
@@ -123,7 +123,7 @@ impl FromStr for DoubleDouble {
             return Err(malformed());
         }
         exponent -= fraction.len() as i32;
-        // Powers of ten up to 1e44 are double-doubles without rounding; `powi` would take a logarithm.
+        // Powers of ten up to 1e44 are exact double-doubles; `powi` would take a logarithm.
         let power = (0..exponent.abs()).fold(Self::from_f64(1.0), |power, _| power * ten);
         let value = if exponent < 0 { value / power } else { value * power };
         Ok(if mantissa.starts_with('-') { -value } else { value })

@@ -7,7 +7,7 @@ use crate::prelude::*;
 
 /// `re + eps epsilon` with `epsilon^2 = 0`: a value and its derivative. Equality is that of both parts.
 ///
-/// As an angle, `re` is whatever the field under it codes an angle by, and `eps` the derivative of the angle itself.
+/// As an angle, `re` has the code of the underlying field for an angle, and `eps` is the derivative of the angle itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dual<F> {
     /// Value.
@@ -30,7 +30,7 @@ field_operators! {
     a * b = Self::new(a.re * b.re, a.re * b.eps + a.eps * b.re);
     a / b = {
         let over = F::one() / b.re;
-        // Without the square of `over`, which overflows where the quotient does not.
+        // The square of `over` is avoided: it can overflow where the quotient does not.
         Self::new(a.re / b.re, (a.eps - a.re * over * b.eps) * over)
     };
 }

@@ -12,15 +12,15 @@ pub struct Equation {
     pub number: u8,
     /// Its LaTeX label, empty where it has none.
     pub label: &'static str,
-    /// What it says.
+    /// Its content.
     pub subject: &'static str,
-    /// Paths in the crate `twofold` of what implements it; none where it is no function.
+    /// Paths in the crate `twofold` of its implementations; empty if it is not a function.
     pub items: &'static [&'static str],
-    /// Golden tables with numbers of it.
+    /// Golden tables with numbers from it.
     pub golden: &'static [&'static str],
 }
 
-/// Rows `number "label" "subject" [functions] [golden tables]`. The functions are links in the documentation, so rustdoc knows whether they exist.
+/// Rows `number "label" "subject" [functions] [golden tables]`. The functions are links in the documentation, so that rustdoc checks them.
 macro_rules! equations {
     ($($number:literal $label:literal $subject:literal [$($item:literal)*] [$($golden:literal)*])*) => {
         /// The equations, in the paper's order.

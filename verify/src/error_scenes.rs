@@ -1,17 +1,17 @@
-//! Random scenes over the whole space of motions, and the estimated error of each compared with its true one.
+//! Random scenes over the whole space of motions: the estimated error of each compared with the true one.
 
 use crate::averaged_scenes::direction;
 use crate::independent_taylor::state_after;
 use crate::prelude::*;
 
-/// A motion and a time at which its error is asked for.
+/// A motion and a time at which its error is evaluated.
 #[derive(Debug, Clone, Copy)]
 pub struct ErrorScene {
-    /// What moves.
+    /// Body, tensor and start.
     pub problem: Problem<f64>,
     /// Start and end.
     pub span: (f64, f64),
-    /// Time asked for.
+    /// Time of the comparison.
     pub time: f64,
     /// Tolerance.
     pub tolerance: f64,
@@ -35,14 +35,14 @@ fn tensor_in(frame: &Matrix3<f64>, eigenvalues: [f64; 3]) -> Matrix3<f64> {
 }
 
 impl ErrorScene {
-    /// Scene `number` of those that start from `seed`.
+    /// Scene `number` drawn from `seed`.
     pub fn draw(seed: u64, number: u64) -> Self {
         let mut random = Random::with_seed(seed.wrapping_mul(0x1_0000_0001).wrapping_add(number));
         let random = &mut Random::with_seed(random.word());
         let chance = |random: &mut Random, share: f64| random.within(0.0, 1.0) < share;
         let log = |random: &mut Random, low: f64, high: f64| 10f64.powf(random.within(low, high));
 
-        // Units: I^xx and t_c are numbers that are not one.
+        // In units in which I^xx and t_c are not one.
         let (inertia, unit) = (log(random, -2.0, 2.0), log(random, -2.0, 2.0));
         let spheroid = RigidSpheroid {
             inertia_xx: inertia,
@@ -96,8 +96,8 @@ impl ErrorScene {
         Self { problem, span: (start, end), time, tolerance, strength, near_middle_axis, near_rest: false }
     }
 
-    /// The same scene with a start near rest, `n` and a slow `L` off one eigenvector of `s^IJ` by 1e-12 to 1e-1, at the end and with a tolerance of 1e-6
-    /// to 1e-2: there the deviation has grown, and steps are long.
+    /// The same scene with a start near rest: `n` and a slow `L` differ from one eigenvector of `s^IJ` by 1e-12 to 1e-1. Its error is taken at the
+    /// end, where the deviation has grown, for a tolerance of 1e-6 to 1e-2, for which steps are long.
     pub fn started_near_rest(mut self, seed: u64) -> Self {
         let random = &mut Random::with_seed(seed);
         let (body, s) = (*self.problem.spheroid(), *self.problem.coefficients());
@@ -105,7 +105,7 @@ impl ErrorScene {
         let rest: Vector3<f64> = frame.column((random.word() % 3) as usize).into();
         let off = 10f64.powf(random.within(-12.0, -1.0));
         let axis = (rest + direction(random) * off).normalize();
-        // In units of what the torque makes of it. Much faster stars are stable.
+        // In units of the `L` that the torque can produce. Much faster stars are stable.
         let unit = (2.0 * body.inertia_xx * body.constant_c.abs() * self.strength).sqrt();
         let spin = if random.word().is_multiple_of(2) { 0.0 } else { 10f64.powf(random.within(-3.0, 0.0)) };
         let momentum = (rest * spin + direction(random) * off) * unit;
@@ -117,7 +117,7 @@ impl ErrorScene {
         self
     }
 
-    /// Unit in which errors of `L` count: its size and what the torque makes of it.
+    /// Unit for errors of `L`: its size plus what the torque can produce.
     pub fn momentum_unit(&self) -> f64 {
         let (body, s) = (self.problem.spheroid(), self.problem.coefficients());
         let anisotropic = s - Matrix3::from_diagonal_element(s.trace() / 3.0);
@@ -125,13 +125,13 @@ impl ErrorScene {
         self.problem.initial().momentum.norm() + (2.0 * body.inertia_xx * torque).sqrt()
     }
 
-    /// Radians that the body turns at most until the time asked for.
+    /// Largest rotation of the body until `time`, in rad.
     pub fn turned(&self) -> f64 {
         (self.time - self.span.0).abs() * self.momentum_unit() / self.problem.spheroid().inertia_xx
     }
 
-    /// A scene like this one that a method is made for: [`Method::Symmetric`] takes a tensor symmetric about an axis, [`Method::Steady`] a
-    /// state that precesses steadily about it, [`Method::Averaged`] a weaker torque. `None` where there is no such state.
+    /// A similar scene to which a method applies: [`Method::Symmetric`] needs a tensor symmetric about an axis, [`Method::Steady`] a state
+    /// that precesses steadily about it, [`Method::Averaged`] a weaker torque. `None` if there is no such state.
     pub fn for_method(mut self, method: Method, seed: u64) -> Option<Self> {
         let random = &mut Random::with_seed(seed);
         let frame = random_frame(random);
@@ -139,7 +139,7 @@ impl ErrorScene {
         let (body, s, mut initial) = (*self.problem.spheroid(), self.problem.coefficients(), *self.problem.initial());
         let s = match method {
             Method::Taylor | Method::Splitting | Method::Torus => *s,
-            // Weak torques over spans that they are nearly nothing in, and none at all.
+            // No torque, a weak one, or the full one.
             Method::Free => {
                 if initial.momentum.norm() == 0.0 {
                     return None;
@@ -162,19 +162,19 @@ impl ErrorScene {
         Some(self)
     }
 
-    /// The estimated error at the time asked for, and the true one, of the motion by a method.
+    /// The estimated and the true error of the motion by a method, at the time of the comparison.
     ///
     /// # Errors
-    /// What the motion refuses.
+    /// If the method refuses the motion.
     pub fn estimated_and_true(&self, method: Method) -> Result<(f64, f64), String> {
         let motion = self.problem.motion_by(method, self.span, self.tolerance)?;
         Ok((motion.error_estimate(self.time), self.true_error(&motion.state(self.time)?)))
     }
 
-    /// The same of a motion in equal parts, each of which goes on from the one before.
+    /// The same for a motion in equal parts, each of which continues the one before.
     ///
     /// # Errors
-    /// What the motion refuses.
+    /// If the method refuses the motion.
     pub fn estimated_and_true_in_parts(&self, method: Method, parts: u32) -> Result<(f64, f64), String> {
         let (start, end) = self.span;
         let (mut problem, mut from, mut earlier) = (self.problem, start, None);
@@ -193,10 +193,10 @@ impl ErrorScene {
         Err("a motion of no parts".to_owned())
     }
 
-    /// The largest true error of a component of `n`, `e_x` or `L` (in units of its size) of `state` at the time asked for. By
-    /// another integrator that is much more accurate, with 32 digits where rounding may matter.
+    /// The largest true error of a component of `n`, `e_x` or `L` (in units of its size) of `state` at the time of the
+    /// comparison, from a much more accurate integrator, with 32 digits where rounding may matter.
     pub fn true_error(&self, state: &BodyState<f64>) -> f64 {
-        // Exactly: that the motion rounds it is part of its error.
+        // Exact: rounding in the motion is part of its error.
         let duration = DoubleDouble::from_f64(self.time) - DoubleDouble::from_f64(self.span.0);
         let is_well_conditioned = self.turned() > 5.0 && self.turned() < 300.0 && !self.near_rest;
         if self.tolerance > 1e-5 && is_well_conditioned {
@@ -216,7 +216,7 @@ impl ErrorScene {
     }
 }
 
-/// Steady precession, Eq. (26), about the third axis of a frame (its rows in the given one are columns here).
+/// Steady precession, Eq. (26), about the third column of a frame.
 fn steady_state(
     spheroid: &RigidSpheroid<f64>,
     momentum: f64,

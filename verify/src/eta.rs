@@ -1,4 +1,4 @@
-//! The curve of `eta` against the inclination, and the same curve from numerical motion.
+//! The curve of `eta` against the inclination, and the rate of the spin axis from numerical motion.
 
 use crate::prelude::*;
 
@@ -10,11 +10,11 @@ pub const PAPER_ASYMMETRY: f64 = -1.0 / 11.0;
 pub struct EtaStatistics {
     /// For the root mean square of `d cos lambda / dt`.
     pub root_mean_square: f64,
-    /// Not exceeded in half of the cases.
+    /// Median.
     pub median: f64,
-    /// Not exceeded in 84 % of the cases.
+    /// Quantile at 84 %.
     pub quantile_84: f64,
-    /// Not exceeded in 97.5 % of the cases.
+    /// Quantile at 97.5 %.
     pub quantile_975: f64,
 }
 
@@ -38,17 +38,17 @@ pub struct EtaPoint {
     pub beta_0: f64,
     /// `1 / |cos beta_0|`, the paper's estimate.
     pub printed: f64,
-    /// With `beta_0` the inclination of the axis at the start, and the root mean square taken over all later times too: the
-    /// number that stands for `eta` where one is wanted.
+    /// Root mean square over all times of a motion that starts at the inclination `beta_0`: the single number to use for
+    /// `eta`.
     pub along_motion: f64,
-    /// With `beta_0` the inclination of the axis while it is observed.
+    /// For an axis at the inclination `beta_0` while it is observed.
     pub at_inclination: EtaStatistics,
-    /// With `beta_0` the constant of Eq. (34); none where that gives no inclination.
+    /// For `beta_0` as the constant of Eq. (34); `None` if that gives no inclination.
     pub at_constant: Option<EtaStatistics>,
 }
 
-/// `eta` at the inclinations `beta_0` (rad, in (0, pi), `pi/2` excluded where the estimate divides by zero) for a tensor with the
-/// asymmetry ratio `r`, [`PAPER_ASYMMETRY`] for that of the paper. Some 0.1 ms a point.
+/// `eta` at the inclinations `beta_0` (rad, in (0, pi), except `pi/2`, where the estimate divides by zero) for a tensor with the
+/// asymmetry ratio `r`, [`PAPER_ASYMMETRY`] for that of the paper. About 0.1 ms per point.
 ///
 /// # Errors
 /// [`Error::Domain`] for an inclination whose cosine is zero to 2.2e-16.
@@ -67,10 +67,10 @@ pub fn eta_curve(asymmetry_ratio: f64, inclinations: &[f64]) -> Result<Vec<EtaPo
     inclinations.iter().map(point).collect()
 }
 
-/// Mean of `dn/dt` over about `duration`, from numerical motion of a star that starts along `L` at the azimuth `alpha` and
-/// inclination `beta`, and the direction of `L` at the mean time. In units of `t_c`.
+/// Mean of `dn/dt` over about `duration`, from the numerical motion of a star that starts spinning about its axis at the
+/// azimuth `alpha` and inclination `beta`, and the direction of `L` at the mean time. In units of `t_c`.
 ///
-/// The mean has a smooth weight that vanishes with all derivatives at both ends, so that the nutation leaves next to nothing.
+/// The mean has a smooth weight that vanishes with all derivatives at both ends, so that almost nothing remains of the nutation.
 pub(crate) fn numerical_axis_rate(
     s: &PrincipalCoefficients<f64>,
     spin: f64,
@@ -104,7 +104,7 @@ pub fn seen_rate(random: &mut Random, s: &Matrix3<f64>, lambda: f64) -> f64 {
     observer.dot(&secular_axis_rate(1.0, 1.0, s, &axis))
 }
 
-/// Twelve turns of a star with the given spin: enough for `numerical_axis_rate` to lose the nutation.
+/// Twelve turns of a star with the given spin: enough for `numerical_axis_rate` to average out the nutation.
 pub fn twelve_turns(spin: f64) -> f64 {
     12.0 * TAU / spin
 }

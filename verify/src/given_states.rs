@@ -1,4 +1,4 @@
-//! A motion defined only by its states, as a user of the library would write one.
+//! A motion defined only by its states, as a user of the library could write one.
 
 use crate::prelude::*;
 use twofold::propagation::Turning;
@@ -6,7 +6,7 @@ use twofold::propagation::Turning;
 /// `Omega`, `Omega'` and `Omega''` at a time, and bounds on `|Omega|` and its first five derivatives.
 pub type Law = (fn(f64) -> [Vector3<f64>; 3], [f64; 6]);
 
-/// The motion whose states a function gives, without the faster ways that the motions of the library have.
+/// A motion whose states a function gives. It has none of the faster implementations of the library's motions.
 #[derive(Debug)]
 pub struct GivenStates<F> {
     /// The body.
@@ -17,12 +17,12 @@ pub struct GivenStates<F> {
     pub span: (f64, f64),
     /// The state at a time.
     pub state: F,
-    /// How the body turns, if not by the equations of motion.
+    /// Rotation of the body, if prescribed.
     pub law: Option<Law>,
 }
 
 impl<F: Fn(f64) -> Result<BodyState<f64>, Error>> GivenStates<F> {
-    /// With the body, the tensor and the span of another motion, by the equations of motion.
+    /// A motion with the body, the tensor and the span of another one, under the equations of motion.
     pub fn like<M: Motion<f64, State = BodyState<f64>>>(motion: &M, state: F) -> Self {
         Self { spheroid: *motion.spheroid(), violation: *motion.coefficients(), span: motion.span(), state, law: None }
     }

@@ -1,4 +1,4 @@
-//! An identity between the kernels and their derivation, tested without rounding and with it.
+//! An identity between the kernels and their derivation, tested with and without rounding.
 
 use crate::prelude::*;
 use crate::random::Drawn;
@@ -9,15 +9,15 @@ const FIELD_POINTS: usize = 24;
 /// Physical points per check with automatic derivatives.
 const PHYSICAL_POINTS: usize = 200;
 
-/// Numbers that vanish at every point, written once for every type of number.
+/// Numbers that vanish at every point, written once for all types of numbers.
 pub trait Identity: 'static {
     /// Id of the exact check.
     const ID: &'static str;
-    /// The check in floating point: [`Kind::Autodiff`] if derivatives are in it, and its id.
+    /// The check in floating point: [`Kind::Autodiff`] if it contains derivatives, and its id.
     const ROUNDED: (Kind, &'static str);
     /// Equation numbers.
     const EQUATIONS: &'static [u8];
-    /// What holds.
+    /// The statement.
     const STATEMENT: &'static str;
 
     /// Left side minus right side of each component.
@@ -44,7 +44,7 @@ pub fn checks<I: Identity>() -> [Check; 2] {
             statement: I::STATEMENT,
             figure: "largest residual / (2.2e-16 x sum of magnitudes of its terms), 200 random physical points",
             bound: Bound::AtMost(2.0),
-            reason: "each term is rounded some tens of times by half an ulp at most, in directions that have no reason to agree",
+            reason: "each term is rounded some tens of times by half an ulp at most, independently of the others",
             measure: || largest_rounding(I::residuals, I::residuals),
         },
     ]

@@ -1,4 +1,4 @@
-//! An independent Taylor integrator for true errors: it shares no code with the model, works for any number type and has no
+//! An independent Taylor integrator for true errors: it shares no code with the model, runs on any number type and has no
 //! dense output.
 
 use crate::prelude::*;
@@ -8,8 +8,8 @@ type Vector<S> = [S; 3];
 /// The state after the time `duration` (of either sign) under `s^IJ = s`, with a truncation of about `tolerance` per step in
 /// the components of `n`, `e_x` and of `L` in units of its size.
 ///
-/// The recurrences are those of the quadratic equations of motion,
-/// `dn/dt = L x n / I^xx`, `dL/dt = 2 C (s n) x n`, `d e_x/dt = Omega x e_x`, written down again here.
+/// The recurrences are those of the quadratic equations of motion, `dn/dt = L x n / I^xx`, `dL/dt = 2 C (s n) x n`,
+/// `d e_x/dt = Omega x e_x`, written again here.
 pub fn state_after<S: Real>(problem: &Problem<f64>, duration: S, tolerance: f64) -> BodyState<S> {
     let (spheroid, s, initial) = (problem.spheroid(), problem.coefficients(), problem.initial());
     let exact = |v: &nalgebra::Vector3<f64>| -> Vector<S> { [v.x, v.y, v.z].map(S::from_f64) };
@@ -22,7 +22,7 @@ pub fn state_after<S: Real>(problem: &Problem<f64>, duration: S, tolerance: f64)
         * spheroid.inertia_xx)
         .sqrt();
     let momentum_scale = (initial.momentum.norm() + pull).max(f64::MIN_POSITIVE);
-    // n is a unit vector, whatever rounding has made of its length.
+    // n is a unit vector; rounding may have changed its length.
     let axis = exact(&initial.axis);
     let length = axis.iter().fold(S::zero(), |sum, x| sum + *x * *x).sqrt();
     let axis = axis.map(|x| x / length);

@@ -1,11 +1,11 @@
-//! Numbers that carry the sum of the magnitudes of the terms they were computed from.
+//! Numbers that carry the sum of the magnitudes of the terms from which they were computed.
 
 use crate::prelude::*;
 
-/// A number with the sum of the magnitudes of all terms in it, cancelled ones included.
+/// A number with the sum of the magnitudes of all its terms, including those that cancel.
 ///
-/// Run on this type, a kernel says how large its rounding error may be: `magnitude` times the unit roundoff, times the
-/// number of roundings that a single term goes through. The measure of a residual that should be zero.
+/// A kernel on this type gives a bound on its rounding error: `magnitude` times the unit roundoff, times the number of
+/// roundings of a single term. A residual that should be zero is measured in this unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Conditioned {
     /// The number.
@@ -15,7 +15,7 @@ pub struct Conditioned {
 }
 
 impl Conditioned {
-    /// A number that was not computed.
+    /// A number that is not a result of arithmetic.
     pub fn new(value: f64) -> Self {
         Self { value, magnitude: value.abs() }
     }

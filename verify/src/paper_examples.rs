@@ -18,7 +18,7 @@ pub fn spheroid() -> RigidSpheroid<f64> {
 pub struct PaperExample {
     /// Name in the paper.
     pub name: &'static str,
-    /// Precession of precession.
+    /// Twofold or single precession.
     pub kind: Precession,
     /// Constants of integration in Eq. (34).
     pub constants: Constants<f64>,

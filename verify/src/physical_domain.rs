@@ -19,7 +19,7 @@ pub struct RandomScene {
 }
 
 impl RandomScene {
-    /// The problem that starts so.
+    /// The problem with this start.
     ///
     /// # Panics
     /// None: the scenes are physical.
@@ -33,8 +33,8 @@ impl RandomScene {
     }
 }
 
-/// Scenes over the whole physical domain: `I^zz / I^xx` from 0.2 to 2 (the triangle inequality), any orientation off the
-/// poles by 0.05 rad, rates up to 2, coefficients of either sign with sizes from 1e-8 to 0.3.
+/// Scenes over the whole physical domain: `I^zz / I^xx` from 0.2 to 2 (the triangle inequality), any orientation at
+/// least 0.05 rad from the poles, rates up to 2, coefficients of either sign with sizes from 1e-8 to 0.3.
 pub fn scenes() -> impl Strategy<Value = RandomScene> {
     let coefficient = (-8.0..-0.523f64, any::<bool>()).prop_map(|(log, negative)| {
         let size = 10f64.powf(log);
@@ -57,7 +57,7 @@ pub fn scenes() -> impl Strategy<Value = RandomScene> {
 /// Some values of `strategy`, drawn with the given seed.
 ///
 /// # Errors
-/// If the strategy refuses too many.
+/// If the strategy rejects too many values.
 pub fn drawn<T: Strategy>(seed: u8, cases: usize, strategy: &T) -> Result<Vec<T::Value>, String> {
     let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[seed; 32]);
     let mut runner = TestRunner::new_with_rng(Config::default(), rng);

@@ -1,5 +1,4 @@
-//! The names that most checks use: the parts of a problem, the kernels of many checks, and the functions that measure their
-//! values.
+//! The names that most checks use: parts of a problem, common kernels, and the functions that measure figures.
 
 pub(crate) use crate::check::{
     Bound, Check, Figure, Kind, Measured, Outcome, Worst, checks, largest, largest_component, largest_difference,

@@ -1,7 +1,7 @@
 //! Exact arithmetic: the field of integers modulo the prime `2^61 - 1`.
 //!
 //! An identity between rational functions that holds at a random point of a large field holds everywhere, except with a
-//! probability of about its degree over the size of the field. There is no rounding, and so no tolerance is needed.
+//! probability of about its degree over the size of the field. There is no rounding, and thus no tolerance.
 
 use core::fmt;
 
@@ -20,12 +20,12 @@ pub const PRIME: u64 = (1 << 61) - 1;
 pub struct Fp(u64);
 
 impl Fp {
-    /// The class of `value`.
+    /// The residue class of `value`.
     pub fn new(value: u64) -> Self {
         Self(value % PRIME)
     }
 
-    /// The least non-negative member of the class.
+    /// The least non-negative member of the residue class.
     pub fn value(self) -> u64 {
         self.0
     }
@@ -73,7 +73,7 @@ field_operators! {
 
 impl Scalar for Fp {
     /// # Panics
-    /// Unless `value` is `m / 1024` with an integer `m` below `2^50`: any other constant would be a rounded number.
+    /// Unless `value` is `m / 1024` with an integer `m` below `2^50`: any other constant would be rounded.
     fn from_f64(value: f64) -> Self {
         let numerator = value * 1024.0;
         assert!(

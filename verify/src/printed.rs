@@ -1,8 +1,8 @@
-//! Initial values that the paper prints in captions, compared with the values from its formulas.
+//! Initial values printed in the captions of the paper, compared with its formulas.
 
 use crate::prelude::*;
 
-/// Whether `value`, rounded to the digits of `text`, is `text`. Powers of ten (`2.1e-3`) count digits of the mantissa.
+/// Whether `value`, rounded to the digits of `text`, equals `text`. In powers of ten (`2.1e-3`) the digits of the mantissa count.
 pub fn rounds_to(value: f64, text: &str) -> bool {
     let printed: f64 = text.parse().expect("printed numbers are numbers");
     let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
@@ -12,7 +12,7 @@ pub fn rounds_to(value: f64, text: &str) -> bool {
     (value - printed).abs() <= half_unit * (1.0 + 1e-9)
 }
 
-/// Initial values of the four examples: what each is, as printed (pi/2 as 1.5707963), and by Eq. (34).
+/// Initial values of the four examples: name, printed value (pi/2 as 1.5707963), and value by Eq. (34).
 pub(crate) fn caption_values() -> Result<Vec<(String, &'static str, f64)>, Error> {
     let captions = [
         ["1.5707963", "0.701", "1.509", "0"],

@@ -3,18 +3,18 @@
 use crate::prelude::*;
 use twofold::observables::pulsar::Pulse;
 
-/// Series of the whole pulses of a motion.
+/// Series of the complete pulses of a motion.
 #[derive(Debug, Clone)]
 pub struct PulseSeries {
     /// Times between pulses of consecutive single turns, each at the mean of the two midpoints.
     pub periods: Vec<Stamped>,
-    /// Times between the others: over turns without a pulse, within one turn, from or to a pulse that lasts for several.
+    /// Other times between pulses: over turns without a pulse, within one turn, to or from a pulse longer than a turn.
     pub gaps: Vec<Stamped>,
-    /// Lengths in time, at the midpoints.
+    /// Durations, at the midpoints.
     pub lengths: Vec<Stamped>,
 }
 
-/// The series of a beam in a span of a motion, the turns counted as in [`arrivals`].
+/// The series for a beam in a span of a motion. Turns are counted as in [`arrivals`].
 pub fn pulse_series(
     motion: &impl Motion<f64, State = BodyState<f64>>,
     beam: &Beam<f64>,
@@ -27,9 +27,9 @@ pub fn pulse_series(
         ([first, ..], Some(last)) => (last.midpoint - first.midpoint) / (last.number - first.number) as f64,
         _ => f64::NAN,
     };
-    // The middle of a pulse that lasts for more than a turn is that of no turn.
+    // The middle of a pulse longer than a turn belongs to no turn.
     let of_one_turn = |pulse: &Pulse| pulse.duration() < mean_turn;
-    // Only the first and the last pulse may be cut: the whole ones, which have numbers, are neighbours.
+    // Only the first and the last pulse can be cut. The complete ones, which have numbers, are neighbours.
     let whole: Vec<_> = train.pulses.iter().filter(|pulse| pulse.is_whole()).zip(&numbers).collect();
     let single = whole
         .windows(2)
@@ -42,27 +42,27 @@ pub fn pulse_series(
     Ok(PulseSeries { periods: chosen(true), gaps: chosen(false), lengths: train.durations().collect() })
 }
 
-/// Beam and observer as the formulas have them.
+/// Beam and observer as they enter the formulas.
 #[derive(Debug, Clone, Copy)]
 pub struct Viewing {
     /// Angle of the magnetic axis to the symmetry axis.
     pub chi: f64,
     /// Its azimuth in the body.
     pub delta: f64,
-    /// Semi-open angle of the beam.
+    /// Half opening angle of the beam.
     pub rho: f64,
     /// Colatitude of the observer.
     pub theta_o: f64,
 }
 
-/// What the formulas give at a time.
+/// The results of the formulas at a time.
 #[derive(Debug, Clone, Copy)]
 pub struct Formulas {
     /// `DeltaPhi'`, Eq. (52).
     pub offset_rate: f64,
     /// `alpha' + DeltaPhi'`.
     pub azimuth_rate: f64,
-    /// `W`, Eq. (56): zero without a pulse, a turn for a beam that is always on.
+    /// `W`, Eq. (56): zero without a pulse, 2 pi for a beam that is always on.
     pub width: f64,
 }
 
@@ -79,7 +79,7 @@ impl Viewing {
         Ok(Formulas { offset_rate, azimuth_rate: alpha_rate + offset_rate, width })
     }
 
-    /// The formulas for the angles and rates that a motion has at a time.
+    /// The formulas for the angles and rates of a motion at a time.
     fn at(&self, motion: &impl Motion<f64, State = BodyState<f64>>, t: f64) -> Result<Formulas, Error> {
         let state = motion.state(t)?;
         let (angles, rates) = (state.angles()?, state.rates(motion.spheroid())?);
@@ -87,9 +87,9 @@ impl Viewing {
     }
 }
 
-/// The paper's curves of a motion: period `2 pi / (alpha' + DeltaPhi')`, Eq. (51) before it is expanded, and width (56), with the
-/// angles and rates of the numerical motion at each time. A width becomes a time by the mean of `alpha' + DeltaPhi'`, as
-/// the authors' data have it.
+/// The paper's curves for a motion: period `2 pi / (alpha' + DeltaPhi')`, Eq. (51) before the expansion, and width (56), with the
+/// angles and rates of the numerical motion at each time. As in the authors' data, the mean of `alpha' + DeltaPhi'` converts a
+/// width into a time.
 pub struct PaperCurves<'m, M> {
     motion: &'m M,
     viewing: Viewing,
@@ -99,7 +99,7 @@ pub struct PaperCurves<'m, M> {
 impl<'m, M: Motion<f64, State = BodyState<f64>>> PaperCurves<'m, M> {
     /// The curves from time zero to `end`.
     pub fn new(motion: &'m M, viewing: Viewing, end: f64) -> Result<Self, Error> {
-        // Some ten looks each radian: beyond the digits that the mean needs.
+        // About ten samples per radian: more than the mean needs.
         let count = (10.0 * end.abs()).ceil() as usize;
         let mut sum = 0.0;
         for i in 0..=count {
@@ -109,7 +109,7 @@ impl<'m, M: Motion<f64, State = BodyState<f64>>> PaperCurves<'m, M> {
         Ok(Self { motion, viewing, mean_rate: sum / count as f64 })
     }
 
-    /// Period and length at a time.
+    /// Period and duration at a time.
     pub fn at(&self, t: f64) -> Result<[f64; 2], Error> {
         let formulas = self.viewing.at(self.motion, t)?;
         Ok([instantaneous_period(formulas.azimuth_rate), formulas.width / self.mean_rate])

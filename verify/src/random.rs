@@ -1,10 +1,10 @@
-//! Seeded random points: of the physical domain, or of the prime field.
+//! Seeded random points of the physical domain or of the prime field.
 
 use crate::prelude::*;
 
 pub use twofold_scene::random::Random;
 
-/// The largest figure over `count` cases, each drawn from the random numbers of a seed.
+/// The largest figure over `count` cases, each drawn with the random numbers of a seed.
 pub(crate) fn worst_of_draws<F: Figure>(
     seed: u64,
     count: usize,
@@ -14,9 +14,9 @@ pub(crate) fn worst_of_draws<F: Figure>(
     worst_of((0..count).map(|case| format!("case {case} of seed {seed}")), |_| figure(&mut random))
 }
 
-/// A number that can be drawn from a range; a field without order takes any element.
+/// A number that can be drawn from a range; in a field without order, any element.
 pub trait Drawn: Scalar {
-    /// A random number of the range.
+    /// A random number from the range.
     fn draw(random: &mut Random, low: f64, high: f64) -> Self;
 }
 
@@ -45,7 +45,7 @@ pub struct Point<F> {
     pub spheroid: RigidSpheroid<F>,
     /// Another body, with three moments of inertia.
     pub inertia: PrincipalInertia<F>,
-    /// Its tensor `U^ij` (symmetric, six components) in the body frame.
+    /// The tensor `U^ij` of that body (symmetric, six components) in the body frame.
     pub potential_energy_tensor: Matrix3<F>,
     /// Eigenvalues of `s^IJ`.
     pub s: PrincipalCoefficients<F>,
@@ -55,11 +55,11 @@ pub struct Point<F> {
     pub angles: EulerAngles<F>,
     /// Their rates.
     pub rates: EulerRates<F>,
-    /// Their accelerations, not those of any equation of motion.
+    /// Their accelerations, which satisfy no equation of motion.
     pub accelerations: EulerRates<F>,
     /// Angles of a fixed rotation of the inertial frame.
     pub frame: EulerAngles<F>,
-    /// Derivatives of some potential by the angles.
+    /// Derivatives of an arbitrary potential by the angles.
     pub gradient: Vector3<F>,
     /// Four more numbers between -1 and 1.
     pub numbers: [F; 4],
@@ -67,7 +67,7 @@ pub struct Point<F> {
 
 impl<F: Drawn> Point<F> {
     /// A random point: inertias and `C` in `[1/2, 2)`, coefficients in `(-0.1, 0.1)`, rates in `(-2, 2)`, inclinations at
-    /// least 0.2 rad from the poles (closer is the matter of the regular equations).
+    /// least 0.2 rad from the poles (points closer to a pole are left to the regular equations).
     pub fn draw(random: &mut Random) -> Self {
         let positive = |random: &mut Random| F::draw(random, 0.5, 2.0);
         let angles = |random: &mut Random| EulerAngles {

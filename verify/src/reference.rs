@@ -1,4 +1,4 @@
-//! The reference motions: initial values and 34-digit states of ten scenes, and the pulses of two, included as test data.
+//! The reference motions: initial values and 34-digit states of ten scenes, and the pulses of two, as test data.
 
 use crate::prelude::*;
 
@@ -21,7 +21,7 @@ pub struct ReferenceMotion {
     pub states: Vec<(f64, BodyState<f64>)>,
 }
 
-/// A type whose values are known by their names.
+/// Implements `Debug` for a type as its name.
 macro_rules! named {
     ($type:ty) => {
         impl std::fmt::Debug for $type {
@@ -37,7 +37,7 @@ named!(ReferenceMotion);
 named!(ReferenceGradient);
 
 impl ReferenceMotion {
-    /// `s^IJ` in the principal frame.
+    /// `s^IJ` in its principal frame.
     pub fn violation(&self) -> Matrix3<f64> {
         self.coefficients.tensor()
     }
@@ -100,18 +100,18 @@ pub fn reference_motion(name: &str) -> ReferenceMotion {
         .unwrap_or_else(|| panic!("no reference motion is called {name}"))
 }
 
-/// One reference pulse: whole, of the beam `chi = 0.5`, `delta = 0`, `rho = 0.6` seen from `theta_o = 0.8`, `phi_o = 0`.
+/// One complete reference pulse of the beam `chi = 0.5`, `delta = 0`, `rho = 0.6`, seen from `theta_o = 0.8`, `phi_o = 0`.
 #[derive(Debug, Clone, Copy)]
 pub struct ReferencePulse {
     /// Time at which the line of sight enters the beam.
     pub start: f64,
-    /// Time at which it leaves.
+    /// Time of leaving the beam.
     pub end: f64,
     /// Time at which `m.n` is largest.
     pub closest_approach: f64,
 }
 
-/// The reference pulses of `tp-1` or `tp-2`, the first ones in order of time.
+/// The first reference pulses of `tp-1` or `tp-2`, in order of time.
 ///
 /// # Panics
 /// If the data compiled into the program are malformed.
@@ -123,14 +123,15 @@ pub fn reference_pulses(scene: &str) -> Vec<ReferencePulse> {
         .collect()
 }
 
-/// Derivatives of a motion by the parameters of its scene.
+/// Derivatives of a motion with respect to the parameters of its scene.
 #[derive(Clone)]
 pub struct ReferenceGradient {
     /// Name of the scene.
     pub name: String,
     /// The scene.
     pub start: Parameters<f64>,
-    /// Times, and at each for every parameter in the order of [`Parameter::OF_MOTION`] the derivatives of the components of `n`, `L` and `e_x`.
+    /// Times, and at each time, for every parameter in the order of [`Parameter::OF_MOTION`], the derivatives of the components of `n`, `L` and
+    /// `e_x`.
     pub derivatives: Vec<(f64, Vec<[f64; 9]>)>,
 }
 
@@ -168,7 +169,7 @@ fn rows(text: &'static str) -> Vec<(String, Vec<f64>)> {
     records(text).map(|record| (record[0].to_string(), numbers(&record))).collect()
 }
 
-/// The rows of a table that is compiled into the program.
+/// The rows of a table compiled into the program.
 pub(crate) fn records(text: &'static str) -> impl Iterator<Item = csv::StringRecord> {
     let reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
     reader.into_records().map(|record| record.expect("a table compiled into the program is well-formed CSV"))

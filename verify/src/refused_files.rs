@@ -1,4 +1,4 @@
-//! Files of `tests/data` that must be refused. Their first line states what the message contains.
+//! Files of `tests/data` that must be refused. Their first line states parts of the message.
 
 use std::fs;
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 /// Paths of the files in a folder of `tests/data`, each with the parts of its message.
 ///
 /// # Panics
-/// Where the folder cannot be read, or a file does not say what it expects.
+/// If the folder cannot be read, or a file does not state its message.
 pub fn refused_files(folder: &str) -> Vec<(String, Vec<String>)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data").join(folder);
     let paths = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());

@@ -1,4 +1,4 @@
-//! Checks and their results, for a reader (tables) and for a program (JSON).
+//! Checks and their results, as tables for a reader and as JSON for a program.
 
 use std::fmt::Write as _;
 
@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 /// A check and its outcome.
 pub type Result = (Check, Outcome);
 
-/// The kinds of checks in the order in which they are listed, and what each is.
+/// The kinds of checks in the order of the list, with a description of each.
 pub const KINDS: [(Kind, &str); 5] = [
     (Kind::Exact, "identities over a prime field, no tolerance"),
     (Kind::Autodiff, "the paper's formulas against automatic derivatives"),
@@ -19,8 +19,8 @@ pub const KINDS: [(Kind, &str); 5] = [
     (Kind::Regime, "errors of approximations, and where they hold"),
 ];
 
-/// A table per kind of check, `width` characters wide, and below them each failure with its reason; `detailed` ones say
-/// what each figure is.
+/// A table per kind of check, `width` characters wide, and below them each failure with its reason; if `detailed`, also
+/// the meaning of each figure.
 pub fn tables(results: &[Result], width: u16, detailed: bool) -> String {
     let longest_id = results.iter().map(|(check, _)| check.id.len()).max().unwrap_or(0);
     let id_width = u16::try_from(longest_id).unwrap_or(u16::MAX).max(6).saturating_add(2);
@@ -58,7 +58,7 @@ fn table(results: &[&Result], id_width: u16, width: u16, detailed: bool) -> Tabl
             "bound",
             "verdict",
         ]);
-    // Fixed widths, so that the tables of all kinds line up; the text takes what is left.
+    // The widths are fixed, so that the tables of all kinds line up. The text gets the rest.
     let (others, separators) = ([9, 12, 18, 9], 5);
     let text = width.saturating_sub(id_width + others.iter().sum::<u16>() + separators).max(30);
     let [equations_width, measured_width, bound_width, verdict_width] = others;
@@ -82,7 +82,7 @@ fn table(results: &[&Result], id_width: u16, width: u16, detailed: bool) -> Tabl
     table
 }
 
-/// One line: how many checks passed, and the time spent in them.
+/// One line: the number of passed checks, and the total time.
 pub fn summary(results: &[Result], seconds: f64) -> String {
     let failed = results.iter().filter(|(_, outcome)| !outcome.passed).count();
     let checks = if results.len() == 1 { "check" } else { "checks" };
@@ -127,7 +127,7 @@ fn failure(check: &Check, outcome: &Outcome) -> String {
     format!("FAIL {}: {}\n    {found}\n    required {} ({})", check.id, check.statement, check.bound, check.reason)
 }
 
-/// The measured figure in four digits.
+/// The measured figure with four digits.
 pub fn measured(outcome: &Outcome) -> String {
     match &outcome.measured {
         Ok(measured) if measured.figure == 0.0 => "0".to_owned(),
@@ -142,7 +142,7 @@ pub fn verdict(outcome: &Outcome) -> &'static str {
     if outcome.passed { "pass" } else { "FAIL" }
 }
 
-/// Equation numbers with runs drawn together: `21-25, 36`.
+/// Equation numbers with runs combined: `21-25, 36`.
 fn equations(numbers: &[u8]) -> String {
     let mut runs: Vec<(u8, u8)> = Vec::new();
     for &n in numbers {

@@ -14,7 +14,7 @@ fn pack<const N: usize, X: RotationState<f64>>(state: &X) -> Vector<f64, N> {
     Vector::from_array(core::array::from_fn(|i| vectors[i / 3][i % 3]))
 }
 
-/// The state in the first nine numbers.
+/// The state from the first nine numbers.
 fn unpack<const N: usize>(y: &Vector<f64, N>) -> BodyState<f64> {
     let vector = |k: usize| Vector3::new(y[3 * k], y[3 * k + 1], y[3 * k + 2]);
     BodyState { axis: vector(0), momentum: vector(1), equatorial_axis: vector(2) }
@@ -36,7 +36,7 @@ pub(crate) fn regular_states(
     Ok(integrated(pack(problem.initial()), rates, times, tolerance)?.iter().map(unpack).collect())
 }
 
-/// The solution that starts at the time zero, at times in ascending order.
+/// The solution that starts at time zero, at times in ascending order.
 fn integrated<const N: usize>(
     start: Vector<f64, N>,
     rates: impl Fn(f64, &Vector<f64, N>) -> Vector<f64, N>,
@@ -52,7 +52,7 @@ fn integrated<const N: usize>(
     Ok(found)
 }
 
-/// The equations of motion of the problem with another spheroid. `{u, b L.(s L)} = 2 b (s L) x u` for any axis `u` of the body, and for `L`.
+/// The equations of motion of the problem with another spheroid. `{u, b L.(s L)} = 2 b (s L) x u` holds for any axis `u` of the body, and for `L`.
 fn rates_of(problem: &Problem<f64>, spheroid: &RigidSpheroid<f64>, state: &BodyState<f64>) -> BodyState<f64> {
     let s = problem.coefficients();
     let mut rates = body_state_rates(spheroid, s, state);
@@ -63,13 +63,15 @@ fn rates_of(problem: &Problem<f64>, spheroid: &RigidSpheroid<f64>, state: &BodyS
     rates
 }
 
-/// A star under a braking torque along `L`: its states at times in ascending order from zero. Beside the equations of motion, with `C a^2` in place of `C` as for a bulge,
+/// A star under a braking torque along `L`: its states at times in ascending order from zero. The equations of motion, with `C a^2` in place of `C`
+/// as for a bulge, have the additional terms
 ///
 /// ```text
 /// dL/dt = ... - lambda L,  da/dt = -lambda a,  lambda = rate a^(n - 1) (1 + g (sin^2 theta_m - a_0))
 /// ```
 ///
-/// from `a = |L| / unit` on, with the magnetic axis of the `beam`. Friction at the rate `gamma` takes `n` towards `l = L / |L|`, and the body with it,
+/// starting from `a = |L| / unit`, with the magnetic axis of the `beam`. Friction at the rate `gamma` turns `n`, and the body with it, towards
+/// `l = L / |L|`,
 ///
 /// ```text
 /// dn/dt = ... + gamma a (n.l) (l - n (n.l))
@@ -103,11 +105,11 @@ pub(crate) fn braked_states(
     Ok(integrated(start, rates, times, tolerance)?.iter().map(unpack).collect())
 }
 
-/// Symmetry axis and angular momentum at the given times, in ascending order from zero, by the interpolant of order 8 of the
-/// method.
+/// Symmetry axis and angular momentum at the given times, in ascending order from zero, from the interpolant of order 8 of
+/// the method.
 ///
 /// # Errors
-/// What the integrator reports.
+/// Errors of the integrator.
 pub fn axis_states(
     problem: &Problem<f64, AxisState<f64>>,
     times: &[f64],
@@ -129,7 +131,7 @@ pub fn axis_states(
     Ok(states.iter().map(unpack).collect())
 }
 
-/// Euler angles after `duration` by Eq. (25) `[eleq]` and `gamma' = Omega^z - alpha' cos beta`; they count their turns.
+/// Euler angles after `duration` by Eq. (25) `[eleq]` and `gamma' = Omega^z - alpha' cos beta`, with their full turns.
 pub(crate) fn motion_in_angles(
     spheroid: &RigidSpheroid<f64>,
     s: &PrincipalCoefficients<f64>,

@@ -23,33 +23,33 @@ enum Campaign {
 pub struct Simulation {
     /// The truth.
     pub truth: Parameters<f64>,
-    /// What is fitted.
+    /// The unknowns of the fit.
     pub unknowns: Vec<Parameter>,
     /// Data with errors.
     pub data: Vec<Datum>,
-    /// Where the fit begins: beside the truth by a draw of three times the standard deviations.
+    /// Start of the fit: the truth plus a draw of three times the standard deviations.
     pub start: Parameters<f64>,
     /// End of the span.
     pub end: f64,
-    /// Scenes that were drawn before this one and not taken.
+    /// Number of scenes rejected before this one.
     pub refused: usize,
 }
 
 /// Fewest pulses of a simulated measurement.
 const FEWEST: usize = 12;
 
-/// Most scenes that are drawn for one measurement.
+/// Largest number of scenes drawn for one measurement.
 const MOST_DRAWN: usize = 1000;
 
-/// Largest [`nonlinearity`] of a measurement whose error bars are tried: those of others are not promised to hold.
+/// Largest [`nonlinearity`] of a measurement whose error bars are tested. Above it they need not hold.
 pub(crate) const LINEAR: f64 = 0.1;
 
 impl Simulation {
-    /// The measurement with a number. Scenes are drawn until one is determined by data without errors; the errors come after, and
-    /// what they are decides nothing.
+    /// Measurement `seed`. Scenes are drawn until one is determined by data without errors. The errors are drawn afterwards and
+    /// decide nothing.
     ///
     /// # Errors
-    /// A motion that cannot be computed, and a thousand scenes in vain, where eight are enough.
+    /// If a motion cannot be computed, or none of a thousand scenes is accepted; eight are enough.
     pub fn new(seed: u64) -> Result<Self, InferenceError> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let campaign = [Campaign::Pulses, Campaign::Strain, Campaign::Both][(seed % 3) as usize];
@@ -74,8 +74,8 @@ impl Simulation {
     }
 }
 
-/// Exact data and their Fisher matrix, if the scene has enough pulses, none of them short, and the data
-/// determine it so well that `chi^2` is a parabola over the error bars.
+/// Exact data and their Fisher matrix, if the scene has enough pulses, none of them short, and the data determine it so
+/// well that `chi^2` is parabolic over the error bars.
 fn determined(
     truth: &Parameters<f64>,
     campaign: Campaign,
@@ -84,11 +84,11 @@ fn determined(
 ) -> Result<Option<(Vec<Datum>, Fisher)>, InferenceError> {
     let signal = Signal::new(truth, end)?;
     let turn = signal.turn();
-    // The first turn is left out: a start beside the truth may have its pulse cut. Short pulses may go under.
+    // Without the first turn, whose pulse may be cut for a start beside the truth. Short pulses may disappear.
     let events: Vec<_> = if campaign == Campaign::Strain {
         Vec::new()
     } else {
-        // A line of sight along L has no turns.
+        // About a line of sight along L there are no turns.
         let Ok(found) = signal.events() else { return Ok(None) };
         if found.iter().any(|event| event.end - event.start < 0.1 * turn) {
             return Ok(None);
@@ -99,7 +99,7 @@ fn determined(
         }
         found
     };
-    // Strains of these stars are of the order of eps.
+    // The strains of these stars are of the order of eps.
     let strain =
         [Observable::StrainPlus, Observable::StrainCross].map(|kind| (kind, sigma * truth.spheroid.oblateness()));
     let (unknowns, noise) = match campaign {
@@ -115,12 +115,12 @@ fn determined(
         return Ok(None);
     }
     let Ok(fisher) = Fisher::of(truth, &events, &data, &unknowns)?.determined() else { return Ok(None) };
-    // A model beside the truth without the pulses of the data is far from linear too.
+    // If a model beside the truth lacks pulses of the data, it is far from linear, too.
     let linear = nonlinearity(&fisher, &data, end).is_ok_and(|found| found < LINEAR);
     Ok(linear.then_some((data, fisher)))
 }
 
-/// A star in any motion between both kinds of precession, seen from anywhere but the poles.
+/// A star in any motion between both kinds of precession, seen from any direction off the poles.
 fn random_model(random: &mut ChaCha8Rng) -> Parameters<f64> {
     let mut within = |low: f64, high: f64| random.random_range(low..high);
     let mut sign = |size: f64| size * if within(-1.0, 1.0) < 0.0 { -1.0 } else { 1.0 };

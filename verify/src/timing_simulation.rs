@@ -18,22 +18,22 @@ pub(crate) const YEAR: f64 = 3.155_76e7;
 pub struct TimingSimulation {
     /// The truth.
     pub truth: TimingModel,
-    /// Where the fit begins: beside the truth by a draw of three times the standard deviations.
+    /// Start of the fit: the truth plus a draw of three times the standard deviations.
     pub start: TimingModel,
     /// Data with errors.
     pub data: TimingData,
-    /// Stars that were drawn before this one and not taken.
+    /// Number of stars rejected before this one.
     pub refused: usize,
 }
 
-/// What is fitted.
+/// The unknowns of the fit.
 pub const UNKNOWNS: [TimingParameter; 9] =
     [Phase, F0, F1, F2, Wobble, PrecessionPhase, PrecessionRate, TorqueShare, Rho];
 
-/// Most stars that are drawn for one measurement.
+/// Largest number of stars drawn for one measurement.
 const MOST_DRAWN: usize = 100;
 
-/// Arrivals of a model, equally apart over a span (s).
+/// Arrivals of a model, equally spaced over a span (s).
 pub(crate) fn arrivals_of(
     model: &TimingModel,
     count: u32,
@@ -47,7 +47,7 @@ pub(crate) fn arrivals_of(
     (0..count).map(arrival).collect()
 }
 
-/// The widths of pulses that arrive then.
+/// The widths of the pulses at these arrivals.
 pub(crate) fn widths_of(
     model: &TimingModel,
     arrivals: &[MeasuredArrival],
@@ -61,11 +61,11 @@ pub(crate) fn widths_of(
 }
 
 impl TimingSimulation {
-    /// The simulation with a number: a wobbling star that is braked by a torque, 100 to 300 arrivals and widths over 10 to 20 years. Stars are drawn until the error bars of one are linear; the
-    /// errors come after, and what they are decides nothing.
+    /// Simulation `seed`: a wobbling star under a braking torque, 100 to 300 arrivals and widths over 10 to 20 years. Stars are drawn until the error
+    /// bars of one are linear. The errors are drawn afterwards and decide nothing.
     ///
     /// # Errors
-    /// A hundred stars in vain.
+    /// None of a hundred stars.
     pub fn new(seed: u64) -> Result<Self, InferenceError> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         for refused in 0..MOST_DRAWN {
@@ -100,7 +100,7 @@ fn random_star(random: &mut ChaCha8Rng) -> Result<(TimingModel, TimingData), two
         (Rho, within(0.7, 0.8)),
     ];
     let (span, count) = (within(10.0, 20.0) * YEAR, within(100.0, 300.0) as u32);
-    // So that the torque is seen to a hundredth: the delay is some kappa / w^2.
+    // The torque is seen to a hundredth: the delay is about kappa / w^2.
     let late = (f1 / frequency).abs() * (period / TAU).powi(2) * 0.1;
     let sigma = late.min(0.1 / frequency) * 10.0_f64.powf(within(-3.0, -2.0));
     let truth = TimingModel::new([frequency, 1e-17 * frequency], &parameters)?;

@@ -22,7 +22,7 @@ pub(crate) struct BenchArgs {
     pub(crate) force: bool,
 }
 
-/// Parts of the time that the sections take, roughly.
+/// Approximate shares of the time for the sections.
 const SHARES: [f64; 4] = [0.55, 0.25, 0.1, 0.1];
 
 pub(super) fn bench(args: &BenchArgs) -> Result<(), Failure> {
@@ -59,7 +59,7 @@ fn measure(effort: &Effort) -> Result<Results, String> {
     })
 }
 
-/// What part of all is done when so much of each section is.
+/// The completed fraction of the whole, from those of the sections.
 fn sections() -> [impl Fn(f64) -> f64; 4] {
     let mut from = 0.0;
     SHARES.map(|share| {

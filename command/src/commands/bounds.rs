@@ -22,7 +22,7 @@ pub(crate) struct BoundsArgs {
     pub(crate) json: bool,
 }
 
-/// What the recommended limit includes, and what it leaves out.
+/// What the recommended limit includes and what it neglects.
 const INCLUDES: [&str; 5] = [
     "the error of Delta W, where one is given",
     "the uncertainties of the other numbers, as given or of their last digits",
@@ -35,7 +35,7 @@ const LEAVES_OUT: [&str; 2] = [
     "the gain from several pulses together and, for alpha_2, from the directions of w and of the pulsars",
 ];
 
-/// Told of a pulse whose limits are rough.
+/// Note for a pulse whose limits are rough.
 const ROUGH: &str = "Note: within the uncertainties of the angles and the width Delta lambda changes by more than a third of itself. Limits are of first order \
 in them: here they may hold at less than 95 %";
 
@@ -95,12 +95,12 @@ pub(super) fn bounds(args: &BoundsArgs) -> Result<(), Failure> {
     print(&text)
 }
 
-/// A line of the table of a pulse.
+/// A row in the table of a pulse.
 struct Row {
     key: &'static str,
     label: String,
     value: f64,
-    /// Standard uncertainties from the change of width and from the other numbers, of what is no limit.
+    /// Standard uncertainties from the change of width and from the other numbers, for rows that are not limits.
     from_change: Option<f64>,
     from_inputs: Option<f64>,
     /// The paper's number.
@@ -122,7 +122,7 @@ impl From<Figure> for Row {
 }
 
 fn rows(pulsar: &Pulsar, printed: Option<PrintedBounds>) -> Result<Vec<Row>, String> {
-    // The paper prints orders of magnitude in 1e-16, with eta left out and with eta = 10.
+    // The paper prints orders of magnitude in 1e-16, without eta and with eta = 10.
     let order = |text: &str| text.parse().map_or(text.to_owned(), |x: f64| format!("~{:.0e}", x * 1e-16));
     let over_eta = || printed.map(|printed| order(printed.bound));
     let with_ten = || printed.map(|printed| order(printed.conservative));
@@ -134,7 +134,7 @@ fn rows(pulsar: &Pulsar, printed: Option<PrintedBounds>) -> Result<Vec<Row>, Str
             _ => None,
         };
         rows.push(Row { printed: beside, ..Row::from(figure.clone()) });
-        // Beside the paper's bounds stand those for its eta and its round I^zz/C.
+        // The paper's bounds are compared with those for its eta and its rounded I^zz/C.
         if printed.is_none() {
             continue;
         }
@@ -251,7 +251,7 @@ fn percent() -> String {
     format!("{:.0} %", CONFIDENCE * 100.0)
 }
 
-/// Three digits, two of an exponent if there is one.
+/// Three digits; two for a number with an exponent.
 fn rounded(x: f64) -> String {
     if x == 0.0 {
         "0".to_owned()
@@ -327,7 +327,7 @@ mod tests {
         let table = table_of(&[printed]);
         let header = vec!["value", "+- by inputs", "printed", "ours/printed"];
         assert_eq!(cells(&table), [header, vec!["a limit", "3.14e-16", "0", "~1e-16", "3.1"]]);
-        // Words on the left, numbers on the right, a line below.
+        // Words are on the left, numbers on the right, and a rule is below.
         let lines: Vec<_> = table.lines().collect();
         assert!(lines[2].starts_with(" a limit ") && lines[3].contains('─'), "{table}");
         assert_eq!(lines[0].find("value").map(|k| k + 5), lines[2].find("3.14e-16").map(|k| k + 8), "{table}");
@@ -338,13 +338,13 @@ mod tests {
         let table = published_table();
         let lines: Vec<_> = table.lines().collect();
         assert!(lines[lines.len() - 1].contains('─'), "{table}");
-        // Their numbers are as long, the title is shorter: it ends where they do.
+        // The numbers have equal lengths and the title is shorter: it ends where they do.
         let limit = published().next().map(|first| format!("{:.1e}", first.limit)).expect("a limit");
         assert_eq!(lines[0].find("limit").map(|k| k + 5), lines[2].find(&limit).map(|k| k + limit.len()), "{table}");
         assert_eq!(lines[0].find("source"), lines[2].find("12 pulsar systems"), "{table}");
     }
 
-    /// A measured change of width has the confidence that is told; one that is taken as a limit adds none.
+    /// A measured change of width has the stated confidence; a change that is taken as a limit adds none.
     #[test]
     fn the_recommendation_tells_how_the_limit_was_chosen() {
         let text = |change: &str| {

@@ -65,7 +65,7 @@ fn motion_of(scene: &str) -> Result<Subject, Failure> {
     Subject::of_scene(&name, &read).map_err(Failure::Failed)
 }
 
-/// Leaves out the figures for which the scene lacks something; one that was asked for by name is refused.
+/// Omits the figures for which the scene lacks something; a figure requested by name is refused.
 fn leave_out_what_is_lacking(
     chosen: &mut Vec<Recipe>,
     scene: &str,
@@ -87,7 +87,7 @@ fn leave_out_what_is_lacking(
     Ok(())
 }
 
-/// The figures asked for, by name or by number of the paper's figure, in the order of the list; all if none is named.
+/// The requested figures, by name or by number of the paper's figure, in the order of the list; all if none is named.
 fn chosen(known: &[Recipe], names: &[String]) -> Result<Vec<Recipe>, Failure> {
     let meant = |recipe: &Recipe, name: &String| {
         recipe.name == name || recipe.paper_figure.is_some_and(|number| number.to_string() == *name)

@@ -1,15 +1,15 @@
 //! Requests to end: an interrupt (Ctrl-C), a hang-up of the terminal, a request to terminate. And the signal USR1, which asks for a line
 //! of progress.
 //!
-//! Each signal is looked at by itself. An interrupt or a hang-up that is ignored when the command starts, as under `nohup` or in a
-//! script's background, stays ignored; a request to terminate is always heeded.
+//! Each signal is treated separately. An interrupt or a hang-up that is ignored when the command starts, as under `nohup` or in
+//! the background of a script, stays ignored; a request to terminate is always obeyed.
 
 use std::io::{self, IsTerminal, Write};
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Status of a command ended by such a request, by the shells' convention.
+/// Exit status of a command ended by such a request, by the convention of shells.
 pub(super) const INTERRUPTED: u8 = 130;
 
 struct OnRequest {
@@ -33,7 +33,7 @@ fn on_request() -> MutexGuard<'static, OnRequest> {
     ON_REQUEST.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Heeds requests to end from now on. To be called before anything is begun.
+/// Handles requests to end from now on. Called before any other work.
 #[cfg(unix)]
 pub(super) fn watch() -> io::Result<()> {
     use signal_hook::consts::SIGUSR1;
@@ -44,13 +44,13 @@ pub(super) fn watch() -> io::Result<()> {
     thread.spawn(move || signals.forever().for_each(heed)).map(drop)
 }
 
-/// Heeds requests to end from now on. To be called before anything is begun.
+/// Handles requests to end from now on. Called before any other work.
 #[cfg(windows)]
 pub(super) fn watch() -> io::Result<()> {
     ctrlc::try_set_handler(requested).map_err(io::Error::other)
 }
 
-/// The signals to handle, where those of the mask `ignored` are ignored.
+/// The signals to handle; those of the mask `ignored` were ignored at the start.
 #[cfg(unix)]
 fn heeded(ignored: u64) -> Vec<i32> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -58,8 +58,8 @@ fn heeded(ignored: u64) -> Vec<i32> {
     [SIGINT, SIGHUP, SIGTERM].into_iter().filter(is_heeded).collect()
 }
 
-/// The signals that this process ignores: bit n - 1 for signal n. Where the system does not say, a hang-up counts as ignored, so that
-/// `nohup` keeps its promise.
+/// The signals that this process ignores: bit n - 1 for signal n. If the system does not tell, a hang-up counts as ignored, so that
+/// `nohup` works.
 #[cfg(unix)]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -68,26 +68,26 @@ fn ignored() -> u64 {
     mask.unwrap_or(1 << (signal_hook::consts::SIGHUP - 1))
 }
 
-/// Stops the work that can stop by itself; else takes away what is not complete and ends the process.
+/// Stops work that can stop by itself; otherwise removes incomplete output and ends the process.
 fn requested() {
     let mut on_request = on_request();
     if let Some(stop) = on_request.stop.take() {
         stop.store(true, Ordering::Relaxed);
         return;
     }
-    // What was made last may lie in what was made before.
+    // The newest first: it may be inside something older.
     on_request.removals.iter().rev().for_each(|remove| remove());
     let left = if on_request.removals.is_empty() { "" } else { ": no file was left incomplete" };
-    // The terminal's line has the bar and ^C on it.
+    // The current line of the terminal shows the bar and ^C.
     let line_end = if io::stderr().is_terminal() { "\n" } else { "" };
-    // Locked to the end, so that the command says nothing after it.
+    // The lock is kept, so that the command writes nothing afterwards.
     let mut stderr = io::stderr().lock();
     let _ = writeln!(stderr, "{line_end}error: interrupted{left}");
     process::exit(INTERRUPTED.into());
 }
 
-/// Defers interrupts while the returned value lives; one that has already arrived ends the command now. For the end of a command, which could fail
-/// because an interrupt has removed a file, and for a file that joins those which an interrupt removes.
+/// Defers requests while the returned value lives; one that has already arrived ends the command now. Used at the end of a command, which could
+/// fail because an interrupt has removed a file, and to register a file that an interrupt must remove.
 pub(super) fn hold_requests() -> impl Sized {
     on_request()
 }
@@ -99,7 +99,7 @@ pub(super) fn stop_on_request() -> Arc<AtomicBool> {
     stop
 }
 
-/// Makes something that is not complete yet; `removal` gives what takes it away at a request to end, if it is still there. No request
+/// Creates something incomplete; `removal` gives the function that removes it at a request to end, if it still exists. No request
 /// comes between the two.
 pub(super) fn unfinished<T, E, R: Fn() + Send + 'static>(
     make: impl FnOnce() -> Result<T, E>,
@@ -117,7 +117,7 @@ mod tests {
 
     use super::*;
 
-    /// Bit n - 1 of the mask is signal n; a request to terminate is always heeded.
+    /// Bit n - 1 of the mask is signal n; a request to terminate is always obeyed.
     #[test]
     fn signals_that_were_ignored_stay_ignored() {
         let bit = |signal: i32| 1_u64 << (signal - 1);

@@ -49,7 +49,7 @@ pub(crate) struct LimitsArgs {
 /// Speed (km/s) of the Sun relative to the cosmic microwave background: Hinshaw et al., Astrophys. J. Suppl. 180, 225 (2009).
 const SPEED: f64 = 369.0;
 
-/// Periods in equal ratios (d).
+/// Periods with equal ratios (d).
 #[derive(Clone, Copy)]
 pub(crate) struct Periods {
     first: f64,
@@ -118,7 +118,7 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
             )));
         }
         check_periods(periods, &start, &data)?;
-        // What is refused of the scene, the unknowns and the data is refused before the fit.
+        // A scene, unknowns or data that the limits would refuse are refused before the fit.
         wobble_limits(&start, &data, &unknowns, &[], CONFIDENCE).map_err(|error| match error {
             InferenceError::TooFew { .. } => refused(error),
             error => refuse(error.to_string()),
@@ -127,7 +127,7 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
     let found = fit_timing(&start, &data, &unknowns).map_err(refused)?;
     let model = &found.fisher.parameters;
     let [short, mut all] = uncertainties(&found.fisher, |unknown| (1.0, unknown.unit().to_owned()));
-    // A double of F0 is off by a turn in 1e16.
+    // F0 as one double is wrong by a turn in 1e16.
     if let Some(row) = all.iter_mut().find(|row| row[0] == TimingParameter::F0.key()) {
         row[1] = decimal(model.frequency());
     }
@@ -167,7 +167,7 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
     print(&(page + &assumptions(model, &unknowns, &data)))
 }
 
-/// Refuses periods of a few pulses, and notes those that the data are too rare for.
+/// Refuses periods of a few pulses, and notes those for which the data are too sparse.
 fn check_periods(periods: Periods, model: &TimingModel, data: &TimingData) -> Result<(), Failure> {
     let shortest = periods.first.min(periods.last);
     let least = 1000.0 / model.value(TimingParameter::F0) / DAY;
@@ -206,7 +206,7 @@ fn read(args: &LimitsArgs, pulsar: &PulsarScene, start: &TimingModel) -> Result<
     Ok(TimingData { priors: args.prior.clone(), ..data })
 }
 
-/// A number of things, as `1 prior` or `2 priors`.
+/// A count with its noun: `1 prior` or `2 priors`.
 fn counted(number: usize, noun: &str) -> String {
     format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
 }
@@ -233,7 +233,8 @@ fn tell_fit(found: &Fit<TimingModel>, data: &TimingData, pulsar: &PulsarScene) {
     note_nonlinearity(timing_nonlinearity(&found.fisher, data));
 }
 
-/// The limit on the size of s by how fast the line of sight moves towards `L`, Eq. (41) with `I^zz / C = 4 / Omega^2` and `Delta cos lambda / Delta t = -sin(lambda) lambda'`.
+/// The limit on the size of s from the rate at which the line of sight approaches `L`, Eq. (41) with `I^zz / C = 4 / Omega^2` and
+/// `Delta cos lambda / Delta t = -sin(lambda) lambda'`.
 fn limit_on_s(found: &Fit<TimingModel>) -> Result<String, Failure> {
     let model = &found.fisher.parameters;
     let of = |parameter: TimingParameter| model.value(parameter);
@@ -251,7 +252,7 @@ fn limit_on_s(found: &Fit<TimingModel>) -> Result<String, Failure> {
     ))
 }
 
-/// What was held fixed, and what the model has.
+/// Fixed parameters and assumptions of the model.
 fn assumptions(model: &TimingModel, unknowns: &[TimingParameter], data: &TimingData) -> String {
     let fixed = TimingParameter::ALL.iter().filter(|parameter| !unknowns.contains(parameter));
     let stated = |parameter: TimingParameter, value: String| {

@@ -1,4 +1,4 @@
-//! What `fisher`, `fit` and `forecast` share: the scene, what is measured of it, what is not known.
+//! Common parts of `fisher`, `fit` and `forecast`: the scene, the measurements, the unknowns.
 
 use std::ops::Deref;
 
@@ -37,7 +37,7 @@ impl Measurement {
         Ok(Self { name: args.scene.clone(), of })
     }
 
-    /// The signal of the scene, of which not too much is measured.
+    /// The signal of the scene, if the number of data is not too large.
     pub(super) fn signal(&self) -> Result<Signal, Failure> {
         let signal = Signal::new(&self.parameters, self.end).map_err(|error| self.refused(error.into()))?;
         self.check_samples(&signal).map_err(|why| Failure::BadInput(format!("{}: {why}", self.name)))?;
@@ -60,7 +60,7 @@ impl Measurement {
     }
 }
 
-/// Says where the error bars of a fit are rough: where `chi^2` is off its parabola at one standard deviation.
+/// Notes that the error bars of a fit are rough if `chi^2` is not parabolic at one standard deviation.
 pub(super) fn note_nonlinearity(nonlinearity: Result<f64, InferenceError>) {
     if let Some(text) = roughness(nonlinearity) {
         note(&text);
@@ -77,7 +77,7 @@ fn roughness(nonlinearity: Result<f64, InferenceError>) -> Option<String> {
     }
 }
 
-/// Writes a table as CSV to the file that the arguments name, if they do.
+/// Writes a table as CSV to the file named in the arguments, if there is one.
 pub(super) fn write_csv(args: &TableArgs, rows: &[Vec<String>]) -> Result<(), Failure> {
     let Some(path) = &args.out else { return Ok(()) };
     let output = OutputFile::beside(path, args.force)?;
@@ -92,7 +92,7 @@ pub(super) fn write_csv(args: &TableArgs, rows: &[Vec<String>]) -> Result<(), Fa
     output.complete()
 }
 
-/// A table for reading: the first row is its header, the first column on the left and the others on the right.
+/// A table for reading: the first row is its header; the first column is aligned left, the others right.
 pub(super) fn readable(rows: &[Vec<String>]) -> String {
     text_table(rows, |column| column > 0, false) + "\n"
 }
@@ -143,7 +143,7 @@ mod tests {
     use twofold::nalgebra::dmatrix;
     use twofold::observables::pulsar::timing_model::{TimingModel, TimingParameter};
 
-    /// The numbers of an invented covariance: sigmas of 1e-2, 0.5, 2 and none, of which the second and third are correlated most.
+    /// An invented covariance: sigmas of 1e-2, 0.5, 2 and none; the second and third parameter are correlated most.
     #[test]
     fn uncertainties_are_those_of_the_covariance() {
         use TimingParameter::{Chi, F1, F2, Rho, Wobble};
@@ -187,10 +187,10 @@ mod tests {
         let without_prefix = |cell: &String| cell.trim_start_matches("correlation_").to_owned();
         let found: Vec<Vec<_>> = all.iter().map(|row| row.iter().map(without_prefix).collect()).collect();
         assert_eq!(found, expected.map(|row| row.map(String::from).to_vec()));
-        // An unknown that is zero has no relative error.
+        // A parameter with the value zero has no relative error.
         let fisher = Fisher { unknowns: vec![F2], covariance: dmatrix![4e-30], ..fisher };
         assert_eq!(uncertainties(&fisher, |_| (1.0, String::new()))[0][1][2..4], ["2.00e-15", ""]);
-        // Names on the left, numbers on the right.
+        // Names are aligned left, numbers right.
         let page = readable(&short);
         let lines: Vec<_> = page.lines().collect();
         assert!(lines[2].starts_with(" wobble ") && page.ends_with('\n'), "{page}");

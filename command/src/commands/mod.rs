@@ -146,16 +146,16 @@ pub(crate) struct StabilityArgs {
     rounds: u64,
 }
 
-/// How a command ends when it does not succeed.
+/// The unsuccessful ends of a command.
 #[derive(Debug)]
 pub(crate) enum Failure {
     /// A check or a computation failed: status 1.
     Failed(String),
-    /// The input is not usable: status 2.
+    /// The input cannot be used: status 2.
     BadInput(String),
-    /// Everything is written, and some of it says that it could not be computed: status 3.
+    /// Everything is written, but some of it could not be computed: status 3.
     Partly(String),
-    /// Ended by a signal, with what is left: status 130.
+    /// Ended by a signal, with a note of what remains: status 130.
     Interrupted(String),
 }
 
@@ -189,7 +189,7 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// The file that `--out` names if another argument is the same file: an output, even with `--force`, takes the place of no input.
+/// The file named by `--out` if another argument is the same file: an output, even with `--force`, must not replace an input.
 fn out_that_is_read(arguments: impl Iterator<Item = OsString>) -> Option<PathBuf> {
     let (mut out, mut others, mut is_next) = (None, Vec::new(), false);
     for argument in arguments.skip(1) {
@@ -207,7 +207,7 @@ fn out_that_is_read(arguments: impl Iterator<Item = OsString>) -> Option<PathBuf
     out.filter(|_| is_read)
 }
 
-/// Carries out a command; its exit status.
+/// Runs a command and returns its exit status.
 pub(crate) fn run_command(command: Command) -> ExitCode {
     status(match command {
         Command::Verify(args) => verify::verify(&args),
@@ -248,7 +248,7 @@ fn end(status: u8, message: &str) -> ExitCode {
     ExitCode::from(status)
 }
 
-/// A line on standard error that is no error.
+/// A line on standard error that is not an error.
 fn note(text: &str) {
     let _ = writeln!(io::stderr(), "note: {text}");
 }
@@ -257,7 +257,7 @@ fn note(text: &str) {
 mod tests {
     use super::*;
 
-    /// What the help, README and the pages of `docs/` tell the reader to type.
+    /// The commands that the help, README and the pages of `docs/` tell the reader to type.
     #[test]
     fn commands_of_the_documentation_are_understood() {
         let read = |path: &std::path::Path| std::fs::read_to_string(path).expect("a page");
@@ -272,7 +272,7 @@ mod tests {
         });
         let mut count = 0;
         for line in help.chain(shown) {
-            // Without remarks, redirections and the brackets of what may be left away.
+            // Without remarks, redirections and the brackets of optional parts.
             let typed =
                 ["  ", " >", " 2>", " |", " #"].iter().fold(line, |line, end| line.split(end).next().unwrap_or(line));
             let typed = typed.replace(['[', ']'], "");

@@ -8,7 +8,7 @@ use tempfile::NamedTempFile;
 use super::Failure;
 use super::interrupt::unfinished;
 
-/// The path of an output, if nothing stands in the way. A link is followed: what it points to is replaced.
+/// The path of an output, unless it is taken. A link is followed: the file it points to is replaced.
 pub(super) fn free_name(path: &Path, replace: bool) -> Result<PathBuf, Failure> {
     let refuse = |why: &str| Err(Failure::BadInput(format!("--out {}: {why}", path.display())));
     if path == Path::new("-") {
@@ -58,7 +58,7 @@ impl OutputFile {
         self.temporary.as_file()
     }
 
-    /// Where it is until it is complete.
+    /// Its temporary path.
     pub(super) fn path(&self) -> &Path {
         self.temporary.path()
     }
@@ -75,7 +75,7 @@ impl OutputFile {
         }
     }
 
-    /// There is nothing to write: an older file of the name, if it may be replaced, goes.
+    /// Nothing is written: an older file of this name is removed if it may be replaced.
     pub(super) fn nothing(self) -> Result<(), Failure> {
         if self.replace && self.path.is_file() {
             let cannot = |error| Failure::Failed(format!("{} cannot be removed: {error}", self.path.display()));
@@ -89,7 +89,7 @@ impl OutputFile {
 mod tests {
     use super::*;
 
-    /// What is under the name at the end where a file has come there during the computation, and whether that is a failure.
+    /// The content of the file at the end if another one has appeared during the computation, and whether that is a failure.
     fn meanwhile(replace: bool) -> (String, bool) {
         let folder = tempfile::tempdir().expect("folder");
         let path = folder.path().join("table.csv");

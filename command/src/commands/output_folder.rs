@@ -12,16 +12,16 @@ use super::interrupt::{hold_requests, unfinished};
 /// A folder that is being filled.
 pub(super) struct OutputFolder {
     path: PathBuf,
-    /// Whether the folder was made for this output.
+    /// Whether the folder was created for this output.
     new: bool,
     replace: bool,
-    /// Where files are until all of them are complete: inside the folder, so that they can be moved at once.
+    /// Folder of the files until all are complete: inside the output folder, so that they can be moved at once.
     temporary: Option<TempDir>,
 }
 
 impl OutputFolder {
-    /// The folder `path`, made if it is not there. Refused if a file of a name that `would_write` is in it, unless
-    /// files may be replaced; what is not a file never is.
+    /// The folder `path`, created if it does not exist. Refused if it contains a file with a name that `would_write`
+    /// accepts, unless files may be replaced; anything but a file is never replaced.
     pub(super) fn at(path: &Path, replace: bool, would_write: impl Fn(&str) -> bool) -> Result<Self, Failure> {
         let refuse = |why: String| Failure::BadInput(format!("--out {}: {why}", path.display()));
         let new = !path.exists();
@@ -30,7 +30,7 @@ impl OutputFolder {
                 return Err(refuse("is a link to nothing".into()));
             }
             let made = path.to_owned();
-            // Goes only if nothing is in it.
+            // The folder is removed only if it is empty.
             unfinished(|| fs::create_dir_all(path), |()| move || drop(fs::remove_dir(&made)))
                 .map_err(|error| refuse(format!("no folder can be made: {error}")))?;
         } else if !path.is_dir() {
@@ -65,17 +65,17 @@ impl OutputFolder {
         Ok(folder)
     }
 
-    /// Writes a file, for now aside.
+    /// Writes a file to the temporary folder.
     pub(super) fn write(&self, name: &str, content: &[u8]) -> Result<(), Failure> {
         let Some(temporary) = &self.temporary else { return Ok(()) };
-        // A folder into which a file comes while it is taken away would stay.
+        // The folder could not be removed if a file was added during the removal.
         let _held = hold_requests();
         fs::write(temporary.path().join(name), content)
             .map_err(|error| cannot_be_written(&self.path.join(name), &error))
     }
 
-    /// Gives the files their names; says how many there are. If one cannot have its name, those named before it keep
-    /// theirs; without leave to replace, none takes the name of a file that has appeared since.
+    /// Moves the files to their names and returns their number. If one cannot have its name, those moved before it keep
+    /// theirs; without permission to replace, none takes the name of a file that has appeared since.
     pub(super) fn complete(mut self) -> Result<usize, Failure> {
         let Some(temporary) = self.temporary.take() else { return Ok(0) };
         let _held = hold_requests();
@@ -97,7 +97,7 @@ impl Drop for OutputFolder {
     fn drop(&mut self) {
         drop(self.temporary.take());
         if self.new {
-            // Goes only if nothing is in it.
+            // The folder is removed only if it is empty.
             let _ = fs::remove_dir(&self.path);
         }
     }
@@ -113,7 +113,7 @@ mod tests {
 
     use super::{Failure, OutputFolder};
 
-    /// What a file that appears while the folder is filled holds afterwards, and the failure.
+    /// The final content of a file that appears while the folder is filled, and the failure.
     fn meanwhile(replace: bool) -> (String, Option<String>) {
         let parent = tempfile::tempdir().expect("folder");
         let folder = OutputFolder::at(parent.path(), replace, |name| name == "page").expect("empty folder");
@@ -128,7 +128,7 @@ mod tests {
         (fs::read_to_string(parent.path().join("page")).expect("text"), failure)
     }
 
-    /// A command that fails takes away the folder that it made, and leaves an empty one that was there.
+    /// A command that fails removes the folder that it created, and keeps an empty one that existed.
     #[test]
     fn a_folder_of_the_user_stays_where_nothing_is_written() {
         let parent = tempfile::tempdir().expect("folder");

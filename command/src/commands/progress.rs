@@ -9,20 +9,20 @@ use rayon::prelude::*;
 use super::interrupt::progress_requested;
 use super::note;
 
-/// On standard error: a bar, if that is a terminal, from two seconds on; else a line now and then.
+/// Progress on standard error: on a terminal a bar after two seconds, otherwise lines at intervals.
 pub(super) struct Progress {
     shown: Shown,
     start: Instant,
     /// Steps completed earlier, which do not count towards the rate.
     first: u64,
     steps: u64,
-    /// What a step is, where that is of interest.
+    /// Name of a step, if it is shown.
     unit: Option<&'static str>,
 }
 
 enum Shown {
     Nothing,
-    /// And whether it is on the screen.
+    /// The flag tells whether it is on the screen.
     Bar(ProgressBar, bool),
     Lines(Lines),
 }
@@ -31,13 +31,13 @@ impl Progress {
     const QUIET: Duration = Duration::from_secs(2);
     const STEPS: f64 = 1000.0;
 
-    /// Of a computation that says which part is done; the bar is shown only if standard output does not go to the terminal too.
+    /// Progress of a computation that reports its completed part; the bar is shown only if standard output is not on the terminal, too.
     pub(super) fn new(bar_has_the_terminal: bool) -> Self {
         let style = "{percent:>3} % [{bar:40}] {elapsed}, {eta} left";
         Self::with_style(bar_has_the_terminal, (0, Self::STEPS as u64, None), style)
     }
 
-    /// Of `total` scenes, of which the first `done` do not count for the rate.
+    /// Progress of `total` scenes; the first `done` do not count for the rate.
     pub(super) fn of_scenes(done: u64, total: u64) -> Self {
         let style = "{percent:>3} % [{bar:30}] {human_pos} of {human_len} scenes, {per_sec}, {elapsed}, {eta} left";
         Self::with_style(true, (done, total, Some("scenes")), style)
@@ -65,7 +65,7 @@ impl Progress {
         Self { shown, start: Instant::now(), first, steps, unit }
     }
 
-    /// Says which part is done, from 0 to 1.
+    /// Shows the completed fraction, from 0 to 1.
     pub(super) fn show(&mut self, part: f64) {
         self.show_step((part * Self::STEPS) as u64);
     }
@@ -127,8 +127,8 @@ fn line((first, step, steps): (u64, u64, u64), unit: Option<&str>, elapsed: Dura
     if rate > 0.0 { format!("{after}, about {} left", left((steps - step) as f64 / rate)) } else { after }
 }
 
-/// Works on all items on all processors, with a bar on a terminal; the results are in the order of the items. After a failure no item is
-/// begun, and one failure is returned.
+/// Processes all items on all processors, with a bar on a terminal; the results are in the order of the items. After a failure no
+/// further item is started, and one failure is returned.
 pub(super) fn on_all_processors<T: Sync, R: Send, E: Send>(
     items: &[T],
     what: &str,
@@ -169,7 +169,7 @@ mod tests {
         );
     }
 
-    /// Seconds at which lines are written by work that says every 0.1 s what is done and takes `length` seconds.
+    /// Times (s) of lines for work that reports every 0.1 s and takes `length` seconds.
     fn times(length: u32) -> Vec<f64> {
         let mut lines = Lines::default();
         let tenths_of_a_second = 0..=10 * length;
@@ -195,7 +195,7 @@ mod tests {
         assert_eq!(line((0, 250, 1000), None, minute), "25 % done after 60 seconds, about 3 minutes left");
         assert_eq!(line((0, 0, 1000), None, minute), "0 % done after 60 seconds");
         assert_eq!(line((0, 1000, 1000), None, minute), "100 % done after 60 seconds, about 0 seconds left");
-        // So little in a year that no number of seconds holds what is left.
+        // The rate is so small that the remaining time exceeds any number of seconds.
         let year = Duration::from_secs(31_557_600);
         assert!(line((0, 1, u64::MAX), None, year).ends_with("about 31709792 years left"));
         assert!(line((0, 1, 2), None, Duration::ZERO).ends_with("about 0 seconds left"));

@@ -33,7 +33,7 @@ pub(super) fn report(args: &ReportArgs) -> Result<(), Failure> {
     finish(args, folder, &Content { results, seconds, golden, figures, environment: environment() })
 }
 
-/// Writes the page, and fails if a check does.
+/// Writes the page; fails if a check failed.
 fn finish(args: &ReportArgs, folder: OutputFolder, content: &Content) -> Result<(), Failure> {
     folder.write(PAGE, page(content).map_err(Failure::Failed)?.as_bytes())?;
     folder.complete()?;

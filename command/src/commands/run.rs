@@ -87,7 +87,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     let scene = if args.plan.method.is_none() {
         read_scene(&args.scene, names.as_deref().map_or(Columns::OfTheFile, Columns::Named))?
     } else {
-        // Whether columns can be computed over the span depends on the method, here another than that of the file.
+        // The span over which columns can be computed depends on the method, which may differ from that of the file.
         let mut scene = read_scene(&args.scene, names.as_ref().map_or(Columns::OfTheFileLater, |_| Columns::Unused))?;
         force_method(&mut scene, &args.plan, &args.scene)?;
         if let Some(names) = names {
@@ -124,16 +124,16 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A rotation by a last digit of the initial state that is told, in rad.
+/// Smallest reported rotation by the last digit of the initial state, in rad.
 const LEAST_TURNED: f64 = 1e-10;
 
-/// Of the state at the start, per `t_c`.
+/// Angular velocity at the start, per `t_c`.
 fn angular_velocity_at_start(scene: &Scene) -> f64 {
     let (body, state) = (scene.problem.spheroid(), scene.problem.initial());
     angular_velocity(body, &state.axis, &state.momentum).norm()
 }
 
-/// The quantities that an estimated error refers to. `L` is divided by its size, or by the one that the torque can give it, if that is larger.
+/// The quantities to which an estimated error refers. `L` is divided by its size, or by the size that the torque can produce if that is larger.
 fn components(scene: &Scene) -> &'static str {
     let (body, s, l) = (scene.problem.spheroid(), scene.problem.coefficients(), scene.problem.initial().momentum);
     let values = s.symmetric_eigenvalues();
@@ -146,7 +146,7 @@ pub(super) fn force_method(scene: &mut Scene, args: &PlanArgs, name: &str) -> Re
     scene.choose_method(method).map_err(|why| Failure::BadInput(format!("--method for {name}: {why}")))
 }
 
-/// The scene of a command that does not follow a star that slows down, with notes of what in it looks like a mistake.
+/// The scene for a command that ignores spin-down, with notes on probable mistakes.
 pub(super) fn read_scene(name: &str, columns: Columns<'_>) -> Result<Scene, Failure> {
     let scene = read_with_spin_down(name, columns)?;
     if scene.spin_down.is_some() {
@@ -157,17 +157,17 @@ pub(super) fn read_scene(name: &str, columns: Columns<'_>) -> Result<Scene, Fail
     Ok(scene)
 }
 
-/// The scene, with notes of what in it looks like a mistake.
+/// The scene, with notes on probable mistakes.
 pub(super) fn read_with_spin_down(name: &str, columns: Columns<'_>) -> Result<Scene, Failure> {
     let scene = Scene::named_with(name, columns)?;
     scene.cautions.iter().for_each(|caution| note(&format!("{name}: {caution}")));
     Ok(scene)
 }
 
-/// Bytes of a number in a table: as a rule 16 or 17 digits, a point and a comma; some with a sign or an exponent.
+/// Bytes of a number in a table: usually 16 or 17 digits, a point and a comma; some have a sign or an exponent.
 const BYTES_OF_A_NUMBER: f64 = 19.0;
 
-/// Size above which the size of a table is announced.
+/// Size above which the size of a table is announced (bytes).
 const LARGE: f64 = 1e7;
 
 pub(super) fn note_size(rows: f64, columns: usize) {
@@ -177,7 +177,7 @@ pub(super) fn note_size(rows: f64, columns: usize) {
     }
 }
 
-/// Lets `table` write to the file that the arguments name, or to standard output. Nothing if a reader has gone away.
+/// Lets `table` write to the file named in the arguments, or to standard output. `None` if the reader has closed it.
 pub(super) fn write<T>(
     args: &OutputArgs,
     scene: &Scene,

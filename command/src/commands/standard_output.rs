@@ -14,7 +14,7 @@ pub(super) fn standard_output() -> Result<StdoutLock<'static>, Failure> {
     Ok(io::stdout().lock())
 }
 
-/// Prints a result. A reader that has gone away (`| head`) is no failure.
+/// Prints a result. A reader that has closed its end (`| head`) is no failure.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
     write_all(standard_output()?, text)
 }
@@ -35,8 +35,8 @@ fn cannot_be_written(why: &str) -> Failure {
     Failure::Failed(format!("standard output cannot be written: {why}"))
 }
 
-/// Whether standard output was closed when the process was started. Rust's runtime then opens the null device in its place, for
-/// reading and writing; shells open it for writing alone.
+/// Whether standard output was closed when the process started. Rust's runtime then opens the null device instead, for reading
+/// and writing; shells open it only for writing.
 #[cfg(unix)]
 fn is_closed() -> bool {
     use rustix::fs::{OFlags, fcntl_getfl, fstat, stat};

@@ -51,7 +51,7 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     }
     let scenes = args.shard.unwrap_or(Shard::WHOLE).scenes(sweep.scenes);
     let identity = Identity::new(&text, &scenes);
-    // A link is followed: the table grows beside what it points to.
+    // A link is followed: the table grows next to its target.
     let target = fs::canonicalize(&args.out).unwrap_or_else(|_| args.out.clone());
     let files = SpoolFiles::of(&target);
     if args.restart {
@@ -60,11 +60,11 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     let complete = files.complete(&identity);
     let named_before = complete.is_some();
     if named_before && !files.rows.exists() && target.exists() {
-        // Only the tidying was interrupted.
+        // Only the removal of files was interrupted.
         files.remove().map_err(failed)?;
         return if complete == Some(0) { Ok(()) } else { Err(some_failed(&args.out)) };
     }
-    // What an earlier attempt at naming has written may be replaced; whether a file is that is seen when the table is named.
+    // Output of an earlier attempt to name the table may be replaced; whether the file is that output is checked when the table is named.
     let out = free_name(&args.out, args.force || (named_before && format == Format::Parquet))?;
     free_name(&errors_beside(&target), args.force || named_before)?;
 
@@ -72,7 +72,7 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     let refuse = |error: SpoolError| {
         let advice = if matches!(error, SpoolError::Different(_)) { "; --restart starts over" } else { "" };
         let why = format!("{}: {error}{advice}", files.rows.display());
-        // A disk that is full is no fault of the input.
+        // A full disk is not an error of the input.
         match &error {
             SpoolError::File(_, error) if is_full(error.kind()) => Failure::Failed(why),
             _ => Failure::BadInput(why),
@@ -137,7 +137,7 @@ fn failed(error: SpoolError) -> Failure {
     Failure::Failed(error.to_string())
 }
 
-/// Gives complete tables their names.
+/// Moves complete tables to their names.
 fn give_names(spool: &mut Spool, out: &Path, (replace, format): (bool, Format)) -> Result<(), Failure> {
     let cannot = |error: SpoolError| match error {
         SpoolError::File(path, error) if error.kind() == io::ErrorKind::AlreadyExists => {

@@ -100,7 +100,7 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
     }
     let files = folder.complete()?;
     if args.force && strain.is_none() {
-        // Left by an earlier scene of this name: they do not belong to the new files.
+        // Files of an earlier scene with this name do not belong to the new ones.
         for old in ["h_plus.txt", "h_cross.txt"] {
             let _ = std::fs::remove_file(args.out.join(file(old)));
         }
@@ -136,7 +136,7 @@ fn summary(timing: &Timing) -> String {
     )
 }
 
-/// The periods of both precessions, and a warning where the epochs are too rare to show that of the body.
+/// Notes the periods of both precessions, and warns if the epochs are too sparse to show that of the body.
 fn note_periods(pulsar: &PulsarScene, epochs: &[Epoch]) {
     let Ok(rates) = pulsar.clock.precession_rates() else { return };
     let [of_body, of_momentum] = rates.map(|rate| TAU / rate.abs() / DAY);
@@ -178,7 +178,7 @@ fn note_left_out(timing: &Timing, asked: usize) {
     }
 }
 
-/// The epochs asked for: of the scene, or of the options.
+/// The requested epochs, from the scene or from the options.
 fn epochs(args: &TimingArgs, scene: &Scene, epoch: &Epoch) -> Result<Vec<Epoch>, Failure> {
     let start = scene.times.start();
     let of_time = |t: f64| epoch.after([t - start, 0.0]);
@@ -197,7 +197,7 @@ fn epochs(args: &TimingArgs, scene: &Scene, epoch: &Epoch) -> Result<Vec<Epoch>,
     let (count, step) = match args.every {
         Some(every) => {
             positive("--every", every)?;
-            // The quotient of decimal numbers may be below a whole number by the rounding of both fractions of a day, and by its own.
+            // The quotient of decimal numbers can be below a whole number by the rounding of both day fractions and by its own.
             let rounding = 2.0 * f64::EPSILON / every + 4.0 * f64::EPSILON * days / every;
             ((days / every + rounding).floor() + 1.0, every)
         }
@@ -214,7 +214,7 @@ fn epochs(args: &TimingArgs, scene: &Scene, epoch: &Epoch) -> Result<Vec<Epoch>,
 }
 
 fn series(args: &TimingArgs, epochs: &[Epoch], period: f64) -> Result<Series, Failure> {
-    // Sixteen samples in the shorter of the wave's two periods, rounded up to a power of two.
+    // Sixteen samples in the shorter period of the wave, rounded up to a power of two.
     let rate = args.strain_rate.unwrap_or_else(|| (32.0 / period).log2().ceil().exp2());
     let span = args.strain_span.unwrap_or(64.0 * period);
     positive("--strain-rate", rate)?;
@@ -249,7 +249,7 @@ mod tests {
         args: TimingArgs,
     }
 
-    /// The arguments of `twofold timing b1828-11 --out x` and some more.
+    /// The arguments of `twofold timing b1828-11 --out x` followed by `more`.
     fn args(more: &[&str]) -> TimingArgs {
         let line = ["timing", "b1828-11", "--out", "x"].iter().chain(more);
         <Line as clap::Parser>::try_parse_from(line).expect("arguments").args
@@ -259,7 +259,7 @@ mod tests {
     fn epochs_go_from_the_first_to_the_last() {
         let scene = Scene::named("b1828-11").expect("a scene");
         let start = date("49621").expect("a date");
-        // Days after the epoch of the scene.
+        // Times in days after the epoch of the scene.
         let days = |more: &[&str]| {
             let found = epochs(&args(more), &scene, &start)?;
             Ok::<Vec<f64>, Failure>(found.iter().map(|at| at.seconds_since(&start)[0] / DAY).collect())
@@ -273,14 +273,14 @@ mod tests {
         let [found, late, early] = [&[][..], &["--from", "49622"], &["--to", "49623"]]
             .map(|more| days(&[&["--epochs", "2"], more].concat()).expect("epochs"));
         assert!(near(&found, &[0.0, last]) && near(&late, &[1.0, last]) && near(&early, &[0.0, 2.0]));
-        // The number of epochs of the scene, unless another one or their distance is asked for.
+        // The number of epochs is that of the scene, unless another number or their distance is given.
         for (more, first, end) in [(["--from", "49622"], 1.0, last), (["--to", "49623"], 0.0, 2.0)] {
             let found = days(&more).expect("epochs");
             assert!(found.len() == count && near(&[found[0], found[count - 1]], &[first, end]), "{more:?}: {found:?}");
         }
         let every = ["--to", "49623", "--every", "0.75"];
         assert!(near(&days(&every).expect("epochs"), &[0.0, 0.75, 1.5]));
-        // Half a second is a span, and nothing is none.
+        // Half a second is a span, zero is not.
         assert!(days(&["--to", "49621.000005", "--epochs", "2"]).is_ok());
         for refused in [&["--to", "49621"][..], &["--epochs", "1"], &["--every", "0"], &["--every", "1e9"]] {
             assert!(days(refused).is_err(), "{refused:?}");
@@ -293,7 +293,7 @@ mod tests {
             let found = series(&args(more), &[date("49621").expect("a date")], 0.25)?;
             Ok::<_, Failure>((found.rate, found.samples))
         };
-        // 16 / (0.25 s / 2), a power of two, and 64 turns of it.
+        // 16 / (0.25 s / 2), a power of two, and 64 periods.
         assert!(of(&[]).is_ok_and(|found| found == (128.0, 2048)));
         assert!(of(&["--strain-rate", "100"]).is_ok_and(|found| found == (100.0, 1600)));
         assert!(of(&["--strain-span", "1"]).is_ok_and(|found| found == (128.0, 128)));

@@ -21,7 +21,7 @@ pub(crate) struct VerifyArgs {
     pub(crate) json: bool,
 }
 
-/// Width of the tables where the output is not a terminal.
+/// Width of the tables if the output is not a terminal.
 const WIDTH: u16 = 130;
 
 pub(super) fn verify(args: &VerifyArgs) -> Result<(), Failure> {
@@ -50,7 +50,7 @@ pub(super) fn conclude(results: &[report::Result]) -> Result<(), Failure> {
     if failed.is_empty() { Ok(()) } else { Err(Failure::Failed(format!("failing checks: {}", failed.join(", ")))) }
 }
 
-/// Runs the checks on all processors; the results are in the order of the list.
+/// Runs the checks on all processors and returns the results in the order of the list.
 pub(super) fn run_all(checks: Vec<Check>) -> Vec<report::Result> {
     let run = |check: &Check| Ok::<_, Infallible>(check.run());
     let Ok(outcomes) = on_all_processors(&checks, "checks", |check| check.id, run);

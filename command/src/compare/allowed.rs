@@ -5,13 +5,13 @@ use super::recompute::Scales;
 
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Allowed {
-    /// Largest difference allowed; none if there is nothing to judge the column by.
+    /// Largest allowed difference; `None` if the column cannot be judged.
     pub(super) limit: Option<f64>,
     pub(super) reason: &'static str,
 }
 
 impl Allowed {
-    /// For a series beside one that starts elsewhere.
+    /// For a series compared with one that starts elsewhere.
     pub(super) const OTHER_START: Self = Self {
         limit: None,
         reason: "for information: the file was made from the caption's rounded initial values, not from Eq. (34)",
@@ -47,7 +47,7 @@ pub(super) fn allowed(known: &KnownFile, column: &str, scales: Option<&Scales>) 
     }
 }
 
-/// The allowed difference of stamps or values of a series of pulses: the error of `m.n` over its slowest rate at an edge.
+/// The allowed difference of the stamps or values of a pulse series: the error of `m.n` over its slowest rate at an edge.
 pub(super) fn allowed_of_series(known: &KnownFile, column: &str, slowest_rate: f64) -> Allowed {
     let Some(edge) = own_error(known, "m.n").map(|error| error / slowest_rate) else { return Allowed::UNKNOWN };
     if column == "stamp" {
@@ -63,10 +63,10 @@ fn own_error(known: &KnownFile, quantity: &str) -> Option<f64> {
     known.own_errors.iter().find(|(name, _)| *name == quantity).map(|(_, error)| up_to_last_digit(*error))
 }
 
-/// Roundings by which two evaluations of a phase of Eq. (33) can differ: rate, product with the time and sum, four in each.
+/// Roundings in two evaluations of a phase of Eq. (33): four in each, for the rate, its product with time and the sum.
 const ROUNDINGS: f64 = 8.0;
 
-/// The largest number that two digits give as `error`.
+/// The largest number that rounds to `error` with two digits.
 fn up_to_last_digit(error: f64) -> f64 {
     error + 10f64.powi(error.log10().floor() as i32 - 1) / 2.0
 }

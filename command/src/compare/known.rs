@@ -1,14 +1,14 @@
-//! The authors' files: what each holds, and how far it is known to be off.
+//! The authors' files: their content, and their known errors.
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Content {
-    /// Euler angles, numerically and by the perturbation solution, and two body axes.
+    /// Euler angles, from the numerical motion and from the perturbation solution, and two body axes.
     Angles,
     /// `m.n` and the curves of period and width.
     Signal,
     /// Periods of the pulses.
     Periods,
-    /// Lengths of the pulses in time.
+    /// Durations of the pulses.
     Widths,
     /// Polarizations of the wave.
     Waves,
@@ -26,7 +26,7 @@ pub(super) struct KnownFile {
     pub(super) content: Content,
     pub(super) example: &'static str,
     pub(super) rows: usize,
-    /// Known errors of the published file, by quantity; for a series of pulses, the error of `m.n`, whose roots they are.
+    /// Known errors of the published file, by quantity; for a series of pulses the error of `m.n`, whose roots they are.
     pub(super) own_errors: &'static [(&'static str, f64)],
 }
 
@@ -69,8 +69,8 @@ const fn file(
     KnownFile { name, content, example, rows, own_errors }
 }
 
-/// All files that are compared. The errors are the largest differences, in two digits, of the published files from reference
-/// motions by a 34-digit Taylor method: a general-purpose solver at its default tolerance made them.
+/// All files that are compared. The errors are the largest differences, with two digits, between the published files and
+/// reference motions by a 34-digit Taylor method: the files come from a general-purpose solver at its default tolerance.
 pub(super) const KNOWN: [KnownFile; 12] = [
     file("tp1.dat", Content::Angles, "tp-I", 10_000, &[("alpha", 4.8e-7), ("beta", 9.6e-8)]),
     file("tp2.dat", Content::Angles, "tp-II", 10_000, &[]),

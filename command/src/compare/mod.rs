@@ -1,4 +1,4 @@
-//! The authors' published data against the same numbers computed here.
+//! The authors' published data compared with the same numbers computed here.
 
 mod allowed;
 mod known;
@@ -24,9 +24,9 @@ use twofold_verify::paper_examples::{PaperExample, paper_examples};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     Agrees,
-    /// It differs by more, or by what is not a number.
+    /// It differs by more, or is not a number.
     Differs,
-    /// There is nothing known to judge the difference by.
+    /// There is no known error to judge the difference.
     NotJudged,
 }
 
@@ -37,9 +37,9 @@ pub struct ColumnDifference {
     pub difference: f64,
     /// Time of the row with the largest difference, in t_c.
     pub time: f64,
-    /// Up to what it may differ.
+    /// The allowed difference.
     pub allowed: Option<f64>,
-    /// Why so much, or why nothing is known.
+    /// Its reason, or the reason why there is none.
     pub reason: &'static str,
     pub verdict: Verdict,
 }
@@ -51,18 +51,18 @@ pub struct ComparedFile {
     pub start: String,
     pub rows: usize,
     pub columns: Vec<ColumnDifference>,
-    /// What else was seen.
+    /// Further observations.
     pub notes: Vec<String>,
 }
 
 #[derive(Debug, Clone)]
 pub struct Comparison {
     pub folder: String,
-    /// Files compared, in the order of the known names; the series of periods and widths twice.
+    /// Compared files, in the order of the known names; the series of periods and widths appear twice.
     pub files: Vec<ComparedFile>,
     /// Known names that are not in the folder.
     pub absent: Vec<&'static str>,
-    /// What else is in the folder, which is not read.
+    /// Other files in the folder, which are not read.
     pub not_read: Vec<String>,
 }
 
@@ -110,8 +110,8 @@ pub fn compare(folder: &Path) -> Result<Comparison, Failure> {
     })
 }
 
-/// What the comparison of `text` with the rows of a known file says; the first `rows` of them are all that it must have. For
-/// fuzzing: every outcome but a panic is a defined one.
+/// The comparison of `text` with the rows of a known file, which must have exactly the first `rows` of them. For fuzzing:
+/// every outcome but a panic is allowed.
 pub(crate) fn compare_text(kind: usize, text: &str, rows: usize) -> Option<Result<String, String>> {
     static SHORT: OnceLock<Vec<KnownFile>> = OnceLock::new();
     const LONGEST: usize = 16;
@@ -167,7 +167,7 @@ fn judged(
 ) -> ColumnDifference {
     let (mut time, mut difference) = (f64::NAN, f64::NEG_INFINITY);
     for (t, d) in differences {
-        // What is not a number is the largest of all.
+        // NaN counts as the largest.
         let size = if d.is_nan() { f64::INFINITY } else { d.abs() };
         if size > difference {
             (time, difference) = (t, size);

@@ -1,4 +1,4 @@
-//! The numbers of a file, computed anew at its times.
+//! The numbers of a file, recomputed at its times.
 
 use twofold::Error;
 use twofold::dynamics::{Problem, RotationState};
@@ -16,10 +16,10 @@ use super::table::Table;
 use twofold_verify::check::largest;
 use twofold_verify::paper_examples::{COEFFICIENTS, PaperExample, SPIN, spheroid};
 
-/// Truncation error asked of a motion.
+/// Truncation error requested for a motion.
 const TOLERANCE: f64 = 1e-14;
 
-// The paper's observer and beam; phi_o = delta = 0.
+// The paper's observer and beam, with phi_o = delta = 0.
 const THETA_O: f64 = 0.8;
 const CHI: f64 = 0.5;
 const RHO: f64 = 0.6;
@@ -39,7 +39,7 @@ pub(super) struct Start {
 }
 
 impl Start {
-    /// From alpha, beta and their rates, with gamma = 0 and Eq. (24).
+    /// Start from alpha, beta and their rates, with gamma = 0 and Eq. (24).
     fn new(alpha: f64, beta: f64, alpha_rate: f64, beta_rate: f64) -> Self {
         let rates = EulerRates { alpha: alpha_rate, beta: beta_rate, gamma: SPIN - alpha_rate * beta.cos() };
         Self { angles: EulerAngles { alpha, beta, gamma: 0.0 }, rates }
@@ -51,7 +51,7 @@ impl Start {
         Ok(Self::new(start.alpha, start.beta, start.alpha_rate, start.beta_rate))
     }
 
-    /// The same with beta and alpha' as in the caption of the example's figure, rounded to three decimals.
+    /// The same with beta and alpha' as in the caption of the figure, rounded to three decimals.
     pub(super) fn of_caption(example: &PaperExample) -> Result<Self, Error> {
         let start = example.initial_values()?;
         let rounded = |x: f64| (x * 1e3).round() / 1e3;
@@ -64,7 +64,7 @@ impl Start {
     }
 }
 
-/// How large what the errors of the body axes depend on becomes in a motion.
+/// Largest values in a motion of what determines the errors of the body axes.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Scales {
     pub(super) duration: f64,
@@ -72,11 +72,11 @@ pub(super) struct Scales {
     pub(super) cos_beta: f64,
     pub(super) alpha_rate: f64,
     pub(super) beta_rate: f64,
-    /// Largest phase in Eq. (33), rad; that of the homogeneous solution times its amplitude.
+    /// Largest phase in Eq. (33), rad; for the homogeneous solution multiplied by its amplitude.
     pub(super) phase: f64,
 }
 
-/// Rows of `tp1.dat` and its like.
+/// Rows of `tp1.dat` and similar files.
 pub(super) fn angles(example: &PaperExample, table: &Table) -> Result<(Vec<Vec<f64>>, Scales), Error> {
     let start = Start::of(example)?;
     let motion = start.motion(table.last_time())?;
@@ -102,8 +102,8 @@ pub(super) fn angles(example: &PaperExample, table: &Table) -> Result<(Vec<Vec<f
     Ok((rows, scales))
 }
 
-/// Rows of `mntp1.dat` and its like. The second column is the period of Eqs. (51), (52) at the instant; the third the width
-/// of Eq. (56) at the instant, zero where there is none, over the mean in time of that period's rate.
+/// Rows of `mntp1.dat` and similar files. The second column is the instantaneous period of Eqs. (51), (52). The third is
+/// the instantaneous width of Eq. (56), zero without a pulse, over the time average of the rate behind that period.
 pub(super) fn signal(example: &PaperExample, table: &Table) -> Result<Vec<Vec<f64>>, Error> {
     let start = Start::of(example)?;
     let motion = start.motion(table.last_time())?;
@@ -131,7 +131,7 @@ pub(super) fn signal(example: &PaperExample, table: &Table) -> Result<Vec<Vec<f6
     Ok(rows)
 }
 
-/// Mean of a series over its times by the trapezoidal rule.
+/// Time average of a series by the trapezoidal rule.
 fn mean_in_time(series: &[(f64, f64)]) -> f64 {
     let integral: f64 = series.windows(2).map(|pair| (pair[1].0 - pair[0].0) * (pair[0].1 + pair[1].1) / 2.0).sum();
     match (series.first(), series.last()) {
@@ -141,7 +141,7 @@ fn mean_in_time(series: &[(f64, f64)]) -> f64 {
     }
 }
 
-/// Rows of `gwtp1.dat` and its like, with r = 1.
+/// Rows of `gwtp1.dat` and similar files, with r = 1.
 pub(super) fn waves(example: &PaperExample, table: &Table) -> Result<Vec<Vec<f64>>, Error> {
     let motion = Start::of(example)?.motion(table.last_time())?;
     let (observer, body, s) = (observer(), spheroid(), COEFFICIENTS.tensor());
@@ -153,7 +153,7 @@ pub(super) fn waves(example: &PaperExample, table: &Table) -> Result<Vec<Vec<f64
     table.times().map(row).collect()
 }
 
-/// The pulses of a start, some turns beyond the last stamp of the table, and the slowest rate of `m.n` at an edge of one.
+/// The pulses of a start, up to a few turns after the last stamp of the table, and the slowest rate of `m.n` at an edge.
 pub(super) fn train(start: &Start, table: &Table) -> Result<(PulseTrain, f64), Error> {
     let until = table.last_time() + 20.0;
     let (motion, beam, n) = (start.motion(until)?, beam(), observer().direction);
@@ -178,12 +178,12 @@ mod tests {
     use super::*;
     use twofold_verify::paper_examples::paper_examples;
 
-    /// The period is a turn over the rate of the azimuth of `m` at constant beta, here by a difference quotient along the motion. The pulse ends where
-    /// the triangle of `m`, `n` and Z on the sphere has the side `rho`; as a time it is divided by the mean of that rate.
+    /// The period is a turn over the rate of the azimuth of `m` at constant beta, here from a difference quotient along the motion. The pulse ends
+    /// where the triangle of `m`, `n` and Z on the sphere has the side `rho`; this angle becomes a time by division by the mean of that rate.
     #[test]
     fn periods_and_widths_are_those_of_the_azimuth_of_the_magnetic_axis() {
         let [example, ..] = paper_examples();
-        // Steps become longer: the mean of rows is not that of time.
+        // Steps grow: the mean over rows is not that over time.
         let times: Vec<f64> = (0..=2000).map(|k| 0.1 + 25.0 * (f64::from(k) / 2000.0).powi(2)).collect();
         let last = times[2000];
         let table = Table { rows: times.iter().map(|t| vec![*t]).collect() };
@@ -203,7 +203,7 @@ mod tests {
         let mean = (0..1000).map(|k| rate(0.1 + 25.0 * (f64::from(k) + 0.5) / 1000.0)).sum::<f64>() / 1000.0;
         let mut pulsed = 0;
         for (row, t) in found.iter().zip(times) {
-            // The quotient is off by 1e-8 / 6 of the third derivative.
+            // The error of the quotient is 1e-8 / 6 of the third derivative.
             let period = TAU / rate(t);
             assert!((row[1] / period - 1.0).abs() < 1e-6, "t = {t}: {} and {period}", row[1]);
             let beam = axis(angles(t));
@@ -211,7 +211,7 @@ mod tests {
             assert!((row[0] - seen).abs() < 1e-12, "t = {t}: {} and {seen}", row[0]);
             let theta = beam.z.acos();
             let half = (RHO.cos() - theta.cos() * THETA_O.cos()) / (theta.sin() * THETA_O.sin());
-            // acos is 0 beyond 1 and pi beyond -1; means in steps of up to 0.025 are good to their square.
+            // acos is 0 above 1 and pi below -1; means in steps of up to 0.025 have an error of second order.
             let width = 2.0 * half.clamp(-1.0, 1.0).acos() / mean;
             assert!((row[2] - width).abs() < 1e-4 * width + 1e-12, "t = {t}: {} and {width}", row[2]);
             pulsed += usize::from((0.1..TAU / mean - 0.1).contains(&width));
@@ -221,7 +221,7 @@ mod tests {
 
     #[test]
     fn a_mean_is_over_time_and_not_over_rows() {
-        // 1 + 2 t at uneven times has the mean of its ends.
+        // At uneven times, 1 + 2 t has the mean of its ends.
         let series = [0.5, 1.0, 4.0].map(|t| (t, 1.0 + 2.0 * t));
         assert_eq!(mean_in_time(&series), 5.5);
         assert_eq!(mean_in_time(&[(3.0, 7.0)]), 7.0);

@@ -1,4 +1,4 @@
-//! A comparison for a reader (text) and for a program (JSON).
+//! A comparison as text and as JSON.
 
 use std::fmt::Write as _;
 
@@ -17,7 +17,7 @@ impl Verdict {
     }
 }
 
-/// A table of the largest differences, what is allowed for each column and why, and what was left aside.
+/// A table of the largest differences, the allowed ones with their reasons, and the files that were not read.
 pub fn text(comparison: &Comparison) -> String {
     let mut reasons: Vec<&str> = Vec::new();
     let header =

@@ -1,4 +1,4 @@
-//! The series of periods and widths of the pulses beside ours.
+//! The series of periods and widths of the pulses compared with ours.
 
 use twofold::observables::pulsar::Stamped;
 
@@ -9,11 +9,11 @@ use super::table::Table;
 use super::{ComparedFile, Verdict, judged};
 use twofold_verify::paper_examples::PaperExample;
 
-/// Two stamps nearer than this, in t_c, are of the same pulse; pulses of the examples are at least 3 t_c apart.
+/// Two stamps closer than this, in t_c, belong to the same pulse; pulses of the examples are at least 3 t_c apart.
 const SAME_PULSE: f64 = 1.0;
 
-/// A series of stamps and values beside the one of ours with the nearest stamps: from the rounded initial values, with which
-/// the authors' series were made, and from those of Eq. (34).
+/// A series of stamps and values compared with our series with the nearest stamps: from the rounded initial values, with
+/// which the authors' series were computed, and from those of Eq. (34).
 pub(super) fn by_stamps(
     known: &'static KnownFile,
     table: &Table,
@@ -30,7 +30,7 @@ pub(super) fn by_stamps(
         };
         let distance = |stamped: &Stamped, row: &[f64]| (stamped.time - row[0]).abs();
         let mut taken = vec![false; ours.len()];
-        // A pulse is that of one row.
+        // A pulse belongs to one row.
         let mut near = |row: &[f64]| {
             let nearest =
                 (0..ours.len()).min_by(|&a, &b| distance(&ours[a], row).total_cmp(&distance(&ours[b], row)))?;
@@ -96,12 +96,12 @@ mod tests {
         assert_eq!(verdicts(&rows), [[Agrees, Agrees], [NotJudged, NotJudged]]);
         rows.insert(1, vec![(rows[0][0] + rows[1][0]) / 2.0, rows[0][1]]);
         assert_eq!(verdicts(&rows), [[Differs, Differs], [NotJudged, NotJudged]]);
-        // The second row again, a little earlier, in the place of the first.
+        // The second row again, a little earlier, replaces the first.
         rows.splice(..2, [vec![rows[2][0] - 1e-6, rows[2][1]]]);
         assert_eq!(verdicts(&rows), [[Differs, Differs], [NotJudged, NotJudged]]);
     }
 
-    /// Periods are some 4.4 t_c long: a stamp in the middle of two is of neither.
+    /// Periods are about 4.4 t_c long: a stamp midway between two belongs to neither.
     #[test]
     fn a_row_between_two_pulses_is_of_none() {
         let [example, ..] = paper_examples();
@@ -118,10 +118,10 @@ mod tests {
         let alone =
             |notes: &[String]| notes.iter().filter(|note| note.contains("nothing of ours within 1 t_c, but")).count();
         assert_eq!(alone(&notes(&[first, second])), 0);
-        // Beside both starts of ours.
+        // Compared with both of our starts.
         let found = notes(&[first, middle, second]);
         assert_eq!(alone(&found), 2, "{found:?}");
-        // What the file lacks is told with its shortest period.
+        // Pulses missing in the file are reported with its shortest period.
         assert!(!notes(&[first, second]).iter().any(|note| note.contains("not in the file")));
         let rows = [0, 2, 5].map(|k| [ours[k].time, ours[k].value]);
         let shortest = [1, 3, 4].map(|k| ours[k].value).into_iter().fold(f64::INFINITY, f64::min);

@@ -1,4 +1,4 @@
-//! Reading a file of the authors: numbers in columns, separated by tabs or spaces, without a header.
+//! Reading the authors' files: numbers in columns, separated by tabs or spaces, without a header.
 
 use std::fs::{self, File};
 use std::path::Path;
@@ -26,14 +26,14 @@ impl Table {
     }
 }
 
-/// Reads and checks a known file. A refusal names the file and, where there is one, line and column.
+/// Reads and checks a known file. A refusal names the file and, if possible, line and column.
 pub(super) fn read(path: &Path, known: &KnownFile) -> Result<Table, String> {
     let name = path.display().to_string();
     let refuse = |message: String| format!("{name}: {message}");
     if path.is_dir() {
         return Err(refuse("is a directory, not a file of numbers".into()));
     }
-    // A pipe or a device: opening it may wait for ever.
+    // Opening a pipe or a device may wait for ever.
     if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
         return Err(refuse("is not a regular file".into()));
     }
@@ -102,7 +102,7 @@ fn words(line: &str) -> impl Iterator<Item = &str> {
     line.split([' ', '\t', '\r']).filter(|word| !word.is_empty())
 }
 
-/// The column, from one, at which a word of a line begins.
+/// The column, counted from one, at which a word of a line begins.
 fn column_of(word: &str, line: &str) -> usize {
     let before = word.as_ptr().addr() - line.as_ptr().addr();
     line[..before].chars().count() + 1

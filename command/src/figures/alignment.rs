@@ -1,4 +1,4 @@
-//! `m.n`, the cosine of the angle between the beam and the line of sight, in time.
+//! `m.n`, the cosine of the angle between the beam and the line of sight, against time.
 
 use super::drawing::*;
 
@@ -7,7 +7,7 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
     Ok(Sheet { svg: draw(name, subjects, &tables), caption: caption(subjects, &tables), tables })
 }
 
-/// `cos rho`; there is a beam, or there would be no table.
+/// `cos rho`; a scene without a beam has no such figure.
 fn edge(subject: &Subject) -> f64 {
     subject.pulsar.map_or(f64::NAN, |pulsar| pulsar.rho.cos())
 }

@@ -5,10 +5,10 @@ use twofold::observables::spectrum::SpectralLine;
 
 use super::spectrum;
 
-/// Amplitudes that are shown; above the strongest line there is room for names.
+/// Range of amplitudes; above the strongest line there is room for names.
 const AMPLITUDES: (f64, f64) = (1e-5, 40.0);
 
-/// Lines weaker than this have no names in the picture.
+/// Weaker lines have no names in the picture.
 const NAMED: f64 = 3e-3;
 
 pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> {
@@ -35,7 +35,7 @@ fn panel(subject: &Subject, i: usize, count: usize, highest: f64) -> Panel {
     Panel::new(GRID.frame(0, i), if i + 1 == count { x } else { x.bare() }, y)
 }
 
-/// The names over lines with their places, the strongest first, as far as there is room.
+/// The names above lines with their places, the strongest first, as far as there is room.
 fn names(panel: &Panel, lines: &[SpectralLine], highest: f64) -> Vec<([f64; 2], String)> {
     let mut names: Vec<([f64; 2], String)> = Vec::new();
     for line in lines.iter().filter(|line| line.amplitude > NAMED && line.frequency < highest) {
@@ -57,7 +57,7 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[Vec<SpectralLine>], highes
         }
         spectrum::draw_lines(&mut page, &panel, lines, AMPLITUDES.0, solid(BLACK, 0.7));
         for ([x, y], name) in names(&panel, lines, highest) {
-            // Upright, clear of the ticks at the left.
+            // Vertical, clear of the ticks at the left.
             let baseline = (x + 2.5).max(panel.frame.left + 10.5);
             page.turned_text([baseline, y - 3.0], -90.0, Anchor::Start, 7.0, BLACK, &name);
         }
@@ -112,7 +112,7 @@ mod tests {
     use crate::figures::caption_tests::assert_begins;
     use crate::figures::fixtures::{ANGLES, free, line, star};
 
-    /// Weak lines, those beyond the end and those beside a stronger one have none.
+    /// Weak lines, lines beyond the end and lines beside a stronger one have no name.
     #[test]
     fn names_are_over_strong_lines_with_room() {
         let x = Axis::linear("", 0.0, 10.0);

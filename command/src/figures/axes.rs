@@ -1,4 +1,4 @@
-//! A panel: a frame with axes, and curves and marks inside it.
+//! A panel: a frame with axes that contains curves and marks.
 
 use super::style::{BLACK, GREY, LABEL, Line, PAGE, SMALL, solid};
 use super::svg::{Anchor, At, Page, Rectangle};
@@ -10,7 +10,7 @@ pub(super) struct Axis {
     high: f64,
     logarithmic: bool,
     numbers: bool,
-    /// Numbers are written in full, with no power of ten taken out.
+    /// Numbers are written in full, without a common power of ten.
     in_full: bool,
 }
 
@@ -23,11 +23,11 @@ impl Axis {
         Self { logarithmic: true, ..Self::linear(label, low, high) }
     }
 
-    /// A linear axis that holds all `values` with some room on either side.
+    /// A linear axis that contains all `values` with some room on either side.
     pub(super) fn around(label: &str, values: impl IntoIterator<Item = f64>) -> Self {
         let (low, high) = values.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
         let size = high.max(-low);
-        // A constant is drawn as one: its rounding is not spread over the frame.
+        // A constant is drawn as a constant: its rounding does not fill the frame.
         let room = match high - low > 1e-3 * size {
             true => 0.06 * (high - low),
             false if size > 0.0 => 0.05 * size,
@@ -36,17 +36,17 @@ impl Axis {
         Self::linear(label, low - room, high + room)
     }
 
-    /// The same axis with its numbers in full, as dates are read.
+    /// The same axis with its numbers in full, as for dates.
     pub(super) fn in_full(self) -> Self {
         Self { in_full: true, ..self }
     }
 
-    /// The same axis with ticks but neither numbers nor a label, where the panel below has them.
+    /// The same axis with ticks but neither numbers nor a label, if the panel below has them.
     pub(super) fn bare(&self) -> Self {
         Self { label: String::new(), numbers: false, ..self.clone() }
     }
 
-    /// The same axis without numbers, where there is nothing to read off.
+    /// The same axis without numbers, if no values are read off.
     pub(super) fn unnumbered(&self) -> Self {
         Self { numbers: false, ..self.clone() }
     }
@@ -61,13 +61,13 @@ impl Axis {
         (scale(value) - scale(self.low)) / (scale(self.high) - scale(self.low))
     }
 
-    /// Power of ten that is taken out of the numbers at the ticks, to keep them short.
+    /// Power of ten that is factored out of the numbers at the ticks, to keep them short.
     fn power(&self) -> i32 {
         let size = self.high.max(-self.low).log10();
         if self.logarithmic || self.in_full || (-2.0..4.0).contains(&size) { 0 } else { size.floor() as i32 }
     }
 
-    /// The label, with the power of ten that its numbers lack.
+    /// The label with the power of ten that is factored out.
     fn full_label(&self) -> String {
         let power = self.power();
         if power == 0 || self.label.is_empty() {
@@ -80,7 +80,7 @@ impl Axis {
         }
     }
 
-    /// Large ticks with their numbers, and small ones, of an axis of this length with one number each `spacing`.
+    /// Large ticks with their numbers, and small ones, for an axis of this length with about one number per `spacing`.
     fn ticks(&self, length: f64, spacing: f64) -> (Vec<(f64, String)>, Vec<f64>) {
         if self.logarithmic { self.decades(length, spacing) } else { self.steps(length, spacing) }
     }
@@ -102,7 +102,7 @@ impl Axis {
         };
         let large: Vec<_> =
             multiples(step).map(|value| (value, signed(&format!("{:.decimals$}", value / unit)))).collect();
-        // One number alone gives no scale.
+        // A single number gives no scale.
         if large.len() < 2 && spacing > 8.0 {
             return self.steps(length, spacing / 2.0);
         }
@@ -123,7 +123,7 @@ impl Axis {
     }
 }
 
-/// `10^{−3}`.
+/// As `10^{−3}`.
 pub(super) fn power_of_ten(power: i32) -> String {
     format!("10^{{{}}}", signed(&power.to_string()))
 }
@@ -152,7 +152,7 @@ pub(super) struct Panel {
     pub(super) y_label_distance: f64,
 }
 
-/// Room that a panel needs around its frame for numbers and labels.
+/// Room for numbers and labels around the frame of a panel.
 pub(super) const LEFT: f64 = 42.0;
 pub(super) const BELOW: f64 = 29.0;
 
@@ -167,7 +167,7 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// Two panels over one another for each of some subjects, side by side.
+    /// Two panels above one another for each subject, side by side.
     pub(super) fn two_rows(columns: usize, height: f64, between: f64) -> Self {
         let count = columns as f64;
         let width = (PAGE - LEFT - 8.0 - (count - 1.0) * between) / count;
@@ -180,7 +180,7 @@ impl Grid {
         Rectangle { left, top, width, height }
     }
 
-    /// The lower end of some rows.
+    /// The lower end of `rows` rows.
     pub(super) fn bottom(&self, rows: usize) -> f64 {
         self.top + rows as f64 * self.height + (rows as f64 - 1.0) * self.between[1]
     }
@@ -191,7 +191,7 @@ impl Panel {
         Self { frame, x, y, y_label_distance: 29.0 }
     }
 
-    /// Power of ten that is taken out of the numbers at the y axis.
+    /// Power of ten that is factored out of the numbers at the y axis.
     pub(super) fn y_power(&self) -> i32 {
         self.y.power()
     }
@@ -223,13 +223,13 @@ impl Panel {
         }
     }
 
-    /// Words in the middle of a frame that holds nothing.
+    /// Words in the middle of an empty frame.
     pub(super) fn remark(&self, page: &mut Page, words: &str) {
         let Rectangle { left, top, width, height } = self.frame;
         page.text([left + width / 2.0, top + height / 2.0], Anchor::Middle, SMALL, GREY, words);
     }
 
-    /// Frame, ticks, numbers and labels: after the curves.
+    /// Frame, ticks, numbers and labels, drawn after the curves.
     pub(super) fn draw_frame(&self, page: &mut Page) {
         let f = self.frame;
         let line = solid(BLACK, 0.6);
@@ -260,14 +260,14 @@ impl Panel {
                 page.text([f.left - 3.0, y + 0.35 * SMALL], Anchor::End, SMALL, BLACK, number);
             }
         }
-        // Digits are 0.556 of the size of the letters wide.
+        // A digit is 0.556 of the font size wide.
         let widest = large.iter().map(|(_, number)| 0.556 * SMALL * super::plain(number).chars().count() as f64);
         let x =
             f.left - self.y_label_distance.max(9.0 + if self.y.logarithmic { 0.0 } else { widest.fold(0.0, f64::max) });
         page.turned_text([x, f.top + f.height / 2.0], -90.0, Anchor::Middle, LABEL, BLACK, &self.y.full_label());
     }
 
-    /// The letter of panel number `index` of `count`, above its left edge, with what tells it from the others.
+    /// The letter of panel number `index` of `count`, above its left edge, with a heading that distinguishes it.
     pub(super) fn letter(&self, page: &mut Page, index: usize, count: usize, what: &str) {
         let at = [self.frame.left, self.frame.top - 4.5];
         if count > 1 {
@@ -278,7 +278,7 @@ impl Panel {
     }
 }
 
-/// `(a)` in bold and what follows it.
+/// `(a)` in bold with the text after it.
 pub(super) fn heading(page: &mut Page, at: At, letter: char, what: &str) {
     page.label(at, Anchor::Start, format!("**({letter})** {what}").trim_end());
 }
@@ -294,7 +294,7 @@ pub(super) fn draw_mark(page: &mut Page, [x, y]: At, mark: Mark, size: f64, colo
 mod tests {
     use super::*;
 
-    /// Places of the large ticks and of the small ones, and the numbers at the large ones.
+    /// Places of the large and the small ticks, and the numbers at the large ones.
     fn ticks(axis: &Axis, length: f64, spacing: f64) -> (Vec<f64>, Vec<f64>, Vec<String>) {
         let (large, small) = axis.ticks(length, spacing);
         let (places, numbers) = large.into_iter().unzip();
@@ -312,7 +312,7 @@ mod tests {
         (0..=last).map(|i| step * f64::from(i)).collect()
     }
 
-    /// The step of the numbers is 1, 2, 5 or 10 times a power of ten and at least the distance asked for, with five small ones in it, or four in 2.
+    /// The step of the numbers is 1, 2, 5 or 10 times a power of ten and at least the requested distance, with five small ones in it, or four for 2.
     #[test]
     fn numbers_stand_at_round_steps() {
         for (high, spacing, step, small, numbers) in [
@@ -331,7 +331,7 @@ mod tests {
         }
     }
 
-    /// Below 0.01 and from 1e4 on a power of ten is taken out, but from dates.
+    /// Below 0.01 and from 1e4 on, numbers have a common power of ten, except for dates.
     #[test]
     fn long_numbers_are_written_by_a_power_of_ten() {
         let axis = Axis::linear("t [s]", 0.0, 2e4);
@@ -354,7 +354,7 @@ mod tests {
         assert_eq!(Axis::logarithmic("x", 1e-9, 1e9).power(), 0);
     }
 
-    /// An end of the axis has its tick where it is one by rounding, and not beside it.
+    /// An end of the axis has its tick if it is a round number within rounding, and none beside it.
     #[test]
     fn ends_have_ticks_where_they_are_round() {
         let (low, high) = (0.1 + 0.2, 0.7_f64.next_down());
@@ -366,7 +366,7 @@ mod tests {
         assert_near(&decades(1e-3 * (1.0 + 1e-7), 10.0 * (1.0 - 1e-7)), &[1e-2, 0.1, 1.0]);
     }
 
-    /// Where not two numbers have room they stand nearer to each other, down to a letter's height.
+    /// If there is no room for two numbers, they move closer, down to the height of a letter.
     #[test]
     fn one_number_alone_gives_no_scale() {
         assert_eq!(ticks(&Axis::linear("x", 0.1, 0.9), 10.0, 34.0).2, ["0.5"]);
@@ -384,7 +384,7 @@ mod tests {
         expected.extend([1e-2, 0.1, 1.0].iter().flat_map(|decade| (1..10).map(move |m| f64::from(m) * decade)));
         expected.extend([10.0, 20.0, 30.0]);
         assert_near(&small, &expected);
-        // 4.2 decades, a number at least each 0.3 of the length: every other one; 0.2 of it: every one; exactly one decade long: its ends.
+        // 4.2 decades with at least one number per 0.3 of the length: every second one; per 0.2: every one; for exactly one decade: its ends.
         let (places, small, _) = ticks(&axis, 100.0, 30.0);
         assert_near(&places, &[1e-2, 1.0]);
         assert_near(&small, &[1e-2, 0.1, 1.0, 10.0]);
@@ -399,7 +399,7 @@ mod tests {
         assert_near(&[0.1, 1.0, 100.0].map(|x| Axis::logarithmic("x", 0.1, 100.0).place(x)), &[0.0, 1.0 / 3.0, 1.0]);
     }
 
-    /// Six hundredths of the range on either side; of what is constant by rounding a twentieth of it.
+    /// Six hundredths of the range on either side; for a constant within rounding a twentieth of the value.
     #[test]
     fn an_axis_has_room_around_its_values() {
         let ends = |values: &[f64]| {
@@ -412,7 +412,7 @@ mod tests {
         assert_near(&ends(&[1.0, 1.0011]), &[1.0 - 6.6e-5, 1.0011 + 6.6e-5]);
         assert_near(&ends(&[0.0, 0.0]), &[-1.0, 1.0]);
         assert_near(&ends(&[0.25, 0.25]), &[0.2375, 0.2625]);
-        // Less than a thousandth of their size is no range.
+        // Less than a thousandth of the size is not a range.
         assert_near(&ends(&[4000.0, 4003.0]), &[4000.0 - 200.15, 4203.15]);
         assert_near(&ends(&[-4003.0, -4000.0]), &[-4203.15, -4000.0 + 200.15]);
     }
@@ -425,7 +425,7 @@ mod tests {
         );
     }
 
-    /// One number alone gives no scale: then there are some at half of the distance. On many decades there is one small tick each.
+    /// A single number gives no scale: the distance is then halved. On many decades there is one small tick per decade.
     #[test]
     fn there_are_two_numbers_and_not_too_many_ticks() {
         let (places, ..) = ticks(&Axis::linear("x", 0.0, 1.5), 100.0, 70.0);

@@ -5,7 +5,7 @@ use twofold::observables::Observer;
 
 use super::drawing::*;
 
-/// Colatitude and azimuth of the beam's axis, semi-open angle, colatitude and azimuth of the observer: those that are drawn.
+/// Colatitude and azimuth of the beam's axis, half opening angle, colatitude and azimuth of the observer, as drawn.
 const BEAM: [f64; 2] = [0.72, 0.8];
 const HALF_OPENING: f64 = 0.26;
 const OBSERVER: [f64; 2] = [1.05, 1.75];
@@ -35,7 +35,7 @@ fn draw(m: &Vector3<f64>, n: &Vector3<f64>) -> String {
     let rim: Vec<_> = arc(&u, &v, 0.0, std::f64::consts::TAU).iter().map(|p| m + p * HALF_OPENING.tan()).collect();
     page.area(&rim.iter().map(|p| view.at(p)).collect::<Vec<_>>(), "#dbe9f4");
     view.line(&mut page, &rim, solid(BLUE, 0.8));
-    // The two lines of the cone that are its outline: those farthest to either side of the axis on the page.
+    // The outline of the cone: its two lines farthest to either side of the axis on the page.
     let ([cx, cy], [mx, my]) = (view.at(&Vector3::zeros()), view.at(m));
     let angle = |p: &Vector3<f64>| {
         let [x, y] = view.at(p);
@@ -67,7 +67,7 @@ fn draw(m: &Vector3<f64>, n: &Vector3<f64>) -> String {
             view.name(&mut page, &points[points.len() * part / 100], 7.5, colour, name);
         }
     }
-    // The semi-open angle, from the axis to one side of the outline.
+    // The half opening angle, from the axis to one side of the outline.
     let side = sides[1].map_or(*m, |side| side.normalize());
     let across = (side - m * m.dot(&side)).normalize();
     let opening: Vec<_> = arc(m, &across, 0.0, HALF_OPENING).iter().map(|p| p * 0.8).collect();

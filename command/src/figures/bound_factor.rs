@@ -8,7 +8,7 @@ const NAME: &str = "bound-factor";
 /// Inclinations of the curve (rad); at pi/2 the paper's estimate divides by zero.
 const INCLINATIONS: (f64, f64, usize) = (0.05, 1.565, 120);
 
-/// What the paper takes for the largest value.
+/// The largest value according to the paper.
 const CONSERVATIVE: f64 = 10.0;
 
 const PRINTED: Line = dashed(VERMILION, 1.2);
@@ -81,7 +81,7 @@ fn caption(table: &Table) -> Caption {
 mod tests {
     use super::*;
 
-    /// At the rows nearest to 0.2 and to 1.4, in whatever order they are.
+    /// At the rows nearest to 0.2 and to 1.4, in any order of the rows.
     #[test]
     fn a_caption_tells_the_factor_at_two_inclinations() {
         let mut table = Table::new("", ["beta_0", "1/cos", "eta", "median", "97.5 %", "axisymmetric"]);

@@ -1,4 +1,4 @@
-//! Captions, as they are written in `command/data/captions.md`.
+//! Captions from `command/data/captions.md`.
 
 use std::fmt::Display;
 
@@ -17,7 +17,7 @@ impl Caption {
         [&self.shows, &self.parameters, &self.method, &self.says]
     }
 
-    /// The caption of a name, with words in the places of names after a dollar sign.
+    /// The caption called `name`; words replace the names after a dollar sign.
     pub(super) fn of(name: &str, words: &[(&str, String)]) -> Self {
         let [shows, parameters, method, says] =
             ["shows", "parameters", "method", "says"].map(|part| sentences(name, part, words));
@@ -25,12 +25,12 @@ impl Caption {
     }
 }
 
-/// A name in a caption with what stands in its place.
+/// A name in a caption with its replacement.
 pub(super) fn written<T: Display>((name, value): (&'static str, T)) -> (&'static str, String) {
     (name, value.to_string())
 }
 
-/// A part of the text about a figure, with words in the places of names after a dollar sign.
+/// A part of the text about a figure; words replace the names after a dollar sign.
 pub(super) fn sentences(name: &str, part: &str, words: &[(&str, String)]) -> String {
     let mut sections = TEXT.split("\n# ").skip(1).filter_map(|section| section.split_once('\n'));
     let (_, section) = sections.find(|(found, _)| *found == name).unwrap_or_else(|| panic!("nothing about {name}"));

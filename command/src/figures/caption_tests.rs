@@ -1,4 +1,4 @@
-//! The numbers of captions are those of the tables beside them.
+//! The numbers of captions agree with the tables beside them.
 
 use super::data_tests::{column, drawn};
 use super::drawn::number;
@@ -12,7 +12,7 @@ fn told(text: &str) -> f64 {
     number(&text.replace(['{', '}'], "")).unwrap_or_else(|| panic!("`{text}` is no number"))
 }
 
-/// Numbers of a caption, in its order: the text before and after each, what it is, and to how many digits.
+/// Checks numbers of a caption, in its order: the text before and after each, its value, and the number of digits.
 pub(super) fn assert_told(mut caption: &str, numbers: &[(&str, &str, f64, usize)]) {
     for &(before, after, expected, digits) in numbers {
         let (_, rest) = caption.split_once(before).unwrap_or_else(|| panic!("no `{before}` in {caption}"));
@@ -23,7 +23,7 @@ pub(super) fn assert_told(mut caption: &str, numbers: &[(&str, &str, f64, usize)
     }
 }
 
-/// What the four paragraphs of a caption begin with.
+/// The beginnings of the four paragraphs of a caption.
 pub(super) fn assert_begins(caption: &Caption, parts: [&str; 4]) {
     for (paragraph, part) in caption.paragraphs().into_iter().zip(parts) {
         assert!(paragraph.starts_with(part), "`{part}`, but\n`{paragraph}`");
@@ -34,7 +34,7 @@ pub(super) fn table(figure_name: &str, name: &str) -> &'static Table {
     figure(figure_name).tables.iter().find(|table| table.name == name).expect("a table")
 }
 
-/// The least and the largest number of a column.
+/// The smallest and the largest number of a column.
 pub(super) fn extremes(table: &Table, column: usize) -> [f64; 2] {
     let values = || table.rows.iter().map(|row| row[column]);
     [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)]
@@ -79,7 +79,7 @@ fn parts_of_the_time_in_captions_are_those_of_the_columns() {
             let words: Vec<_> = before.rsplit([',', ' ']).take(3).collect();
             let last = words.into_iter().rev().skip_while(|word| word.parse::<f64>().is_err());
             let said = told(&last.collect::<Vec<_>>().join(" "));
-            // Two digits.
+            // The caption has two digits.
             assert!((said - part).abs() <= 0.0501 * part, "{name}: {said} %, {part} % of the rows");
             compared += 1;
         }
@@ -144,7 +144,7 @@ fn pulses_are_counted_and_have_the_ranges_of_the_columns() {
     assert_told(&figure("pulse-series").caption.says, &left_out);
 }
 
-/// The strongest line of both polarizations, and what is said of others in that one, which is `h_+`.
+/// The strongest line of both polarizations, and the statements about other lines of that one, which is `h_+`.
 #[test]
 fn lines_of_waves_are_those_of_the_tables() {
     let says = &figure("wave-spectra").caption.says;
@@ -212,7 +212,7 @@ fn residuals_by_violation_are_those_of_their_table() {
     let figure = figure("violation-residuals");
     let [torque, geometry, least, middle, most, direct] =
         [1, 2, 3, 4, 5, 6].map(|k| sizes(&spin_down_tests::column(&figure.tables[0], k)));
-    // Of ten thousand times the limit, which is little enough to be in proportion.
+    // At ten thousand times the limit, which is still small enough to be linear.
     let rate = |factor: f64| Timed::new(factor).unwrap().pulsar.clock.precession_rates().unwrap()[0];
     let shift = (rate(1e4) / rate(0.0) - 1.0).abs() / 1e4;
     assert_told(
@@ -232,7 +232,7 @@ fn residuals_by_violation_are_those_of_their_table() {
     );
 }
 
-/// What a caption says of lines, points and names is in it where these are drawn, and nowhere else.
+/// The words of a caption about lines, points and names appear if and only if these are drawn.
 #[test]
 fn captions_tell_of_what_is_drawn() {
     let mut seen = [[0; 2]; 5];
@@ -242,7 +242,7 @@ fn captions_tell_of_what_is_drawn() {
             assert!(!other.contains("Angles in rad"), "{}: parameters in {other}", figure.name);
         }
         let count = |what: &str| figure.tables.iter().filter(|table| table.name.ends_with(what)).count();
-        // Rates of free precession are vermilion and dashed, the third harmonic is enlarged beside a dotted line.
+        // Rates of free precession are vermilion and dashed; the third harmonic is enlarged beside a dotted line.
         let has_line = |colour: &str, dashes: &str| {
             let lines = figure.svg.lines().filter(|line| line.contains(&format!("stroke=\"{colour}\"")));
             lines.filter(|line| line.contains(&format!("stroke-dasharray=\"{dashes}\""))).count() > 0
@@ -264,7 +264,7 @@ fn captions_tell_of_what_is_drawn() {
             "pulse-series" => {
                 told(2, caption.shows.contains("Intervals that are not"), count("-gaps") > 0);
                 told(3, caption.method.contains("Solid curves"), count("-curves") > 0);
-                // Points of a motion without curves are joined, where there are two.
+                // Points of a motion without curves are joined if there are two.
                 let has_curves = |name: &str| figure.tables.iter().any(|table| table.name == format!("{name}-curves"));
                 let is_joined = figure.tables.iter().any(|table| {
                     table.name.strip_suffix("-lengths").is_some_and(|name| !has_curves(name)) && table.rows.len() > 1

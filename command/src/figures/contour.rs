@@ -1,4 +1,4 @@
-//! Bands and lines of equal value of a function given on a grid, in the unit square.
+//! Contour bands and contour lines of a function given on a grid, in the unit square.
 
 /// Interpolated cells between two grid points.
 const FINENESS: usize = 6;
@@ -33,14 +33,14 @@ pub(super) fn bands(
     cells
 }
 
-/// Pieces of the line on which the values are `level`, by linear interpolation along the sides of the grid.
+/// Pieces of the contour line at `level`, by linear interpolation along the sides of the grid.
 pub(super) fn isoline(values: &[f64], columns: usize, rows: usize, level: f64) -> Vec<[[f64; 2]; 2]> {
     let mut pieces = Vec::new();
     let at = |i: usize, j: usize| values[i + columns * j] - level;
     let scaled = |i: f64, j: f64| [i / (columns - 1) as f64, j / (rows - 1) as f64];
     for j in 0..rows - 1 {
         for i in 0..columns - 1 {
-            // Two triangles each cell: in a triangle a line enters and leaves once.
+            // Two triangles per cell: a line enters and leaves each once.
             for corners in [[(i, j), (i + 1, j), (i + 1, j + 1)], [(i, j), (i, j + 1), (i + 1, j + 1)]] {
                 let mut ends = Vec::new();
                 for (a, b) in [(0, 1), (1, 2), (2, 0)] {
@@ -70,7 +70,8 @@ mod tests {
         (0..12).map(|k| value(f64::from(k % 4), f64::from(k / 4))).collect()
     }
 
-    /// A product of two linear functions is what interpolation makes of its values: each rectangle has the band of all that it covers, and together they cover the square.
+    /// Interpolation is exact for a product of two linear functions: each rectangle has the band of all its values, and together they cover the
+    /// square.
     #[test]
     fn bands_are_those_of_the_function() {
         let value = |x: f64, y: f64| (1.0 + 2.0 * x) * (3.0 - 0.7 * y);
@@ -90,11 +91,11 @@ mod tests {
         assert!((area - 1.0).abs() < 1e-12, "{area}");
     }
 
-    /// Pieces of the line of a linear function lie on it and are together as long as it is.
+    /// The pieces of a contour of a linear function lie on it and add up to its length.
     #[test]
     fn a_line_of_equal_value_is_whole() {
         let value = |x: f64, y: f64| 2.0 * x + 3.0 * y;
-        // From (1, 0) to (0, 2/3) of the grid for the level 2, and so on: ends in units of the grid.
+        // The line from (1, 0) to (0, 2/3) of the grid has the level 2, and so on; ends in grid units.
         for (level, from, to) in [
             (2.0, [1.0, 0.0], [0.0, 2.0 / 3.0]),
             (6.5, [3.0, 0.5 / 3.0], [0.25, 2.0]),

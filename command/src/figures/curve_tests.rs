@@ -1,4 +1,4 @@
-//! Every curve and mark of every figure, read off the picture by its axes, is the column that labels and legend say.
+//! Every curve and mark of every figure, read off the picture by its axes, is the column named by labels and legend.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use super::{Figure, Table};
 /// Half a pixel of the PNG, in points. The picture is rounded to 0.01, and lines are simplified by 0.02.
 pub(super) const HALF_A_PIXEL: f64 = 0.12;
 
-/// What labels say and the heads of columns with the same quantity in the same unit.
+/// Labels and the heads of columns for the same quantity in the same unit.
 pub(super) const LABELS: &[(&str, &str)] = &[
     ("t / t_c", "t [t_c]"),
     ("t [s]", "t [s]"),
@@ -30,7 +30,7 @@ pub(super) const LABELS: &[(&str, &str)] = &[
     ("time [ms]", "time [ms]"),
 ];
 
-/// What legends say and what the heads of columns have in its place.
+/// Entries of legends and the corresponding parts of column heads.
 const NAMES: &[(&str, &str)] = &[
     ("numerical", ""),
     ("perturbation, printed", " by perturbation printed"),
@@ -57,7 +57,7 @@ fn distance([px, py]: Point, [ax, ay]: Point, [bx, by]: Point) -> f64 {
     (px - ax - part * dx).hypot(py - ay - part * dy)
 }
 
-/// How far points are from the nearest part of some lines, at most; no farther than asked is looked.
+/// Largest distance of points from the nearest part of some lines; the search stops at the given distance.
 pub(super) fn farthest(points: &[Point], lines: &[Vec<Point>]) -> f64 {
     let mut segments: Vec<_> = lines.iter().flat_map(|line| line.windows(2).map(|ends| [ends[0], ends[1]])).collect();
     segments.sort_by(|a, b| a[0][0].min(a[1][0]).total_cmp(&b[0][0].min(b[1][0])));
@@ -71,7 +71,7 @@ pub(super) fn farthest(points: &[Point], lines: &[Vec<Point>]) -> f64 {
     points.iter().map(of).fold(0.0, f64::max)
 }
 
-/// Both ways: no row is away from the line, and no corner of the line away from a row.
+/// In both directions: every row is near the line, and every corner of the line near a row.
 pub(super) fn assert_same(what: &str, rows: &[Point], line: &[Vec<Point>], corners: &[f64; 4]) {
     let [left, top, right, bottom] = *corners;
     let is_inside = |p: &&Point| p[0] > left - 0.01 && p[0] < right + 0.01 && p[1] > top && p[1] < bottom;
@@ -84,14 +84,14 @@ pub(super) fn assert_same(what: &str, rows: &[Point], line: &[Vec<Point>], corne
     assert!(off < HALF_A_PIXEL, "{what}: a corner of the curve is {off} pt off the rows");
 }
 
-/// Table and columns of a curve of a frame by what the picture says about it.
+/// Table and columns of a curve in a frame, from its label and legend.
 fn columns<'f>(figure: &'f Figure, frame: &Frame, name: &str) -> (&'f Table, usize, usize) {
     let bare = |label: &str| label.replace(" − P", "").replace(" − W", "");
-    // The methods of one figure are tables, not columns.
+    // In one figure the methods are tables, not columns.
     let of_method = frame.y.label == "time [ms]";
     let [x, y] = [&frame.x, &frame.y]
         .map(|scale| entry(LABELS, &bare(&scale.label)).replace("{}", if of_method { "" } else { entry(NAMES, name) }));
-    // Curves have no other abscissa of that name.
+    // No other abscissa of these curves has that name.
     let x = if x.contains("{}") { x.replace("{}", "") } else { x };
     let place = |table: &Table, head: &str| table.columns.iter().position(|column| column == head);
     let scene = frame.heading.split(':').next().unwrap_or_default();
@@ -116,14 +116,14 @@ fn carried(table: &str) -> &'static str {
     if table.contains("e_x") || table.contains("ex") { "n, L, e_x" } else { "n, L" }
 }
 
-/// Columns that no curve shows: lists of lines and gaps, the paths on spheres, what maps are made of.
+/// Columns that no curve shows: lists of lines and gaps, paths on spheres, data of maps.
 fn is_not_a_curve(figure: &str, table: &str, column: &str) -> bool {
     let is_spatial = ["momentum-sphere", "beam-cone", "euler-angles", "euler-angles-yzx"].contains(&figure);
     let is_list = table.ends_with("lines") || table.ends_with("-gaps") || table == "paths";
     is_spatial || is_list || figure.ends_with("-regimes") || column.starts_with("frequency")
 }
 
-/// Spectral lines are uprights with their tops at the rows of a table, each row inside the frame has one. Gives the number of lines.
+/// Spectral lines are vertical lines with their tops at the rows of a table, one for each row inside the frame. Returns the number of lines.
 fn assert_lines(figure: &Figure, frame: &Frame) -> usize {
     let [left, top, right, bottom] = frame.corners;
     let tops: Vec<Point> = frame
@@ -167,7 +167,7 @@ fn every_curve_of_every_figure_is_the_column_that_its_axes_and_legend_name() {
         let (lines, marks) = legend(&elements);
         let mut drawn = BTreeSet::new();
         for frame in frames(&elements) {
-            // What is taken off is told in the panel.
+            // The subtracted value is written in the panel.
             let taken_off = frame.y.label.contains(" − ").then(|| {
                 let told = frame.remarks.iter().find_map(|words| words.strip_prefix(['P', 'W'])?.strip_prefix(" = "));
                 number(told.expect("a remark").trim_end_matches(" s").trim_end_matches(" t_c")).expect("a number")
@@ -182,7 +182,7 @@ fn every_curve_of_every_figure_is_the_column_that_its_axes_and_legend_name() {
             for (style, pieces) in &frame.curves {
                 let named: Vec<_> =
                     lines.iter().filter(|(line, _)| line == style).map(|(_, name)| name.as_str()).collect();
-                // A style that serves twice serves its methods in order.
+                // A style that is used twice serves its methods in order.
                 let of: Vec<(&str, &[Vec<Point>])> = match named[..] {
                     [] => vec![("numerical", &pieces[..])],
                     _ if pieces.len() > 1 && named.len() > 1 => named.into_iter().zip(pieces.chunks(1)).collect(),
@@ -192,12 +192,12 @@ fn every_curve_of_every_figure_is_the_column_that_its_axes_and_legend_name() {
                     let (table, x, y) = columns(figure, &frame, name);
                     let rows: Vec<_> = table.rows.iter().map(|row| place(row, x, y)).collect();
                     let what = format!("{} {}: {}", figure.name, table.name, table.columns[y]);
-                    // Pulses are drawn thick where m.n is above the level; grey lines join what has no gap between.
+                    // Pulses are drawn thick where m.n is above the level; grey lines join neighbours without a gap.
                     let part = (figure.name, style.1.as_str());
                     let is_part = [("beam-alignment", "1.7"), ("pulse-series", "0.5")].contains(&part);
                     if is_part && figure.name == "beam-alignment" {
                         let edge = frame.levels[0];
-                        // A pulse of one row is no line.
+                        // A pulse of one row gives no line.
                         let is_inside = |pair: &&[Vec<f64>]| pair.iter().all(|row| row[y] > edge + 1e-3);
                         let pulses = table.rows.windows(2).filter(is_inside).flatten();
                         let off = farthest(&pulses.map(|row| place(row, x, y)).collect::<Vec<_>>(), pieces);
@@ -247,7 +247,7 @@ fn every_curve_of_every_figure_is_the_column_that_its_axes_and_legend_name() {
     assert!(count > 110 && spectra > 150, "{count} curves, {spectra} lines");
 }
 
-/// Curves stand in the order of the columns, with their names to the right; what free precession lacks falls with `s`, the rest does not.
+/// Curves stand in the order of the columns, with their names to the right. Lines absent in free precession fall with `s`, the others do not.
 #[test]
 fn the_atlas_of_lines_is_its_tables() {
     let figure = figure("line-atlas");
@@ -275,7 +275,7 @@ fn the_atlas_of_lines_is_its_tables() {
     for list in figure.tables.iter().skip(2).step_by(3) {
         for row in &list.rows {
             let [nutation, rotation, slow, kind, power] = row[..] else { panic!("{row:?}") };
-            // Free precession has no slow rate; the waves have no constant whose satellites those at multiples of it would be.
+            // Free precession has no slow rate; the waves have no constant line with satellites at multiples of that rate.
             let expected = match kind {
                 2.0 if nutation == 0.0 && rotation == 0.0 => 2.0,
                 2.0 => 1.0,

@@ -1,4 +1,4 @@
-//! The data of figures against what the other commands write for the same scene, and against closed forms in SI units.
+//! The data of figures compared with the output of other commands for the same scene, and with closed forms in SI units.
 
 use std::f64::consts::{PI, TAU};
 
@@ -45,7 +45,7 @@ impl Columns {
     }
 }
 
-/// What `run` writes at some times since the start.
+/// The output of `run` at times since the start.
 fn run(scene: &Scene, group: &str, since_start: &[f64]) -> Columns {
     let mut scene = scene.clone();
     let start = scene.times.start();
@@ -60,7 +60,7 @@ pub(super) fn column(table: &Table, head: &str) -> usize {
     table.columns.iter().position(|found| found == head).unwrap_or_else(|| panic!("{head} in {:?}", table.columns))
 }
 
-/// A head of the figure beside that of `run`, in the unit of a scene.
+/// A head in the figure and that of `run`, in the units of a scene.
 fn heads(scene: &Scene, what: &str) -> Vec<(&'static str, &'static str)> {
     let wave = if scene.units.are_physical() {
         ["h_+ [1]", "h_x [1]"]
@@ -80,8 +80,8 @@ fn heads(scene: &Scene, what: &str) -> Vec<(&'static str, &'static str)> {
     }
 }
 
-/// Two motions of 1e-13 and 1e-14 over a hundred turns, near a pole and as strain of cancelling parts too: 1e-9 of the largest value, or of
-/// a radian, is a thousand times what they differ by and far below what a picture shows.
+/// Two motions at 1e-13 and 1e-14 over a hundred turns, also near a pole and as a strain with cancelling parts: 1e-9 of the largest value,
+/// or of a radian, is a thousand times their difference and far below what a picture shows.
 const SAME: f64 = 1e-9;
 
 #[test]
@@ -103,14 +103,14 @@ fn the_data_of_motions_are_the_columns_of_run_from_the_start_on() {
             ("h", of(if beam.is_empty() { "" } else { "waves" }, &name)),
         ] {
             let Some(table) = table else { continue };
-            // What the motion does not know is drawn as none, and the caption says so.
+            // A quantity below the error of the motion is drawn as zero, and the caption says so.
             if what == "h"
                 && figures.iter().any(|figure| figure.name == "waves" && figure.caption.says.contains("both are below"))
             {
                 continue;
             }
             let time = column(table, unit);
-            // The first time is the start, at zero whatever the scene's clock shows.
+            // The first time is the start, at zero on any clock of the scene.
             assert_eq!(table.rows.first().map_or(0.0, |row| row[time]), 0.0, "{name}: {what}");
             let rows: Vec<_> = table.rows.iter().skip(1).step_by(97).collect();
             if rows.is_empty() {
@@ -122,7 +122,7 @@ fn the_data_of_motions_are_the_columns_of_run_from_the_start_on() {
                 let expected = columns.column(theirs);
                 let size = if what == "h" { expected.iter().fold(0.0_f64, |size, x| size.max(x.abs())) } else { 1.0 };
                 for (i, (row, expected)) in rows.iter().zip(expected).enumerate() {
-                    // Near a pole angles are known no better than direction over distance from it.
+                    // Near a pole the accuracy of angles is that of directions over the distance from it.
                     let is_of_angles = ["angles", "perturbation"].contains(&what);
                     let beta = if is_of_angles { row[column(table, "beta [rad]")].sin() } else { 1.0 };
                     let off = (row[place] - expected).abs();
@@ -194,8 +194,8 @@ fn periods_and_lengths_are_those_of_the_pulses() {
     assert!(compared > 500, "{compared}");
 }
 
-/// The curves with mean rates keep in step with those at the instant and with the pulses; those with the rates of Eq. (57) do not, as the caption
-/// says.
+/// The curves with mean rates stay in phase with those at the instant and with the pulses; those with the rates of Eq. (57) do not, as the
+/// caption says.
 #[test]
 fn curves_with_mean_rates_keep_in_step_and_others_drift() {
     let figure = figure("pulse-series");
@@ -223,10 +223,10 @@ fn curves_with_mean_rates_keep_in_step_and_others_drift() {
     }
 }
 
-/// `m.n` of a star in free precession about Z at the inclination `b` and the rate `a`, of which the magnetic axis turns by `c` about the
-/// symmetry axis, is for an observer at the colatitude `i`
+/// For a star in free precession about Z at the inclination `b` and the rate `a`, whose magnetic axis turns about the symmetry axis at the rate
+/// `c`, `m.n` is, for an observer at the colatitude `i`,
 /// `cos i (cos chi cos b - sin chi sin b cos c t) + sin i cos chi sin b cos(a t) + sin i sin chi / 2 [(1 + cos b) cos((a + c) t) - (1 - cos b) cos((a - c) t)]`
-/// up to phases: four lines. The wave has the lines `a` and `2 a` of the quadrupole formula. All in SI units, from the constants as they are defined.
+/// up to phases: four lines. The wave has the lines `a` and `2 a` of the quadrupole formula. All in SI units, from the defined constants.
 #[test]
 fn lines_of_free_precession_have_the_amplitudes_and_frequencies_of_the_closed_form() {
     let (_, scene, figures) = drawn().into_iter().find(|(name, ..)| name == "tone").unwrap();
@@ -283,7 +283,7 @@ fn lines_of_free_precession_have_the_amplitudes_and_frequencies_of_the_closed_fo
 }
 
 /// The level of a pulse, `cos rho`, and the rates of free precession by Eq. (48), `(1 + eps) Omega / cos beta_0` and `eps Omega`; in the
-/// spectra of the wave the first and twice that.
+/// spectra of the wave the former and its double.
 #[test]
 fn levels_and_rates_are_where_they_belong() {
     let (turning, rotating) = (1.1 / 0.7_f64.cos(), 0.1);
@@ -306,7 +306,7 @@ fn levels_and_rates_are_where_they_belong() {
                 match figure.name {
                     "beam-alignment" => within(&frame.levels, &[scene.pulsar.unwrap().rho.cos()]),
                     "beam-alignment-spectra" if is_of_paper => within(&frame.uprights, &[turning, rotating]),
-                    // An inset has its own, three times the mean rate.
+                    // An inset has its own, at three times the mean rate.
                     "wave-spectra" if is_of_paper && frame.corners[2] - frame.corners[0] > 100.0 => {
                         within(&frame.uprights, &[turning, 2.0 * turning]);
                     }
@@ -341,7 +341,8 @@ fn the_times_of_methods_are_in_the_unit_of_their_axis() {
     assert!(compared > 300, "{compared}");
 }
 
-/// Amplitudes of the atlas are those of `spectrum` for the same star, which names the lines by other rates; where both columns of the atlas meet, the strongest is in it.
+/// Amplitudes of the atlas agree with `spectrum` for the same star, which names the lines by other rates. The strongest line is in the atlas where
+/// its two columns meet.
 #[test]
 fn the_atlas_has_the_lines_of_spectrum() {
     let figure = figure("line-atlas");

@@ -1,4 +1,4 @@
-//! What the figures are drawn with.
+//! Common imports of the figures.
 
 pub(super) use super::axes::*;
 pub(super) use super::caption::*;

@@ -1,13 +1,13 @@
-//! What a reader sees in a picture: its frames with their axes, curves and marks as numbers, and its spheres.
+//! The visible content of a picture: its frames with axes, curves and marks as numbers, and its spheres.
 //!
-//! Read from the text of the SVG alone: ticks and the numbers beside them give the way from the page to the numbers.
+//! It is read from the text of the SVG alone: ticks and their numbers give the scale from the page to the numbers.
 
 /// A line of the picture: stroke, width, dashes.
 pub(super) type Style = (String, String, String);
 
 pub(super) type Point = [f64; 2];
 
-/// A line, or a filled area; what cuts it off, if anything does.
+/// A line or a filled area, and the clipping region, if any.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Path {
     pub(super) points: Vec<Point>,
@@ -41,7 +41,7 @@ pub(super) fn texts(elements: &[Element]) -> impl DoubleEndedIterator<Item = &Te
     elements.iter().filter_map(|element| if let Element::Text(text) = element { Some(text) } else { None })
 }
 
-/// Whether a rectangle `[left, top, right, bottom]` holds a point, or one that is less than `slack` away.
+/// Whether a rectangle `[left, top, right, bottom]` contains a point within `slack`.
 pub(super) fn holds([left, top, right, bottom]: &[f64; 4], [x, y]: Point, slack: f64) -> bool {
     x > left - slack && x < right + slack && y > top - slack && y < bottom + slack
 }
@@ -89,7 +89,7 @@ pub(super) fn elements(svg: &str) -> Vec<Element> {
     elements
 }
 
-/// The words of a text element, `_` and `^` before what is below and above the line.
+/// The words of a text element, with `_` and `^` before subscripts and superscripts.
 fn words(line: &str) -> String {
     let (_, inner) = line.split_once('>').expect("an element");
     let inner = inner.strip_suffix("</text>").expect("an end");
@@ -100,7 +100,7 @@ fn words(line: &str) -> String {
         if let Some((attributes, text)) = span.split_once('>') {
             if let Some((_, dy)) = attributes.split_once(" dy=\"") {
                 shift += dy.split('"').next().and_then(|dy| dy.parse::<f64>().ok()).expect("a shift");
-                // Downwards is below the line; the shifts are rounded to 0.01.
+                // A downward shift is a subscript; the shifts are rounded to 0.01.
                 words += if shift > 0.1 {
                     "_"
                 } else if shift < -0.1 {
@@ -115,7 +115,7 @@ fn words(line: &str) -> String {
     words.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"").replace("&amp;", "&")
 }
 
-/// A number as it is written at a tick or in a panel, `−0.5`, `10^−3` or `1.5 × 10^−3`.
+/// A number at a tick or in a panel, `−0.5`, `10^−3` or `1.5 × 10^−3`.
 pub(super) fn number(words: &str) -> Option<f64> {
     let words = words.replace('\u{2212}', "-");
     let (factor, power) = words.split_once(" × ").unwrap_or(("1", &words));
@@ -125,35 +125,35 @@ pub(super) fn number(words: &str) -> Option<f64> {
     }
 }
 
-/// An axis: its label, and the way from the page to the numbers.
+/// An axis: its label and its scale from the page to the numbers.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Scale {
     pub(super) label: String,
     logarithmic: bool,
-    /// Two places on the page with their numbers, those of ticks.
+    /// Two ticks: place on the page and number.
     ends: [(f64, f64); 2],
 }
 
 impl Scale {
-    /// Where a number is on the page.
+    /// The place of a number on the page.
     pub(super) fn place(&self, value: f64) -> f64 {
         let [(p, a), (q, b)] = self.ends;
         let of = |x: f64| if self.logarithmic { x.log10() } else { x };
         p + (of(value) - of(a)) / (of(b) - of(a)) * (q - p)
     }
 
-    /// Which number is at a place of the page.
+    /// The number at a place of the page.
     pub(super) fn value(&self, place: f64) -> f64 {
         let [(p, a), (q, b)] = self.ends;
         let part = (place - p) / (q - p);
         if self.logarithmic { a * (b / a).powf(part) } else { a + (b - a) * part }
     }
 
-    /// Of ticks `(place, number)`, which must all fit; none of fewer than two.
+    /// Scale through ticks `(place, number)`, which must all fit; `None` for fewer than two.
     fn through(label: String, ticks: &[(f64, String)]) -> Option<Self> {
         let (first, last) = (ticks.first()?, ticks.last()?);
         let logarithmic = ticks.iter().all(|(_, number)| number.starts_with("10^"));
-        // `[10^{3} s]` or ` / 10^{3}` in the label: what the numbers lack.
+        // `[10^{3} s]` or ` / 10^{3}` in the label: the factor missing from the numbers.
         let (label, power) = taken_out(label);
         let of = |tick: &(f64, String)| Some((tick.0, number(&tick.1)? * power));
         let scale = Self { label, logarithmic, ends: [of(first)?, of(last)?] };
@@ -174,27 +174,27 @@ fn taken_out(label: String) -> (String, f64) {
     (format!("{before}{rest}").trim_end_matches(" []").to_owned(), power)
 }
 
-/// A frame with what is drawn in it.
+/// A frame with its content.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Frame {
     pub(super) corners: [f64; 4],
     pub(super) x: Scale,
     pub(super) y: Scale,
-    /// What stands above its column, without the letter.
+    /// The heading above its column, without the letter.
     pub(super) heading: String,
     /// Curves with the same line, in order of drawing.
     pub(super) curves: Vec<(Style, Vec<Vec<Point>>)>,
     /// Centres of small circles.
     pub(super) marks: Vec<(String, Vec<Point>)>,
-    /// Straight lines from one side to the other: their heights, and their distances from the left, as numbers.
+    /// Straight lines from side to side: heights of horizontal ones and abscissas of vertical ones, as numbers.
     pub(super) levels: Vec<f64>,
     pub(super) uprights: Vec<f64>,
-    /// What is written inside.
+    /// Words inside.
     pub(super) remarks: Vec<String>,
 }
 
 impl Path {
-    /// Whether it is cut off by this frame.
+    /// Whether this frame clips it.
     fn is_within(&self, corners: &[f64; 4]) -> bool {
         self.clip.is_some_and(|clip| clip.iter().zip(corners).all(|(a, b)| near(*a, *b)))
     }
@@ -206,7 +206,7 @@ fn near(a: f64, b: f64) -> bool {
 
 /// The frames of a picture in order of drawing; an axis without numbers shares those of the frame below or to the left.
 pub(super) fn frames(elements: &[Element]) -> Vec<Frame> {
-    // A closed line round something with ticks: other boxes have no numbers beside them.
+    // A closed line around something with ticks; other boxes have no numbers beside them.
     let closed = paths(elements)
         .filter(|Path { points, fill, .. }| points.len() == 5 && points[0] == points[4] && fill == "none");
     let corners = closed.map(|Path { points, .. }| [points[0][0], points[0][1], points[2][0], points[2][1]]);
@@ -226,7 +226,7 @@ pub(super) fn frames(elements: &[Element]) -> Vec<Frame> {
             return None;
         };
         if let Some(outer) = outer {
-            // What an inset shows is told by the frame around it, its powers of ten by the words above.
+            // The frame around an inset names its quantities, the words above it the powers of ten.
             let above = texts(elements).rfind(|text| near(text.at[0], c[2]) && near(text.at[1], c[1] - 4.0));
             let (_, power) = taken_out(above.map_or(String::new(), |text| text.words.clone()));
             y.ends = y.ends.map(|(place, value)| (place, value * power));
@@ -257,7 +257,7 @@ pub(super) fn frames(elements: &[Element]) -> Vec<Frame> {
     corners.iter().enumerate().filter_map(frame).collect()
 }
 
-/// The axes of a frame, as far as they have numbers of their own.
+/// The axes of a frame that have their own numbers.
 fn scales(elements: &[Element], &[left, top, right, bottom]: &[f64; 4]) -> [Option<Scale>; 2] {
     let (mut ticks, mut labels) = ([Vec::new(), Vec::new()], [String::new(), String::new()]);
     let marked = |place: f64, axis: usize| {
@@ -276,7 +276,7 @@ fn scales(elements: &[Element], &[left, top, right, bottom]: &[f64; 4]) -> [Opti
         } else if *turned && near(*y, (top + bottom) / 2.0) && *x < left && left - *x < 60.0 {
             labels[1] = words.clone();
         } else if anchor == "end" && near(*x, left - 3.0) && along {
-            // The middle of a digit is at the tick.
+            // The tick is at the middle of a digit.
             let place = y - 2.8;
             assert!(marked(place, 1), "no tick at the number {words}");
             ticks[1].push((place, words.clone()));
@@ -323,7 +323,7 @@ fn fill(frame: &mut Frame, elements: &[Element], insets: &[[f64; 4]]) {
 
 type Named<T> = Vec<(T, String)>;
 
-/// The names beside samples of lines and marks: by line, or by the colour of a mark.
+/// The names beside sample lines and marks: by line, or by the colour of a mark.
 pub(super) fn legend(elements: &[Element]) -> (Named<Style>, Named<String>) {
     let (mut lines, mut marks) = (Vec::new(), Vec::new());
     for pair in elements.windows(2) {
@@ -346,7 +346,7 @@ pub(super) fn legend(elements: &[Element]) -> (Named<Style>, Named<String>) {
     (lines, marks)
 }
 
-/// A picture of the sphere: where the origin and the heads of three axes of unit length are on the page.
+/// A picture of the sphere: places of the origin and of the heads of three unit axes on the page.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ball {
     pub(super) origin: Point,
@@ -358,7 +358,7 @@ impl Ball {
     pub(super) fn of(elements: &[Element], names: [&str; 3], lengths: [f64; 3]) -> Option<Self> {
         let arrows = arrows(elements);
         let find = |name: &str| arrows.iter().find(|(found, ..)| found == name);
-        // The dashed part of an axis inside the sphere begins at the origin; an arrow without one begins there itself.
+        // The dashed part of an axis inside the sphere begins at the origin, as does an arrow without a dashed part.
         let is_dashed = |path: &&Path| path.points.len() == 2 && path.style.0 == "#8c8c8c" && path.style.1 == "0.6";
         let first = paths(elements).find(is_dashed).map(|path| path.points[0]);
         let origin = first.or_else(|| find(names[0]).map(|(_, from, _)| *from))?;
@@ -367,12 +367,12 @@ impl Ball {
         Some(Self { origin, axes: [part(x?, lengths[0]), part(y?, lengths[1]), part(z?, lengths[2])] })
     }
 
-    /// Where a vector ends on the page.
+    /// The place of the head of a vector on the page.
     pub(super) fn place(&self, v: [f64; 3]) -> Point {
         [0, 1].map(|i| self.origin[i] + (0..3).map(|k| v[k] * self.axes[k][i]).sum::<f64>())
     }
 
-    /// Whether the head of a vector is on the side of the eye: along the normal of the page in a right-handed frame, y downwards.
+    /// Positive if the head of a vector is on the side of the eye: along the normal of the page in a right-handed frame, y downwards.
     pub(super) fn towards(&self, v: [f64; 3]) -> f64 {
         let (right, up) = (self.axes.map(|axis| axis[0]), self.axes.map(|axis| -axis[1]));
         let normal = [0, 1, 2].map(|i| right[(i + 1) % 3] * up[(i + 2) % 3] - right[(i + 2) % 3] * up[(i + 1) % 3]);

@@ -12,12 +12,12 @@ const INERTIAL: Line = solid(BLACK, 1.0);
 const BODY: Line = solid(BLUE, 1.2);
 const ARC: Line = solid(VERMILION, 1.0);
 
-/// X-Y-Z and x-y-z.
+/// Figure for X-Y-Z and x-y-z.
 pub(super) fn common() -> Result<Sheet, String> {
     sheet("euler-angles", ["*X*", "*Y*", "*Z*"], ["*M*", "*N*"], "*X*-*Y*-*Z*")
 }
 
-/// Y-Z-X and x-y-z, for forced precession about X.
+/// Figure for Y-Z-X and x-y-z, for forced precession about X.
 pub(super) fn permuted() -> Result<Sheet, String> {
     sheet("euler-angles-yzx", ["*Y*", "*Z*", "*X*"], ["*P*", "*Q*"], "*Y*-*Z*-*X*")
 }
@@ -62,7 +62,7 @@ fn draw(name: &str, axes: [&str; 3], nodes: [&str; 2], body: &[Vector3<f64>; 3],
         view.name(&mut page, &end, 8.0, VERMILION, label);
     }
 
-    // From X to the node, from Z to z, from the node to x.
+    // Arcs from X to the node, from Z to z and from the node to x.
     let across = Vector3::new(-node.y, node.x, 0.0);
     let arcs = [
         (Vector3::x(), Vector3::y(), ANGLES.alpha, 0.42, "*α*"),
@@ -86,7 +86,7 @@ fn draw(name: &str, axes: [&str; 3], nodes: [&str; 2], body: &[Vector3<f64>; 3],
 
 fn caption(axes: [&str; 3], nodes: [&str; 2], frame: &str) -> Caption {
     let [first, second, third] = axes;
-    // One stretch of italics: two side by side would be the mark of bold.
+    // One italic run: two adjacent ones would be the mark of bold.
     let line = format!("*{}*", nodes.map(plain).concat());
     let [permuted, forced] = match third {
         "*X*" => [
@@ -107,7 +107,7 @@ mod tests {
     use super::super::drawn::{elements, texts};
     use super::*;
 
-    /// `e_z` is `beta` from Z and at right angles to the line of nodes, which is `alpha` from X; `e_x` is `gamma` from that.
+    /// `e_z` is at the angle `beta` from Z and normal to the line of nodes, which is at `alpha` from X; `e_x` is at `gamma` from that line.
     #[test]
     fn the_table_has_the_axes_that_the_angles_turn() {
         let EulerAngles { alpha, beta, gamma } = ANGLES;

@@ -25,7 +25,7 @@ fn subject(example: &PaperExample) -> Result<Subject, twofold::Error> {
     let (spheroid, first, problem) = (spheroid(), example.initial_values()?, example.problem()?);
     let initial_angles = EulerAngles { alpha: first.alpha, beta: first.beta, gamma: 0.0 };
     let printed = Perturbation::new(Form::Printed, example.kind, &spheroid, &COEFFICIENTS, SPIN, &example.constants)?;
-    // Single precession goes round once in 90 to 250 t_c, twofold precession in 4.
+    // Single precession has a period of 90 to 250 t_c, twofold precession of 4.
     let angles = match example.name {
         "sp-I" => 200.0,
         "sp-II" => 500.0,
@@ -52,7 +52,7 @@ fn subject(example: &PaperExample) -> Result<Subject, twofold::Error> {
 mod tests {
     use super::*;
 
-    /// The angles that captions tell are those of the state, `gamma` being zero.
+    /// The angles in captions are those of the state, with `gamma` zero.
     #[test]
     fn examples_start_at_their_angles() {
         for example in examples().unwrap() {

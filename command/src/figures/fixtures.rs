@@ -1,4 +1,4 @@
-//! Figures for the tests: those of the paper and those of some scenes, each drawn when a test first looks at it.
+//! Figures for the tests: those of the paper and those of some scenes, each drawn when a test first needs it.
 
 use std::ops::Deref;
 use std::sync::{Arc, LazyLock};
@@ -15,7 +15,7 @@ const SCENES: [&str; 5] = ["prolate", "through-the-pole", "sp-2", "b1937+21", "b
 
 type Lazy<T> = LazyLock<T, Box<dyn FnOnce() -> T + Send + Sync>>;
 
-/// Motions that figures share.
+/// Motions shared by several figures.
 type Motions = Arc<Lazy<Vec<Subject>>>;
 
 fn motions(make: impl FnOnce() -> Vec<Subject> + Send + Sync + 'static) -> Motions {
@@ -65,7 +65,6 @@ pub(super) static OF_SCENES: LazyLock<Vec<Vec<Fixture>>> = LazyLock::new(|| {
 static WORK_PRECISION: LazyLock<Fixture> =
     LazyLock::new(|| Fixture::new("work-precision", || work_precision(&made_up_runs())));
 
-/// All of them.
 pub(super) fn fixtures() -> impl Iterator<Item = &'static Fixture> {
     OF_THE_PAPER.iter().chain(OF_SCENES.iter().flatten()).chain([&*WORK_PRECISION])
 }
@@ -81,14 +80,14 @@ pub(super) fn figure(name: &str) -> &'static Figure {
     fixtures().find(|fixture| fixture.name == name).expect("a figure")
 }
 
-/// The scenes with their names, in the order of their figures behind those of the paper.
+/// The scenes with their names, in the order in which their figures follow those of the paper.
 pub(super) fn scenes() -> Vec<(&'static str, Scene)> {
     let built_in = SCENES.iter().map(|name| (*name, Scene::named(name).unwrap()));
     let files = [("tilted", TILTED), ("tone", TONE), ("askew", ASKEW)];
     built_in.chain(files.map(|(name, text)| (name, Scene::from_toml(name, text).unwrap()))).collect()
 }
 
-/// A physical star in free precession about Z, of which every line is known in closed form.
+/// A physical star in free precession about Z, with all lines known in closed form.
 const TONE: &str = r#"
 star = { mass = 1.4, radius = 12.0, oblateness = 1e-3, spin_frequency = 57.0 }
 lorentz_violation = { eigenvalues = [0.0, 0.0, 0.0] }
@@ -109,7 +108,7 @@ pulsar = { chi = 0.7, delta = -0.8, rho = 0.5 }
 time = { start = 12.0, span = 2.0, samples = 41 }
 "#;
 
-/// A physical star given by constants in a frame that is not the principal one, seen from a known distance, with a beam that never passes.
+/// A physical star given by constants in a frame that is not principal, seen from a known distance; its beam never passes the line of sight.
 const TILTED: &str = r#"
 star = { mass = 1.4, radius = 12.0, oblateness = 2e-5, spin_frequency = 50.0 }
 lorentz_violation.tensor = [[1e-9, 2e-10, 0.0], [2e-10, -3e-10, 1e-10], [0.0, 1e-10, -7e-10]]
@@ -119,7 +118,7 @@ pulsar = { chi = 0.1, rho = 0.05 }
 time = { span = 5.0, samples = 3 }
 "#;
 
-/// Runs of more methods than there are.
+/// Runs of more methods than exist.
 pub(super) fn made_up_runs() -> Vec<Row> {
     let run = |scene: &str, carries, method: usize, i: i32| Row {
         scene: scene.to_owned(),
@@ -138,7 +137,8 @@ pub(super) fn made_up_runs() -> Vec<Row> {
         .collect()
 }
 
-/// A star of the paper's units with `I^zz / I^xx` = 1.1, an observer and a beam, for 5 t_c: by its spin, the eigenvalues of its `s` and its start.
+/// A star in the paper's units with `I^zz / I^xx` = 1.1, an observer and a beam, for 5 t_c, from its spin, the eigenvalues of `s` and its initial
+/// values.
 pub(super) fn star(name: &str, spin: f64, s: [f64; 3], initial: &str) -> Subject {
     let text = format!(
         "star = {{ inertia_ratio = 1.1, spin = {spin:?} }}\nlorentz_violation.eigenvalues = {s:?}\ninitial = {{ {initial} }}\n\
@@ -147,7 +147,7 @@ pub(super) fn star(name: &str, spin: f64, s: [f64; 3], initial: &str) -> Subject
     of_text(name, &text)
 }
 
-/// Twofold precession by its constants, and a start by angles and rates.
+/// Twofold precession by its constants, and initial values as angles and rates.
 pub(super) const CONSTANTS: &str = "kind = \"twofold\", alpha_0 = 0.3, beta_0 = 0.7, amplitude = 0.0, phase = 0.0";
 pub(super) const ANGLES: &str = "alpha = 0.3, beta = 0.7, gamma = 0.1, alpha_rate = 1.4, beta_rate = 0.0";
 
@@ -156,7 +156,7 @@ pub(super) fn free(name: &str) -> Subject {
     star(name, 1.0, [0.0; 3], CONSTANTS)
 }
 
-/// The physical star in free precession; with the sign of the rate of `alpha` and of the spin.
+/// The physical star in free precession, with the given signs of the rate of `alpha` and of the spin.
 pub(super) fn tone(alpha: f64, spin: f64) -> Subject {
     let text = TONE.replace("alpha_rate = 375.2601393880295", &format!("alpha_rate = {:?}", alpha * 375.2601393880295));
     of_text("tone", &text.replace("spin_frequency = 57.0", &format!("spin_frequency = {:?}", spin * 57.0)))
@@ -166,7 +166,7 @@ fn of_text(name: &str, text: &str) -> Subject {
     Subject::of_scene(name, &Scene::from_toml(name, text).expect("a scene")).expect("a motion")
 }
 
-/// A line of a spectrum.
+/// A spectral line.
 pub(super) fn line(frequency: f64, amplitude: f64, terms: &[(i32, &'static str)]) -> SpectralLine {
     let combination = Combination { terms: terms.to_vec() };
     SpectralLine { frequency, amplitude, phase: 0.0, uncertainty: 0.0, combination }

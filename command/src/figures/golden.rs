@@ -1,20 +1,20 @@
-//! The data of the figures: a few numbers of each, out of the tables that the pictures are drawn from.
+//! The data of the figures: a few numbers of each, from the tables behind the pictures.
 
 use twofold_verify::golden::{self, GoldenLine, GoldenTable, Printed};
 
 use super::{Figure, RECIPES, Table};
 
-/// Which numbers; the file describes itself.
+/// Selected numbers; the file describes its format.
 const NUMBERS: &str = include_str!("../../data/golden_figures.txt");
 
-/// All golden tables: those of the verification, then those of `figures`, which must be all.
+/// All golden tables: those of the verification, then those of `figures`, which must be complete.
 pub fn golden_tables(figures: &[Figure]) -> Result<Vec<GoldenTable>, String> {
     let mut tables = golden::tables()?;
     tables.extend(of_figures(NUMBERS, figures)?);
     Ok(tables)
 }
 
-/// The tables that a text of that kind asks for.
+/// The tables requested by a text in that format.
 fn of_figures(text: &'static str, figures: &[Figure]) -> Result<Vec<GoldenTable>, String> {
     let lines: Vec<_> = text.lines().filter(|line| !line.starts_with('#')).collect();
     let snapshot = |line: &'static str| line.split(' ').next().unwrap_or_default();
@@ -36,9 +36,10 @@ fn of_figures(text: &'static str, figures: &[Figure]) -> Result<Vec<GoldenTable>
     Ok(tables)
 }
 
-/// The numbers that a line of the file asks for.
+/// The numbers requested by a line of the file.
 fn numbers(figure: &Figure, line: &str) -> Option<Vec<GoldenLine>> {
-    // Errors of approximations to three digits, as in the tables of regimes, and residuals far below those of the torque; lines and other residuals, which are fitted, to six.
+    // Three digits for errors of approximations, as in the tables of regimes, and for residuals far below those of the torque; six for lines and
+    // other residuals, which are fitted.
     let digits = match figure.name.as_str() {
         "perturbation-regimes" | "method-regimes" | "violation-residuals" => 3,
         "beam-alignment-spectra" | "wave-spectra" | "line-atlas" | "spin-down" => 6,

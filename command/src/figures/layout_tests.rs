@@ -1,4 +1,4 @@
-//! What a referee would send back: text that is cut off, too small, over other text, or not in the font.
+//! Defects that a referee would report: text that is cut off, too small, overlapping, or not in the font.
 
 use resvg::usvg::{Group, Node};
 
@@ -104,7 +104,7 @@ fn captions_close_their_marks() {
                 let count = |mark: String| html.matches(&mark).count();
                 assert_eq!(count(format!("<{tag}>")), count(format!("</{tag}>")), "{}: {html}", figure.name);
             }
-            // Long stretches of bold or italics are a mark that was read as another.
+            // Long bold or italic runs come from a misread mark.
             let longest = markup::runs(paragraph).into_iter().filter(|run| run.bold || run.italic);
             for run in longest {
                 assert!(run.text.chars().count() < 8, "{}: `{}`", figure.name, run.text);
@@ -139,7 +139,7 @@ fn captions_name_what_is_drawn_and_nothing_else() {
     assert!(looked > 60, "{looked}");
 }
 
-/// A number that has lost its digits tells nothing: 0.00, or a ratio of 1 for a star that is not a sphere.
+/// A number without significant digits has no content: 0.00, or a ratio of 1 for a star that is not a sphere.
 #[test]
 fn captions_have_numbers_with_digits() {
     for figure in fixtures() {
@@ -162,10 +162,10 @@ fn physical_stars_are_drawn_in_si() {
         let texts = figure.caption.paragraphs().join(" ");
         assert!(texts.contains("time in s."), "{}: {texts}", figure.name);
         if let ("pulse-series", Some(table)) = (figure.name, figure.tables.first()) {
-            // What is taken off the lengths is named on their axis as in the panel.
+            // The value subtracted from the lengths is named on their axis as in the panel.
             let label = figure.svg.split("length − ").nth(1).expect("a label");
             assert!(label[..80].contains(">W<"), "{}", &label[..80]);
-            // The period is 1 / F0 over ten years, and within 1e-8 of it at the start.
+            // The period differs from 1 / F0 over ten years, but at the start by less than 1e-8.
             assert!((table.rows[0][1] * 2.468_871_714_7 - 1.0).abs() < 1e-7, "{:?}", table.rows[0]);
         }
     }

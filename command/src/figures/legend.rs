@@ -1,4 +1,4 @@
-//! What lines and marks stand for.
+//! Legends of lines and marks.
 
 use super::axes::{Mark, draw_mark};
 use super::style::{BLACK, GREY, Line, SMALL, solid};
@@ -12,7 +12,7 @@ pub(super) enum Sample {
 
 const SAMPLE: f64 = 20.0;
 
-/// Names under one another, the first at `at`.
+/// Names below one another, the first at `at`.
 pub(super) fn legend(page: &mut Page, [x, y]: At, entries: &[(Sample, &str)]) {
     for (i, entry) in entries.iter().enumerate() {
         legend_entry(page, [x, y + 13.0 * i as f64], entry);
@@ -37,11 +37,11 @@ fn legend_entry(page: &mut Page, [x, y]: At, (sample, name): &(Sample, &str)) {
     page.text([x + SAMPLE + 4.0, y], Anchor::Start, SMALL, BLACK, name);
 }
 
-/// Names to the right of a frame, as near to the ends of their curves as there is room.
+/// Names to the right of a frame, as close to the ends of their curves as there is room.
 pub(super) fn name_ends(page: &mut Page, frame: Rectangle, mut ends: Vec<(At, String, &'static str)>) {
     const APART: f64 = 9.6;
     ends.sort_by(|a, b| a.0[1].total_cmp(&b.0[1]));
-    // Downwards from the top; what then is below the frame goes up again.
+    // From the top downwards; names below the frame then move up again.
     let mut heights: Vec<f64> = ends.iter().map(|(at, ..)| at[1]).collect();
     for k in 1..heights.len() {
         heights[k] = heights[k].max(heights[k - 1] + APART);

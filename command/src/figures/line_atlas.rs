@@ -12,27 +12,27 @@ use super::examples::{OBSERVER, PULSAR};
 use super::spectrum;
 use twofold_verify::paper_examples::{COEFFICIENTS, spheroid};
 
-/// `|L|`, and its angles to Z and from X.
+/// `|L|`, its angle to Z, and its azimuth from X.
 const MOMENTUM: f64 = 1.5;
 const TILT: f64 = 0.5;
 const AZIMUTH: f64 = 0.3;
 
-/// Scale of the examples' `s`, and angle between `n` and `L` at the start: each is that of the column where the other is varied.
+/// Scale of the examples' `s`, and angle between `n` and `L` at the start; each is varied in one column and has this value in the other.
 pub(super) const SCALE: f64 = 0.1;
 pub(super) const WOBBLE: f64 = 0.5;
 
-/// Powers of ten of the scale and of the wobble (rad), and how many.
+/// Powers of ten of the scale and the wobble (rad), and numbers of points.
 const SCALES: (f64, f64, usize) = (-6.0, 0.0, 25);
 const WOBBLES: (f64, f64, usize) = (-2.5, 0.08, 44);
 
 /// `s_max - s_min` of the examples.
 const SPREAD: f64 = COEFFICIENTS.xx - COEFFICIENTS.zz;
 
-/// Lines weaker than this, relative to the strongest, are not looked for.
+/// Weaker lines, relative to the strongest one, are not computed.
 const WEAKEST: f64 = 1e-11;
 
-/// Lines of free precession, those that differ from them or from its constant by multiples of the slow rate, and all others: how they are drawn, what
-/// they are called, their room in the legend, and how many are drawn of an observable at most.
+/// Three kinds of lines: those of free precession, those that differ from them or from its constant by multiples of the slow rate, and all others.
+/// For each: style, name, room in the legend, and largest number drawn per observable.
 const KINDS: [(Line, &str, f64, usize); 3] = [
     (solid(BLACK, 1.3), "free precession has it", 130.0, 4),
     (dashed(BLUE, 1.1), "sideband of such a line or of the constant", 200.0, 3),
@@ -43,16 +43,16 @@ const KINDS: [(Line, &str, f64, usize); 3] = [
 const OBSERVABLES: [(&str, &str); 3] =
     [("m.n", "**m** · **n**"), ("h_plus", "*h*_{+} *r* / *I*^{*xx*}"), ("h_cross", "*h*_{×} *r* / *I*^{*xx*}")];
 
-/// Amplitudes that are shown.
+/// Range of amplitudes.
 const SHOWN: (f64, f64) = (1e-10, 2.0);
 
-/// The power of `s` is measured above this amplitude, a hundred times what is wrong with the weakest.
+/// The power of `s` is measured above this amplitude, a hundred times the error of the weakest lines.
 const MEASURED: f64 = 1e-10;
 
-/// How often the nutation, the rotation about the symmetry axis and the slow precession are in a line.
+/// Multiples of the nutation, the rotation about the symmetry axis and the slow precession in a line.
 type Multiples = [i32; 3];
 
-/// The lines of an observable, with their amplitudes; the constant is the line of no angle.
+/// The lines of an observable with their amplitudes; the constant is the line without angles.
 type Amplitudes = BTreeMap<Multiples, f64>;
 
 pub(super) fn sheet() -> Result<Sheet, String> {
@@ -69,7 +69,7 @@ pub(super) fn sheet() -> Result<Sheet, String> {
             let columns = lines.iter().map(|(line, _)| format!("{} [{unit}]", combination(line)));
             let mut table = Table::new(format!("{name}-{variable}"), [head.to_owned()].into_iter().chain(columns));
             for (value, all) in sweep {
-                // A line below the weakest that is looked for is none.
+                // A line below the computed range counts as zero.
                 let amplitude = |(line, _): &(Multiples, usize)| all[i].get(line).copied().unwrap_or(0.0);
                 table.push([*value].into_iter().chain(lines.iter().map(amplitude)).collect::<Vec<_>>());
             }
@@ -81,12 +81,12 @@ pub(super) fn sheet() -> Result<Sheet, String> {
     Ok(Sheet { svg: draw(&chosen, &tables), caption: caption(&chosen, &tables), tables })
 }
 
-/// The lines by their multiples, with their kinds and the power of `s` that they fall as.
+/// The lines by their multiples, with their kinds and the power of `s` of their amplitude.
 fn list(name: &str, lines: &[(Multiples, usize)], of_size: &Table) -> Table {
     let columns = ["multiple of nu' [1]", "multiple of psi' [1]", "multiple of l' [1]", "kind [1]", "power of s [1]"];
     let mut table = Table::new(format!("{name}-lines"), columns);
     for (k, (line, kind)) in lines.iter().enumerate() {
-        // Over a decade.
+        // Slope over a decade.
         let found: Vec<_> = of_size.points(0, k + 1).into_iter().filter(|(_, size)| *size > MEASURED).collect();
         let [(from, weak), (to, strong)] = [found[0], found[4]];
         let power = (strong / weak).ln() / (to / from).ln();
@@ -95,7 +95,7 @@ fn list(name: &str, lines: &[(Multiples, usize)], of_size: &Table) -> Table {
     table
 }
 
-/// The star of the examples with `s` scaled, `n` at the angle `wobble` from `L`, beside the plane of `L` and Z.
+/// The star of the examples with `s` scaled, and `n` at the angle `wobble` from `L`, out of the plane of `L` and Z.
 pub(super) fn star(scale: f64, wobble: f64) -> Result<Problem<f64>, twofold::Error> {
     let l = Vector3::new(TILT.sin() * AZIMUTH.cos(), TILT.sin() * AZIMUTH.sin(), TILT.cos());
     let across = Vector3::z().cross(&l).normalize();
@@ -126,13 +126,14 @@ fn amplitudes(scale: f64, wobble: f64) -> Result<[Amplitudes; 3], String> {
     ])
 }
 
-/// A line by nutation, rotation about the symmetry axis and slow precession, which name it whatever the Euler angles do; the first that is not zero is above it.
+/// A line by nutation, rotation about the symmetry axis and slow precession, which name it independently of the Euler angles; the first nonzero
+/// multiple is positive.
 fn multiples(motion: &QuasiPeriodicMotion, combination: &Combination) -> Multiples {
     let frequencies = motion.frequencies();
     let mut left = [0; 3];
     let mut add = |k: i32, turns: [i32; 3]| (0..3).for_each(|i| left[i] += k * turns[i]);
     frequencies.basis.iter().for_each(|of| add(combination.multiple(of.symbol), of.turns));
-    // psi' alone goes with the third angle of the torus, and of the others nu' alone with the first.
+    // Only psi' depends on the third angle of the torus; of the others only nu' depends on the first.
     let mut found = [0; 3];
     for (place, symbol, angle) in [(1, "psi'", 2), (0, "nu'", 0), (2, "l'", 1)] {
         let of = frequencies.all.iter().find(|of| of.symbol == symbol);
@@ -146,7 +147,7 @@ fn multiples(motion: &QuasiPeriodicMotion, combination: &Combination) -> Multipl
     found.map(|k| k * sign)
 }
 
-/// Place in [`KINDS`].
+/// Index in [`KINDS`].
 fn kind([nutation, rotation, slow]: &Multiples, free: &Amplitudes) -> usize {
     match free.contains_key(&[*nutation, *rotation, 0]) {
         true => usize::from(*slow != 0),
@@ -154,7 +155,7 @@ fn kind([nutation, rotation, slow]: &Multiples, free: &Amplitudes) -> usize {
     }
 }
 
-/// The strongest lines of each kind, with their kinds; of those that differ by the slow rate alone the strongest.
+/// The strongest lines of each kind, with their kinds; of lines that differ only by the slow rate the strongest.
 fn strongest(all: &Amplitudes, free: &Amplitudes) -> Vec<(Multiples, usize)> {
     let mut lines: Vec<_> = all.iter().filter(|(line, _)| **line != [0; 3]).collect();
     lines.sort_by(|a, b| b.1.total_cmp(a.1));
@@ -243,7 +244,7 @@ mod tests {
             let l = momentum / MOMENTUM;
             assert!((l.norm() - 1.0).abs() < 1e-15);
             assert!((l.z - TILT.cos()).abs() < 1e-15 && (l.y.atan2(l.x) - AZIMUTH).abs() < 1e-15);
-            // Beside the plane of L and Z, on the side of the right hand.
+            // Out of the plane of L and Z, on the right-hand side.
             let beside = Vector3::z().cross(&l) / TILT.sin();
             assert!((axis.dot(&l) - wobble.cos()).abs() < 1e-15 && (axis.dot(&beside) - wobble.sin()).abs() < 1e-15);
             assert!((axis.norm() - 1.0).abs() < 1e-15 && axis.dot(&equatorial_axis).abs() < 1e-15);
@@ -251,7 +252,7 @@ mod tests {
         }
     }
 
-    /// The constant is no line; of lines that differ by `l` alone the strongest of a kind stays; of each kind there are some at most.
+    /// The constant is not a line; of lines that differ by `l` alone the strongest of a kind remains; the number per kind is limited.
     #[test]
     fn the_strongest_lines_of_each_kind_are_chosen() {
         let of = |lines: &[(Multiples, f64)]| lines.iter().copied().collect::<Amplitudes>();
@@ -287,7 +288,8 @@ mod tests {
         assert_eq!(strongest(&of(&[&free[..], &satellites, &others].concat()), &of(&free)), expected);
     }
 
-    /// From the first row above the rounding to the fourth after it, which is a decade: 1e-9 at 0.01 and 1e-6 at 0.1 are the power 3, whatever is between and beside.
+    /// From the first row above the rounding to the fourth after it, which is a decade: 1e-9 at 0.01 and 1e-6 at 0.1 give the power 3, whatever the
+    /// other rows are.
     #[test]
     fn the_power_of_a_line_is_that_over_a_decade_above_the_rounding() {
         let mut table = Table::new("", ["size", "a", "b"]);
@@ -310,7 +312,7 @@ mod tests {
         assert!((list.rows[0][4] - 3.0).abs() < 1e-14 && (list.rows[1][4] + 1.0).abs() < 1e-14, "{list:?}");
     }
 
-    /// 25 sizes, 44 wobbles, the star of both columns and the one without Lorentz violation.
+    /// 25 sizes, 44 wobbles, the star common to both columns and the one without Lorentz violation.
     #[test]
     fn a_caption_tells_the_powers_of_what_free_precession_lacks() {
         let chosen = [

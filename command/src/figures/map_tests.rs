@@ -1,4 +1,4 @@
-//! Every cell and line of the maps, read off the picture, is what the tables say.
+//! Every cell and line of the maps, read off the picture, agrees with the tables.
 
 use super::curve_tests::{HALF_A_PIXEL, LABELS, assert_same, entry};
 use super::drawn::{Element, Frame, Path, Point, Text, elements, frames, holds, number, paths, texts};
@@ -14,7 +14,7 @@ fn frames_with_titles(elements: &[Element]) -> Vec<(String, Frame)> {
     frames.iter().map(|frame| (title(frame), frame.clone())).collect()
 }
 
-/// The colours of the map are those that the scale beside it gives the numbers of the table; so are the lines and the rings.
+/// The colours of the map are those that the scale beside it assigns to the numbers of the table; the same holds for the lines and rings.
 #[test]
 fn the_map_of_the_errors_is_its_table() {
     let figure = figure("perturbation-regimes");
@@ -36,7 +36,7 @@ fn the_map_of_the_errors_is_its_table() {
     let power = |y: f64| a + (b - a) * (y - p) / (q - p);
     let range = |colour: &str| {
         let (corners, _) = bar.iter().find(|(_, fill)| *fill == colour).expect("a colour of the scale");
-        // A cell reaches 0.3 below its end.
+        // A cell extends 0.3 below its end.
         let [low, high] = [power(corners[3] - 0.3), power(corners[1])];
         [if low < a - 0.4 { f64::NEG_INFINITY } else { low }, if high > b + 0.4 { f64::INFINITY } else { high }]
     };
@@ -121,7 +121,7 @@ fn the_map_of_the_errors_is_its_table() {
     assert!(lines > 300, "{lines} pieces of lines");
 }
 
-/// Where each method meets the error, up to the height at which the column of that method crosses it.
+/// The area of each method ends at the height at which the column of that method crosses the error.
 #[test]
 fn the_map_of_the_methods_is_its_tables() {
     let figure = figure("method-regimes");
@@ -192,13 +192,13 @@ fn the_map_of_the_methods_is_its_tables() {
                 std::slice::from_ref(edge),
                 &[left, top - 1.0, right, bottom + 1.0],
             );
-            // The area is what lies below the edge.
+            // The area is below the edge.
             let lowest = points.iter().filter(|p| (p[1] - bottom).abs() < 0.02).count();
             assert!(
                 lowest >= 2 && edge.iter().all(|p| points.contains(p)),
                 "{title} {name}: the area is not below its edge"
             );
-            // The exact motion meets every error: nothing is left white.
+            // The exact motion meets every error: nothing stays white.
             if name == "exact motion" {
                 assert!(edge.iter().all(|p| (p[1] - top).abs() < 0.02), "{title}: white above {edge:?}");
                 assert!(table.rows.iter().all(|row| row[column] < 1e-11), "{title}: the caption says less than 1e-11");

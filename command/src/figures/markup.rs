@@ -79,7 +79,7 @@ pub fn html(text: &str) -> String {
     html
 }
 
-/// The text as Markdown, which shares the marks for italic and bold.
+/// The text as Markdown, which has the same marks for italic and bold.
 pub fn markdown(text: &str) -> String {
     let mut markdown = String::new();
     for run in runs(text) {
@@ -93,12 +93,12 @@ pub fn markdown(text: &str) -> String {
     markdown
 }
 
-/// The text with the characters that mean something in XML and HTML replaced.
+/// The text with the special characters of XML and HTML replaced.
 pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// What is still open at the end of a text: a caption must close its italics, bold letters and indices.
+/// Whether nothing is open at the end of a text: a caption must close its italics, bold letters and indices.
 #[cfg(test)]
 pub(super) fn is_balanced(text: &str) -> bool {
     // A visible last letter shows the style that the text ends in.

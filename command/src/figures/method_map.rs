@@ -1,18 +1,18 @@
-//! Which solution meets a given error, over strength of the torque and time.
+//! The solution that meets a given error, against strength of the torque and time.
 
 use super::drawing::*;
 use twofold_verify::checks::regimes::method_errors::{Errors, Geometry, errors};
 
-/// Powers of ten of the strength, two each decade.
+/// Powers of ten of the strength, two per decade.
 const STRENGTHS: (f64, f64, usize) = (-6.5, -1.5, 11);
 
-/// Powers of ten of the time in `t_c`, four each decade.
+/// Powers of ten of the time in `t_c`, four per decade.
 const TIMES: (f64, f64, usize) = (0.0, 3.5, 15);
 
-/// Errors that are asked, of the rows of panels.
+/// Required errors of the rows of panels.
 const ASKED: [(f64, &str); 2] = [(1e-3, "10^{−3}"), (1e-6, "10^{−6}")];
 
-/// Methods from the last choice to the first, with their colours: viridis, so that they read in grey.
+/// Methods from the last to the first choice, with their colours from viridis, which are also legible in grey.
 const METHODS: [(&str, &str); 5] = [
     ("exact motion", "#fde725"),
     ("averaged motion, order 2", "#5ec962"),
@@ -21,7 +21,7 @@ const METHODS: [(&str, &str); 5] = [
     ("perturbation, printed", "#440154"),
 ];
 
-/// Columns of the tables with the errors of these methods but the first, in the same order; that of the first is the last.
+/// Columns of the tables with the errors of these methods, in the same order, but that of the first is the last.
 const COLUMNS: [&str; 4] = ["mean second", "mean first", "corrected", "printed"];
 
 pub(super) fn sheet() -> Result<Sheet, String> {
@@ -59,7 +59,7 @@ fn map(geometry: Geometry) -> Result<Map, String> {
     Ok(tabulated(names(geometry).0, &rows))
 }
 
-/// Errors by strength and time, of the same solutions at all of them.
+/// Errors by strength and time, for the same solutions everywhere.
 fn tabulated(name: &str, rows: &[(f64, Vec<Errors>)]) -> Map {
     let sample = rows[0].1[0];
     let present = [true, true, sample.corrected.is_some(), sample.printed.is_some()];
@@ -107,7 +107,7 @@ fn draw(maps: &[Map]) -> String {
     page.finish("Which solution meets a given error")
 }
 
-/// Where each method of the map meets the error, the first choice on top.
+/// Fills the area in which each method meets the error, the first choice on top.
 fn fill(page: &mut Page, map: &Map, frame: Rectangle, asked: f64) {
     for &(method, column) in &map.methods {
         let edge: Vec<_> = (0..TIMES.2)
@@ -123,7 +123,7 @@ fn fill(page: &mut Page, map: &Map, frame: Rectangle, asked: f64) {
     }
 }
 
-/// Up to which height of the frame the error at a time is as asked: it grows with the strength.
+/// Height in the frame up to which the error at a time is as required: it grows with the strength.
 fn height(map: &Map, time: usize, column: usize, asked: f64) -> f64 {
     let error = |row: usize| map.table.rows[time + TIMES.2 * row][column].max(1e-16).log10() - asked.log10();
     let steps = STRENGTHS.2 - 1;
@@ -150,7 +150,7 @@ fn legend(page: &mut Page, top: f64) {
 mod tests {
     use super::*;
 
-    /// Whatever solutions there are, the exact motion is under all others and each method has its column.
+    /// For any set of solutions, the exact motion is below all others and each method has its column.
     #[test]
     fn a_method_is_drawn_from_its_column() {
         let of = |perturbation: Option<f64>, unit: f64| Errors {
@@ -184,7 +184,8 @@ mod tests {
         }
     }
 
-    /// An error of the strength times the time is as asked at one over the time of it, on a logarithmic axis; nowhere above, and nowhere below.
+    /// An error equal to strength times time is as required up to strength 1 / time, on a logarithmic axis; the other cases are everywhere and
+    /// nowhere.
     #[test]
     fn a_method_reaches_to_where_its_error_is_as_asked() {
         let mut table = Table::new("", ["x", "t", "nothing", "error"]);

@@ -1,7 +1,7 @@
 //! The paper's figures and ours: data, drawing and caption of each.
 //!
-//! A figure is made of a `Recipe`. Its SVG carries its text as text; the PNG is drawn from the same SVG. Everything that
-//! a curve shows is in the figure's tables.
+//! A figure is made from a `Recipe`. Its SVG contains its text as text; the PNG is drawn from the same SVG. All data of
+//! a curve are in the figure's tables.
 
 mod alignment;
 mod alignment_spectra;
@@ -74,7 +74,7 @@ pub(crate) use subject::Subject;
 pub(crate) use table::Table;
 pub(crate) use work_precision::work_precision;
 
-/// A figure: its drawing, its data and what there is to say about it.
+/// A figure: its drawing, its data and its description.
 #[derive(Debug, Clone)]
 pub struct Figure {
     pub(crate) name: String,
@@ -84,7 +84,7 @@ pub struct Figure {
     /// Caption, with the markup of [`markdown`], [`html`] and [`plain`].
     pub(crate) caption: Caption,
     pub(crate) tables: Vec<Table>,
-    /// The picture, a whole SVG document.
+    /// The picture as a complete SVG document.
     pub(crate) svg: String,
 }
 

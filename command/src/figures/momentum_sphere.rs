@@ -6,7 +6,7 @@ use twofold::dynamics::{BodyState, Problem};
 use super::drawing::*;
 use twofold_verify::paper_examples::{COEFFICIENTS, SPIN, spheroid};
 
-/// Values of `l.(s l)` between those of the three axes.
+/// Levels of `l.(s l)` between the values at the three axes.
 pub(super) const LEVELS: [f64; 7] = [-0.037, -0.03, -0.02, -0.01, 0.002, 0.013, 0.017];
 
 /// Tilt of the angular momentum from the middle axis in the motion near the separatrix (rad).
@@ -38,13 +38,14 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
 /// A star that spins about its symmetry axis, tilted by [`TILT`] from the middle axis.
 fn near_separatrix() -> Result<Subject, String> {
     let spheroid = spheroid();
-    // Towards Z, so that L goes round Z after all.
+    // Tilted towards Z, so that L still circles Z.
     let axis = Vector3::new(0.0, TILT.cos(), TILT.sin());
     let state = BodyState { axis, momentum: axis * (spheroid.inertia_zz * SPIN), equatorial_axis: Vector3::x() };
     Subject::new("near Y", Problem::new(spheroid, COEFFICIENTS.tensor(), state)?, state.angles()?, SPAN)
 }
 
-/// The two closed lines with `l.(s l) = h`: below the middle eigenvalue about the axis of the smallest, above about that of the largest.
+/// The two closed lines with `l.(s l) = h`: about the axis of the smallest eigenvalue if `h` is below the middle one, otherwise about
+/// that of the largest.
 pub(super) fn contour(h: f64) -> [Vec<Vector3<f64>>; 2] {
     let [largest, middle, smallest] = [COEFFICIENTS.xx, COEFFICIENTS.yy, COEFFICIENTS.zz];
     let about_z = h < middle;
@@ -88,11 +89,11 @@ fn draw(name: &str, motions: &[&Subject], table: &Table) -> String {
     for (i, _) in motions.iter().enumerate().rev() {
         let path: Vec<_> =
             table.rows.iter().map(|row| Vector3::new(row[1 + 4 * i], row[2 + 4 * i], row[3 + 4 * i])).collect();
-        // sp-II and the star near Y run side by side: told apart in grey too.
+        // sp-II and the star near Y are neighbours: distinct also in grey.
         let front: Line = if i == 4 { dash_dotted(colours[i], 1.1) } else { solid(colours[i], 1.0) };
         view.line_on_sphere(&mut page, &path, front, Some(Line { colour: pale[i], ..front }));
     }
-    // Each name at a point of its path, off it to a side that is free.
+    // Each name is at a point of its path, displaced to a free side.
     for (i, (motion, (row, offset))) in motions
         .iter()
         .zip([(0, [17.0, 4.0]), (400, [18.0, 4.0]), (100, [14.0, 8.0]), (200, [0.0, -10.0]), (0, [24.0, -4.0])])
@@ -121,7 +122,7 @@ mod tests {
         l.dot(&(COEFFICIENTS.tensor() * l))
     }
 
-    /// On each `l.(s l)` has the value of the level; one is on either side of the axis that it goes round, once.
+    /// On each, `l.(s l)` has the value of the level; one is on either side of the axis and circles it once.
     #[test]
     fn contours_have_the_value_of_their_level() {
         for level in LEVELS {
@@ -147,7 +148,7 @@ mod tests {
         }
     }
 
-    /// Great circles through Y, one through each pair of opposite quarters.
+    /// Great circles through Y, one through each pair of opposite quadrants.
     #[test]
     fn on_the_separatrix_the_value_is_that_of_the_middle_axis() {
         for (circle, side) in separatrix().iter().zip([1.0, -1.0]) {
@@ -176,7 +177,7 @@ mod tests {
         assert_eq!(caption().parameters, parameters);
     }
 
-    /// The columns are the unit vectors along `L` of each motion and their `l.(s l)`; the last star spins about its symmetry axis, beside Y.
+    /// The columns are the unit vectors along `L` of each motion and their `l.(s l)`; the last star spins about its symmetry axis, near Y.
     #[test]
     fn columns_are_the_directions_of_the_momentum() {
         let near = near_separatrix().unwrap();

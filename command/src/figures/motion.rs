@@ -1,4 +1,4 @@
-//! Euler angles in time beside perturbation solutions, and the paths of `e_x` and `e_z` on the unit sphere.
+//! Euler angles against time with perturbation solutions, and the paths of `e_x` and `e_z` on the unit sphere.
 
 use nalgebra::Vector3;
 use twofold::solutions::perturbation::Perturbation;
@@ -18,7 +18,7 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
     Ok(Sheet { svg: draw(name, subject, &tables), caption: caption(subject, &tables[0]), tables })
 }
 
-/// Perturbation solutions with the initial values of the motion, and what they are called.
+/// Perturbation solutions with the initial values of the motion, and their names.
 fn solutions(subject: &Subject) -> Vec<(&'static str, Perturbation<f64>)> {
     let both = [("perturbation, printed", subject.printed.ok()), ("perturbation, corrected", subject.corrected)];
     both.into_iter().filter_map(|(name, solution)| Some((name, solution?))).collect()
@@ -67,7 +67,7 @@ fn draw(name: &str, subject: &Subject, tables: &[Table]) -> String {
     let solutions = solutions(subject);
     let columns = |angle: usize| (0..=solutions.len()).map(move |i| 1 + angle + 2 * i);
     let range = |angle: usize| {
-        // A solution may leave the frame; the motion may not.
+        // A solution may leave the frame; the motion must not.
         let values = |column: usize| angles.rows.iter().map(move |row| row[column]);
         let (low, high) = bounds(values(1 + angle));
         let room = 0.8 * (high - low);
@@ -161,7 +161,7 @@ mod tests {
     use crate::figures::caption_tests::assert_begins;
     use crate::figures::fixtures::{ANGLES, free, star};
 
-    /// Columns: time, both angles, and both by each solution.
+    /// Columns: time, both angles, and both angles by each solution.
     #[test]
     fn a_caption_tells_the_largest_differences_from_the_motion() {
         let mut angles = Table::new("angles", ["t", "a", "b", "a printed", "b printed", "a corrected", "b corrected"]);

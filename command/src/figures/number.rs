@@ -8,7 +8,7 @@ pub(super) fn number(x: f64) -> String {
     significant(x, 6)
 }
 
-/// A number beside others of the size `scale`: below 1e-12 of that it is the rounding of a zero.
+/// A number compared with others of the size `scale`: below 1e-12 of that it is the rounding of a zero.
 pub(super) fn beside(x: f64, scale: f64) -> String {
     if x.abs() <= 1e-12 * scale { "0".into() } else { number(x) }
 }
@@ -23,10 +23,10 @@ pub(super) fn significant(x: f64, digits: usize) -> String {
     }
 }
 
-/// Numbers that are the same to this part of them differ by rounding only: over the span of a figure it is far above that of the motion.
+/// Numbers with a relative difference up to this differ only by rounding: it is far above the rounding of a motion over the span of a figure.
 pub(super) const ALIKE: f64 = 1e-11;
 
-/// How far numbers are spread about a common value.
+/// The range of numbers with a nearly common value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Spread {
     pub(super) low: f64,
@@ -34,32 +34,32 @@ pub(super) struct Spread {
 }
 
 impl Spread {
-    /// Of some numbers; none of none.
+    /// The range of numbers; `None` without any.
     pub(super) fn of(values: impl IntoIterator<Item = f64>) -> Option<Self> {
         let (low, high) = values.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
         (low <= high).then_some(Self { low, high })
     }
 
-    /// The spread as a part of the larger end.
+    /// The spread relative to the larger end.
     pub(super) fn relative(self) -> f64 {
         let size = self.high.max(-self.low);
         if size == 0.0 { 0.0 } else { (self.high - self.low) / size }
     }
 
-    /// Significant digits that the numbers have in common, and two that tell them apart.
+    /// Number of significant digits that the numbers have in common, plus two that distinguish them.
     fn digits(self) -> usize {
         let spread = self.relative().max(ALIKE);
         (2.0 - spread.log10().floor()).max(3.0) as usize
     }
 
-    /// A common value to subtract before the differences can be drawn, where the numbers differ by more than rounding but by too little for an axis.
+    /// A common value to subtract before drawing, if the numbers differ by more than rounding but by too little for an axis.
     pub(super) fn reference(self) -> Option<f64> {
         let drawn_apart = (ALIKE..1e-3).contains(&self.relative());
         drawn_apart
             .then(|| format!("{:.*e}", self.digits() - 3, 0.5 * (self.low + self.high)).parse().expect("a number"))
     }
 
-    /// `from 3.92 to 5.60 s`, or `0.40504331743 s within 10^{−11} of that`; `unit` has a space before it.
+    /// `from 3.92 to 5.60 s`, or `0.40504331743 s within 10^{−11} of that`; `unit` begins with a space.
     pub(super) fn in_words(self, unit: &str) -> String {
         let digits = self.digits();
         if self.relative() < ALIKE {
@@ -107,7 +107,7 @@ mod tests {
         assert_eq!((spread(1.0, 2.0).reference(), spread(1.0, 1.0).reference()), (None, None));
         let near = spread(0.013_316_771_2, 0.013_316_777_4);
         let reference = near.reference().unwrap();
-        // Printed as it is subtracted.
+        // The printed value is the subtracted one.
         assert_eq!(significant(reference, 15), "0.01331677");
         assert!((reference - near.low).abs() < 2.0 * (near.high - near.low));
     }

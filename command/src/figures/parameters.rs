@@ -3,7 +3,7 @@
 use super::number::{beside, number};
 use super::subject::Subject;
 
-/// Star, violation and initial values of motions, after what is given first.
+/// Star, violation and initial values of motions, after the text `first`.
 pub(super) fn parameters(first: &str, subjects: &[&Subject]) -> String {
     let stars: Vec<_> = subjects.iter().map(|subject| star(subject)).collect();
     let mut text = first.to_owned();
@@ -19,7 +19,7 @@ pub(super) fn parameters(first: &str, subjects: &[&Subject]) -> String {
     format!("{} Angles in rad, time in {}.", text.trim_start(), subjects[0].scale.time_unit())
 }
 
-/// Observer and, where the figure is about it, beam of the first of some motions, which share them.
+/// Observer and, if the figure needs it, beam of the first of some motions, which share them.
 pub(super) fn line_of_sight(subjects: &[&Subject], with_beam: bool) -> String {
     let mut text = String::new();
     if let Some(viewer) = subjects.first().and_then(|subject| subject.observer) {
@@ -84,7 +84,7 @@ mod tests {
         [initial]\nalpha = 0.3\nbeta = 0.8\ngamma = 1.7\nalpha_rate = 210.0\nbeta_rate = -13.0\n\
         [observer]\ntheta_o = 0.9\nphi_o = 2.4\n[pulsar]\nchi = 0.5\ndelta = 0.25\nrho = 0.4\n[time]\nspan = 0.5\nsamples = 3\n";
 
-    /// `I = (2/5) M R^2` of a sphere with the nominal solar mass and G of CODATA 2022.
+    /// `I = (2/5) M R^2` for a sphere with the nominal solar mass and G of CODATA 2022.
     #[test]
     fn a_caption_has_the_numbers_of_the_scene() {
         let scene = Scene::from_toml("star", STAR).unwrap();
@@ -110,11 +110,11 @@ mod tests {
             let plain: String = text.chars().filter(|c| !"*{}^_".contains(*c)).collect();
             assert_eq!(plain.contains("dβ/dt = 0."), is_zero, "{plain}");
         }
-        // Half a second is shown whole: less than a hundred turns.
+        // Half a second is shown completely: it is less than a hundred turns.
         assert!((subject.shown.pulses * scene.units.time - 0.5).abs() < 1e-12);
     }
 
-    /// What motions have in common is told once.
+    /// Common parameters of motions are stated once.
     #[test]
     fn motions_of_one_star_share_its_numbers() {
         let subject = |name: &str, toml: &str| Subject::of_scene(name, &Scene::from_toml(name, toml).unwrap()).unwrap();
@@ -133,7 +133,7 @@ mod tests {
         assert_eq!(told(&[&first, &flat]), (2, vec![true, true]));
     }
 
-    /// With `L` near Z, off the plane of Z and the axis by `d`, `beta'` is `d / I^xx`; `|L| / I^xx` is one.
+    /// With `L` near Z, out of the plane of Z and the axis by `d`, `beta'` is `d / I^xx`; `|L| / I^xx` is one.
     #[test]
     fn what_is_a_rounding_beside_the_rotation_is_zero() {
         let told = |beta_rate: f64, alpha: f64| {

@@ -1,4 +1,4 @@
-//! The PNG of a figure, drawn from its SVG with fonts that the program carries.
+//! The PNG of a figure, drawn from its SVG with fonts that are built into the program.
 
 use std::sync::{Arc, LazyLock};
 
@@ -24,7 +24,7 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
     Arc::new(fonts)
 });
 
-/// The SVG with its fonts resolved, as it will be drawn.
+/// The SVG with its fonts resolved, as for drawing.
 pub(super) fn tree(svg: &str) -> Result<Tree, String> {
     let options = Options { fontdb: FONTS.clone(), ..Options::default() };
     Tree::from_str(svg, &options).map_err(|error| format!("not SVG: {error}"))
@@ -44,7 +44,7 @@ pub fn png(svg: &str) -> Result<Vec<u8>, String> {
 mod tests {
     use super::*;
 
-    /// 96 by 48 pixels of CSS are an inch by half of one. The left half is black.
+    /// 96 by 48 CSS pixels are one inch by half an inch. The left half is black.
     #[test]
     fn a_picture_has_300_pixels_each_inch() {
         let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" width="96" height="48"><rect x="0" y="0" width="48" height="48"/></svg>"#;

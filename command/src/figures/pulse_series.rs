@@ -7,17 +7,17 @@ use twofold::solutions::perturbation::{Perturbation, ShiftedRates};
 use super::drawing::*;
 use twofold_verify::pulse_series::{PaperCurves, PulseSeries, Viewing, pulse_series};
 
-/// The curves with the names that the legend and the data give their angles and rates.
+/// The curves with the names of their angles and rates in the legend and in the data.
 const CURVES: [(Line, &str); 3] = [
     (solid(BLUE, 1.0), "at the instant"),
     (dotted(GREEN, 1.2), "with mean rates"),
     (dashed(VERMILION, 1.0), "with rates (57)"),
 ];
 
-/// Curves are drawn for an amplitude A below this part of omega.
+/// Curves are drawn if the amplitude A is below this fraction of omega.
 const MOST_SWING: f64 = 0.1;
 
-/// Series of one motion in the unit drawn, and curves where Eqs. (51), (56) are meant to hold.
+/// Series of one motion in the units of the figure, and curves if Eqs. (51), (56) apply.
 struct Series {
     pulses: PulseSeries,
     curves: Option<Table>,
@@ -74,12 +74,13 @@ fn series(subject: &Subject) -> Result<Series, String> {
     Ok(Series { pulses, curves })
 }
 
-/// Whether the formulas are meant for a solution: of twofold precession, and with a beta that is nearly constant during a turn. They fail for tp-II, whose A is 0.36 omega.
+/// Whether the formulas apply to a solution: twofold precession with a beta that is nearly constant during a turn. They fail for tp-II, whose A is
+/// 0.36 omega.
 fn is_steady(solution: &Perturbation<f64>) -> bool {
     solution.zeroth_rate != 0.0 && solution.constants.amplitude.abs() < MOST_SWING * solution.omega.abs()
 }
 
-/// Period and length with the angles and rates at the instant; by Eqs. (51) and (56) with mean rates, and with those of Eq. (57).
+/// Period and length with the angles and rates at the instant, by Eqs. (51) and (56) with mean rates, and with the rates of Eq. (57).
 fn curves(subject: &Subject, solution: &Perturbation<f64>) -> Result<Table, String> {
     let message = |error: twofold::Error| format!("{}: {error}", subject.name);
     let (viewer, pulsar) = subject.line_of_sight()?;
@@ -122,7 +123,7 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
             let frame = grid.frame(i, row);
             let curve = |i: usize| series.curve(row, i);
             let values = series.values(row);
-            // Differences that would be lost on an axis are drawn as such.
+            // Differences invisible on an axis are drawn as differences.
             let reference = reference(&values);
             let shift = reference.unwrap_or(0.0);
             let difference = reference.map_or(String::new(), |_| format!(" − {taken_off}"));
@@ -133,7 +134,7 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
             };
             let mut panel = Panel::new(frame, if row == 0 { x.bare() } else { x.clone() }, y);
             panel.y_label_distance = 26.0;
-            // The paper's curve over the others.
+            // The paper's curve is above the others.
             for (i, (line, _)) in CURVES.iter().enumerate().rev() {
                 if let Some(points) = curve(i) {
                     panel.curve(&mut page, &shifted(points.into_iter(), shift), *line);
@@ -171,7 +172,7 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
     page.finish("Pulse periods and lengths in time")
 }
 
-/// What is taken off values whose differences would be lost on an axis.
+/// The value subtracted from numbers whose differences would be invisible on an axis.
 fn reference(values: &[f64]) -> Option<f64> {
     Spread::of(values.iter().copied()).and_then(Spread::reference)
 }
@@ -253,7 +254,7 @@ mod tests {
         assert_eq!(pieces, [[1.0, 2.0], [3.0, 4.0]]);
     }
 
-    /// `omega` is 1.1 times the spin; the paper's tp-II has an A of 0.4.
+    /// `omega` is 1.1 times the spin; the paper's tp-II has A = 0.4.
     #[test]
     fn the_formulas_are_for_twofold_precession_with_little_swing() {
         let is_steady = |kind, spin: f64, amplitude: f64| {
@@ -267,8 +268,8 @@ mod tests {
         }
     }
 
-    /// Without Lorentz violation the rates of Eq. (57) are those of the motion, constant: the curves with them are those with the mean rates. The motion has errors of
-    /// 1e-14 each t_c, five of them.
+    /// Without Lorentz violation the rates of Eq. (57) are those of the motion and constant, so that the curves with them are those with the mean
+    /// rates. The motion has errors of 1e-14 per t_c over five t_c.
     #[test]
     fn rates_of_eq_57_are_the_mean_ones_of_free_precession() {
         let star = free("a");
@@ -280,7 +281,7 @@ mod tests {
         }
     }
 
-    /// A star that starts a turn further about its axis is the same star.
+    /// A star that starts a full turn further about its axis is the same star.
     #[test]
     fn mean_rates_are_those_since_the_start() {
         let text = built_in("tp-1").unwrap().toml;
@@ -340,7 +341,7 @@ mod tests {
         assert_eq!(both[2], "a: no whole pulse. b: no whole pulse. <formulas> <modulation>");
     }
 
-    /// Curves, lines between points, differences from a value that all nearly have, and gaps.
+    /// Curves, lines between points, differences from a nearly common value, and gaps.
     #[test]
     fn a_caption_tells_what_is_drawn() {
         let joined = |gaps: &[f64]| made_up(&[4.0, 5.0], gaps, &[0.5, 1.0], None);

@@ -1,4 +1,4 @@
-//! The picture of the README: a motion beside the perturbation solutions, and the orders of their errors.
+//! The picture of the README: a motion with the perturbation solutions, and the orders of their errors.
 
 use super::drawing::*;
 use twofold::propagation::Motion;
@@ -10,16 +10,16 @@ const SOLUTIONS: [(Form, Line, [&str; 2]); 2] = [
     (Form::Corrected, dotted(BLUE, 1.5), ["perturbation, corrected", "corrected: order 2"]),
 ];
 
-/// Least error that is shown (rad).
+/// Smallest error that is shown (rad).
 const LEAST: f64 = 1e-12;
 
-/// As SVG. Left, a small tilt of the angular momentum without Lorentz violation: numerical motion and perturbation solutions from the
+/// The picture as SVG. Left, a small tilt of the angular momentum without Lorentz violation: numerical motion and perturbation solutions from the
 /// same initial values. Right, the errors of the solutions for tp-I as the coefficients for Lorentz violation are scaled.
 pub fn readme_picture() -> Result<String, String> {
     let grid = Grid { left: LEFT, top: 18.0, width: 196.0, height: 136.0, between: [54.0, 0.0] };
     let mut page = Page::new("perturbation", PAGE, grid.bottom(1) + BELOW);
     let (duration, tilt) = (20.0, 0.01);
-    // The same tilt by both: A / omega as printed, A / a corrected. Too small an s to matter, since a^(1) needs a sign.
+    // Both have the same tilt: A / omega as printed, A / a corrected. s is negligible but not zero, since a^(1) needs a sign.
     let tilted = |form| {
         let frequency = if form == Form::Printed { 1.1 } else { 1.1 / 0.7_f64.cos() };
         Case::paper(form, Precession::Twofold, 1e-40, 0.7, tilt * frequency)
@@ -39,7 +39,7 @@ pub fn readme_picture() -> Result<String, String> {
         let scales = (0..=24).map(|j| 10f64.powf(-0.25 * f64::from(j)));
         let error = |k| Ok((k, Case::paper(form, Precession::Twofold, k, 0.7, 0.0).errors(10.0, 400)?.beta));
         let mut points = scales.map(error).collect::<Result<Vec<_>, String>>()?;
-        // Below this the digits of an error are those of rounding.
+        // Smaller errors are rounding.
         points.retain(|(_, error)| *error > LEAST);
         right.curve(&mut page, &points, line);
         right.marks(&mut page, &points, Mark::Disc, 1.4, line.colour);
@@ -60,15 +60,15 @@ pub fn readme_picture() -> Result<String, String> {
 mod tests {
     use super::readme_picture;
 
-    /// The numbers of a picture, and all else: marks, colours but for their digits, words.
+    /// The numbers of a picture, and the rest: marks, words, and colours without digits.
     fn parted(svg: &str) -> (Vec<f64>, String) {
         let is_of_number = |c: char| c.is_ascii_digit() || c == '.';
         let numbers = svg.split(|c| !is_of_number(c)).filter_map(|digits| digits.parse().ok()).collect();
         (numbers, svg.replace(is_of_number, ""))
     }
 
-    /// Coordinates are written to 0.01. Another processor may round differently: at an error of 1e-12 by a thousandth of it, 0.005 on the page.
-    /// After a change of the drawing, draw the picture anew and look at it.
+    /// Coordinates are written to 0.01. Another processor may round differently: an error of 1e-12 by a thousandth, 0.005 on the page. After a
+    /// change of the drawing, redraw the picture and inspect it.
     #[test]
     fn the_picture_of_the_readme_is_the_one_that_is_drawn() {
         let (places, kept) = parted(include_str!("../../../docs/images/perturbation.svg"));

@@ -1,4 +1,4 @@
-//! Which figures there are, and what each is drawn from.
+//! The list of figures and their sources.
 
 use std::sync::LazyLock;
 
@@ -11,9 +11,9 @@ type OfMotions = fn(&str, &[&Subject]) -> Result<Sheet, String>;
 
 #[derive(Clone, Copy)]
 enum Maker {
-    /// Nothing but itself.
+    /// No motion.
     Alone(fn() -> Result<Sheet, String>),
-    /// Motions with what the figure shows of them: those of the paper's examples with the given places, or one of a scene.
+    /// The required data and the drawing of motions: the paper's examples at the given places, or one of a scene.
     Motions(Needs, &'static [usize], OfMotions),
 }
 
@@ -39,7 +39,7 @@ pub struct Recipe {
     maker: Maker,
 }
 
-/// A figure on a line: its name; its number in the paper, `-`, or `scene` if it is of any motion; what it shows.
+/// One figure per line: its name; its number in the paper, `-`, or `scene` for figures of any motion; its content.
 const LIST: &str = include_str!("../../data/figures.txt");
 
 /// All figures: the paper's in its order, then ours.
@@ -58,7 +58,7 @@ fn listed(of_a_scene: bool) -> Vec<Recipe> {
     LIST.lines().filter_map(recipe).collect()
 }
 
-/// How a figure is made, one of several motions with those at some places.
+/// The maker of a figure; `places` select among several motions.
 fn maker(name: &str, places: &'static [usize]) -> Maker {
     match name {
         "euler-angles" => Maker::Alone(euler_angles::common),
@@ -85,7 +85,7 @@ fn maker(name: &str, places: &'static [usize]) -> Maker {
 }
 
 impl Recipe {
-    /// What the figure needs of a scene file and a motion lacks.
+    /// The first requirement of the figure that a motion lacks.
     pub fn lacks(&self, motion: &Subject) -> Option<&'static str> {
         let Maker::Motions(needs, ..) = self.maker else { return None };
         match needs {
@@ -117,7 +117,7 @@ impl Recipe {
 mod tests {
     use super::*;
 
-    /// Each line of the list is a figure, in its order.
+    /// Each line of the list is a figure, in the same order.
     #[test]
     fn figures_are_those_of_the_list() {
         let line = |Recipe { name, paper_figure, summary, .. }: &Recipe, without: &str| {

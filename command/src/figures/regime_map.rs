@@ -1,4 +1,4 @@
-//! Error of the perturbation solutions over their parameters.
+//! Error of the perturbation solutions as a function of their parameters.
 
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::perturbation::{Form, Precession};
@@ -23,13 +23,13 @@ const DURATION: f64 = 10.0;
 /// `|2 s^ZZ - s^XX - s^YY|` of the examples.
 const COMBINATION: f64 = 0.11;
 
-/// Scale of `s` and `A` in the maps of single precession: small, so that the error is that of the asymmetry alone.
+/// Scale of `s` and `A` in the maps of single precession: so small that the error is due to the asymmetry alone.
 const SINGLE_SCALE: f64 = 1e-4;
 
 /// `A` of the examples of single precession.
 const SINGLE_AMPLITUDE: f64 = 0.01;
 
-/// Powers of ten of the error: the lightest and the darkest band, two bands each decade.
+/// Powers of ten of the error: the lightest and the darkest band, two bands per decade.
 const ERRORS: (f64, f64) = (-4.5, 0.5);
 
 /// A map: the error at each pair of the first and second parameter.
@@ -86,7 +86,7 @@ fn map(
     Ok(Map { table, columns: INCLINATIONS.2, rows: powers.2 })
 }
 
-/// Viridis backwards at five places, light for a small error: its lightness falls all the way, so it reads in grey.
+/// Five colours of viridis, reversed: a small error is light, and the lightness decreases throughout, also in grey.
 const COLOURS: [[f64; 3]; 5] =
     [[253.0, 231.0, 37.0], [94.0, 201.0, 98.0], [33.0, 145.0, 140.0], [59.0, 82.0, 139.0], [68.0, 1.0, 84.0]];
 
@@ -145,7 +145,7 @@ fn draw(maps: &[Map; 4]) -> String {
         for &(beta_0, parameter, example) in examples {
             let at = panel.at(beta_0, parameter);
             draw_mark(&mut page, at, Mark::Ring, 2.2, BLACK);
-            // Inside the frame near its right side too.
+            // The name is inside the frame, also near its right side.
             let aside = if beta_0 > 1.2 { -8.0 } else { 0.0 };
             page.name([at[0] + aside, at[1] + 10.0], BLACK, example);
         }
@@ -182,7 +182,7 @@ fn caption() -> Caption {
 mod tests {
     use super::*;
 
-    /// At the places of the list, between them and beyond them.
+    /// At the values of the list, between them and beyond them.
     #[test]
     fn colours_go_from_light_to_dark() {
         for (part, expected) in [

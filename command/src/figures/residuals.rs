@@ -4,10 +4,10 @@ use twofold_scene::pulsar_timing::{Causes, Timing};
 
 use super::drawing::*;
 
-/// Most points of a curve: more cannot be told apart on a page.
+/// Largest number of points of a curve that a page can resolve.
 const MOST_POINTS: usize = 5_000;
 
-/// Units of time that a small number is told in.
+/// Units of time for small numbers.
 const UNITS: [(f64, &str); 5] = [(1.0, "s"), (1e3, "ms"), (1e6, "μs"), (1e9, "ns"), (1e12, "ps")];
 
 /// The unit in which the largest of some times (s) is at least one, and its factor.
@@ -29,7 +29,7 @@ pub(crate) fn residuals(name: &str, timing: &Timing, causes: Option<&Causes>) ->
             (geometry.as_slice(), dashed(BLUE, 1.1), "geometry", BLUE),
             (violation.as_slice(), dash_dotted(GREEN, 1.1), "violation", GREEN),
         ]);
-        // The sum above its parts.
+        // The sum is drawn above its parts.
         curves.rotate_left(1);
     }
     let names = if causes.is_some() { 56.0 } else { 14.0 };
@@ -56,7 +56,7 @@ pub(crate) fn residuals(name: &str, timing: &Timing, causes: Option<&Causes>) ->
         for (times, line, name, colour) in curves {
             let points: Vec<_> = dates.iter().zip(times).step_by(step).map(|(x, y)| (*x, factor * y)).collect();
             if colour == BLACK && row == 0 {
-                // Epochs may be rarer than what they show: no line between them.
+                // The epochs may undersample the signal, so that no line joins them.
                 panel.marks(&mut page, &points, Mark::Disc, 0.9, BLACK);
             } else {
                 panel.curve(&mut page, &points, line);
@@ -100,7 +100,7 @@ mod tests {
         timing.pulses[k].arrival.day() as f64 + timing.pulses[k].arrival.fraction()
     }
 
-    /// The heights of the dots are a linear function of the residuals, and their places one of the dates.
+    /// The heights of the dots are a linear function of the residuals, and their abscissas of the dates.
     #[test]
     fn a_dot_for_each_residual() {
         let (timing, causes) = timed();
@@ -119,14 +119,15 @@ mod tests {
                 let date = |k: usize| date(&timing, k);
                 let along = first.0 + (date(k) - date(0)) / (date(39) - date(0)) * (last.0 - first.0);
                 let height = first.1 + (late[k] - late[0]) / (late[39] - late[0]) * (last.1 - first.1);
-                // Places are written to a hundredth; a difference of two of them by which is divided is some part of the panel.
+                // Places are rounded to a hundredth; the scale comes from differences of such places over part of the panel.
                 assert!((x - along).abs() < 0.03 && (y - height).abs() < 1.0, "{k}: {x} {along}, {y} {height}");
             }
             assert_eq!(picture.contains(">geometry<"), causes.is_some());
         }
     }
 
-    /// Read off by its axes, the picture has the residuals as dots, their causes as curves in the order of drawing, and below them the widths, whole and from the first date to the last.
+    /// Read off by its axes, the picture has the residuals as dots, their causes as curves in the order of drawing, and below them the complete
+    /// widths from the first date to the last.
     #[test]
     fn curves_are_the_causes_and_the_widths() {
         let (timing, causes) = timed();

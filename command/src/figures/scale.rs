@@ -1,11 +1,11 @@
-//! Units in which a motion is drawn: those of the paper, or seconds, hertz and strain for a physical star.
+//! Units of the figures of a motion: those of the paper, or seconds, hertz and strain for a physical star.
 
 use std::f64::consts::TAU;
 
 use super::axes::Axis;
 use twofold_scene::scene_file::{Scene, Units};
 
-/// What is drawn for one `t_c` and for `h = 1`.
+/// The values of one `t_c` and of `h = 1` in a figure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scale {
     pub(super) units: Units,
@@ -20,17 +20,17 @@ impl Scale {
         Self { units: scene.units, strain: scene.strain_unit() }
     }
 
-    /// A time (t_c) in the unit drawn.
+    /// A time (t_c) in the unit of the figure.
     pub(super) fn time(&self, t: f64) -> f64 {
         t * self.units.time
     }
 
-    /// An angular frequency (rad/t_c) in the unit drawn: rad/t_c, or a frequency in Hz.
+    /// An angular frequency (rad/t_c) in the unit of the figure: rad/t_c, or a frequency in Hz.
     pub(super) fn frequency(&self, omega: f64) -> f64 {
         if self.units.are_physical() { omega / (TAU * self.units.time) } else { omega }
     }
 
-    /// A wave `h` of the paper's units at `r = 1` in the unit drawn.
+    /// A wave `h` in the paper's units at `r = 1`, in the unit of the figure.
     pub(super) fn wave(&self, h: f64) -> f64 {
         h * self.strain
     }
@@ -39,7 +39,7 @@ impl Scale {
         if self.units.are_physical() { "s" } else { "*t*_{c}" }
     }
 
-    /// Label of an axis of something in time.
+    /// Label for an axis of times.
     pub(super) fn time_label(&self, what: &str) -> String {
         if self.units.are_physical() { format!("{what} [s]") } else { format!("{what} / *t*_{{c}}") }
     }
@@ -50,7 +50,7 @@ impl Scale {
         Axis::linear(&self.time_label("*t*"), end.min(0.0), end.max(0.0))
     }
 
-    /// Header of a column of times, or of anything in that unit.
+    /// Header of a column of times.
     pub(super) fn time_column(&self, what: &str) -> String {
         format!("{what} [{}]", self.units.time_name)
     }

@@ -1,4 +1,4 @@
-//! What the two figures of spectra share: the lines of an observable, their table and their names.
+//! Common parts of the two figures of spectra: the lines of an observable, their table and their names.
 
 use twofold::dynamics::BodyState;
 use twofold::observables::spectrum::{Combination, SpectralLine};
@@ -6,11 +6,11 @@ use twofold::observables::spectrum::{Combination, SpectralLine};
 use super::drawing::*;
 use super::number::significant;
 
-/// Lines weaker than this, relative to the strongest, are not looked for.
+/// Weaker lines, relative to the strongest one, are not computed.
 const WEAKEST: f64 = 1e-6;
 
-/// The lines of an observable of the state up to the frequency `highest`, strongest first, with frequencies in the unit drawn; lines below the
-/// `error` of the observable are none.
+/// The lines of an observable of the state up to the frequency `highest`, strongest first, with frequencies in the unit of the figure; lines
+/// below the `error` of the observable do not count.
 pub(super) fn spectrum(
     subject: &Subject,
     highest: f64,
@@ -25,7 +25,7 @@ pub(super) fn spectrum(
     Ok(lines.filter(|line| line.frequency <= highest).collect())
 }
 
-/// Draws lines as uprights from the lower edge of a panel, or from below it.
+/// Draws lines as vertical lines from the lower edge of a panel.
 pub(super) fn draw_lines(page: &mut Page, panel: &Panel, lines: &[SpectralLine], bottom: f64, line: Line) {
     for found in lines.iter().filter(|found| found.amplitude > bottom) {
         panel.curve(page, &[(found.frequency, bottom), (found.frequency, found.amplitude)], line);
@@ -42,7 +42,7 @@ pub(super) fn name(combination: &Combination) -> String {
     symbols.iter().fold(name, |name, (plain, symbol)| name.replace(plain, symbol))
 }
 
-/// What the symbols of mean rates in some names stand for.
+/// Meanings of the symbols of mean rates in some names.
 pub(super) fn symbols_in(names: &[String]) -> String {
     let meanings = [
         ("*α*", "of the precession angle"),
@@ -55,7 +55,7 @@ pub(super) fn symbols_in(names: &[String]) -> String {
     named.map(|(symbol, meaning)| format!("{symbol} {meaning}")).collect::<Vec<_>>().join(", ")
 }
 
-/// Lines as a table: frequency, amplitude, and how often each fundamental frequency is in it.
+/// Lines as a table: frequency, amplitude, and the multiple of each fundamental frequency.
 pub(super) fn lines_table(name: String, lines: &[SpectralLine], frequency: String, unit: &str) -> Table {
     const SYMBOLS: [&str; 5] = ["alpha'", "gamma'", "l'", "nu'", "psi'"];
     let multiples = SYMBOLS.map(|symbol| format!("multiple of {symbol} [1]"));
@@ -74,7 +74,7 @@ pub(super) fn sentence(clauses: &str) -> String {
     letters.next().map_or(String::new(), |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))
 }
 
-/// Words of the captions: unit of frequencies, mean rates.
+/// Words for captions: unit of frequencies, mean rates.
 pub(super) fn of_rates(subjects: &[&Subject]) -> Result<[(&'static str, String); 2], String> {
     let rates = subjects.iter().map(|subject| rates(subject)).collect::<Result<Vec<_>, _>>()?.join("; ");
     Ok([("unit", subjects[0].scale.frequency_unit().to_owned()), ("rates", rates)])
@@ -91,14 +91,14 @@ fn rates(subject: &Subject) -> Result<String, String> {
     Ok(format!("{}: {}", subject.name, named.collect::<Vec<_>>().join(", ")))
 }
 
-/// The highest frequency that a figure shows, as it is drawn: some times the rate of rotation, rounded up to half of its first digit.
+/// The highest frequency in a figure, in its unit: a multiple of the rate of rotation, rounded up to half of its first digit.
 pub(super) fn highest(subjects: &[&Subject], times: f64) -> f64 {
     let rate = |subject: &&Subject| subject.scale.frequency(subject.rotation_rate);
     let highest = times * subjects.iter().map(rate).fold(0.0, f64::max);
     rounded_up(highest)
 }
 
-/// To half of its first digit.
+/// Rounds up to half of the first digit.
 fn rounded_up(x: f64) -> f64 {
     let half = 10f64.powf(x.log10().floor()) / 2.0;
     (x / half).ceil() * half
@@ -124,7 +124,8 @@ mod tests {
         assert_eq!(names, ["\u{2212}2 *α* + *γ*", "*ν* \u{2212} *ψ*", "\u{2212}*l*"]);
     }
 
-    /// Of free precession about Z: `alpha'` is `1.1 / cos 0.7`, which is `|L| / I^xx` and `nu'` too, and `gamma'` is `-0.1`, all times the spin. There is no slow one.
+    /// For free precession about Z, `alpha'` is `1.1 / cos 0.7`, equal to `|L| / I^xx` and `nu'`, and `gamma'` is `-0.1`, all times the spin. There
+    /// is no slow rate.
     #[test]
     fn rates_of_free_precession_are_those_of_eq_48() {
         let [slow, fast] = [0.01, 1.0].map(|spin| star("a", spin, [0.0; 3], CONSTANTS));
@@ -132,7 +133,7 @@ mod tests {
         assert_eq!(unit, ("unit", "rad/*t*_{c}".to_owned()));
         let told = "a: *α* = 0.01438205, *γ* = \u{2212}0.001, *ν* = 0.01438205; a: *α* = 1.438205, *γ* = \u{2212}0.1, *ν* = 1.438205";
         assert_eq!(rates, ("rates", told.to_owned()));
-        // 0.0316 and 3.16.
+        // The rates are 0.0316 and 3.16.
         for (subjects, end) in [(vec![&slow], 0.035), (vec![&slow, &fast], 3.5), (vec![&fast, &slow], 3.5)] {
             assert!((highest(&subjects, 2.2) / end - 1.0).abs() < 1e-12, "{end}");
         }

@@ -8,7 +8,7 @@ use super::svg::{At, Page};
 #[derive(Debug, Clone, Copy)]
 pub(super) struct View {
     centre: At,
-    /// Length of the unit on the page.
+    /// Length of a unit vector on the page.
     unit: f64,
     right: Vector3<f64>,
     up: Vector3<f64>,
@@ -33,18 +33,18 @@ impl View {
         [self.centre[0] + self.unit * v.dot(&self.right), self.centre[1] - self.unit * v.dot(&self.up)]
     }
 
-    /// Whether a point of the sphere is on the side of the eye.
+    /// Whether a point of the sphere is on the visible side.
     pub(super) fn in_front(&self, v: &Vector3<f64>) -> bool {
         v.dot(&self.towards) >= 0.0
     }
 
-    /// A line on the sphere: `front` where it is seen, `back` where the sphere is before it.
+    /// A line on the sphere: `front` where it is visible, `back` where it is behind the sphere.
     pub(super) fn line_on_sphere(&self, page: &mut Page, points: &[Vector3<f64>], front: Line, back: Option<Line>) {
         for seen in [false, true] {
             let Some(line) = (if seen { Some(front) } else { back }) else { continue };
             let mut first = 0;
             for piece in points.chunk_by(|a, b| self.in_front(a) == self.in_front(b)) {
-                // To the first point of the next piece, so that no gap is left.
+                // Up to the first point of the next piece, so that there is no gap.
                 let end = (first + piece.len() + 1).min(points.len());
                 if self.in_front(&piece[0]) == seen {
                     page.path(&points[first..end].iter().map(|v| self.at(v)).collect::<Vec<_>>(), line);
@@ -62,7 +62,7 @@ impl View {
         page.arrow(self.centre, self.at(head), line);
     }
 
-    /// A name beyond the head of a vector, off it by `distance` on the page.
+    /// A name beyond the head of a vector, at `distance` from it on the page.
     pub(super) fn name(&self, page: &mut Page, head: &Vector3<f64>, distance: f64, colour: &'static str, name: &str) {
         let [x, y] = self.at(head);
         let (dx, dy) = (x - self.centre[0], y - self.centre[1]);
@@ -70,7 +70,7 @@ impl View {
         page.name([x + distance * dx / length, y + distance * dy / length], colour, name);
     }
 
-    /// A name beside a point, off it by `offset` on the page.
+    /// A name beside a point, displaced by `offset` on the page.
     pub(super) fn name_beside(&self, page: &mut Page, v: &Vector3<f64>, offset: At, colour: &'static str, name: &str) {
         let [x, y] = self.at(v);
         page.name([x + offset[0], y + offset[1]], colour, name);
@@ -85,7 +85,7 @@ impl View {
         }
     }
 
-    /// The three axes to `length`, named; behind the surface of the unit sphere they are faint.
+    /// The three named axes with the given `length`; behind the surface of the unit sphere they are faint.
     pub(super) fn draw_axes(&self, page: &mut Page, length: f64, names: [&str; 3]) {
         for (axis, name) in [Vector3::x(), Vector3::y(), Vector3::z()].iter().zip(names) {
             self.line(page, &[Vector3::zeros(), *axis], dashed(GREY, 0.6));

@@ -1,11 +1,11 @@
-//! Every path on a sphere and every vector of the figures, read off the picture, is that of the tables.
+//! Every path on a sphere and every vector of the figures, read off the picture, agrees with the tables.
 
 use super::curve_tests::{HALF_A_PIXEL, farthest};
 use super::drawn::{Ball, Element, Path, Point, arrows, elements, number, paths as drawn_paths, texts};
 use super::fixtures::{figure, fixtures};
 use super::{Figure, Table, plain};
 
-/// Lines on a sphere: table, the three columns, colours before and behind the sphere.
+/// Lines on a sphere: table, the three columns, colours in front of and behind the sphere.
 type OnSphere = (&'static str, [&'static str; 3], &'static str, &'static str);
 
 const MOTION: [OnSphere; 2] = [
@@ -38,7 +38,7 @@ fn paths(figure: &Figure, elements: &[Element]) -> Vec<(String, Vec<[f64; 3]>, &
             })
             .collect();
     }
-    // `(thin, green; for t up to 40 t_c)`, `(thick, blue; ...`
+    // The caption has `(thin, green; for t up to 40 t_c)`, `(thick, blue; ...`
     let caption = plain(figure.caption.paragraphs()[0]);
     MOTION
         .into_iter()
@@ -67,7 +67,7 @@ fn every_path_on_a_sphere_is_that_of_its_columns() {
         for (name, rows, front, back) in paths(figure, &elements) {
             let what = format!("{} {name}", figure.name);
             let of = |colour: &str| -> Vec<Vec<Point>> {
-                // The arrows and the curves beside have other widths.
+                // Arrows and neighbouring curves have other widths.
                 let is_of = |Path { style, clip, .. }: &&Path| {
                     let (stroke, width, _) = style;
                     clip.is_none() && stroke == colour && (!is_motion || ["0.5", "1.1"].contains(&width.as_str()))
@@ -92,7 +92,7 @@ fn every_path_on_a_sphere_is_that_of_its_columns() {
             assert!(off < HALF_A_PIXEL, "{what}: a corner of the path is {off} pt off the rows");
             assert!(corners.len() > 1, "{what} is not drawn");
             if is_motion {
-                // The arrow at the start.
+                // The arrow is at the start.
                 let [x, y] = ball.place(rows[0]);
                 let is_there = arrows(&elements).iter().any(|(_, from, to)| {
                     (from[0] - ball.origin[0]).abs() < 0.02 && (to[0] - x).hypot(to[1] - y) < HALF_A_PIXEL
@@ -105,7 +105,7 @@ fn every_path_on_a_sphere_is_that_of_its_columns() {
     assert!(count > 20, "{count} paths");
 }
 
-/// The heads of named arrows are the columns called like them; the line of nodes passes the origin.
+/// The heads of named arrows are the columns with the same names; the line of nodes passes through the origin.
 #[test]
 fn vectors_in_pictures_of_frames_are_those_of_the_tables() {
     const BODY: &[(&str, &str, f64)] = &[("x", "e_x", 1.0), ("y", "e_y", 1.0), ("z", "e_z", 1.0)];

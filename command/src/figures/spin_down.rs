@@ -1,4 +1,4 @@
-//! PSR B1828-11 over ten years as observers show it: residuals, rate of the frequency, beam width.
+//! PSR B1828-11 over ten years: residuals, rate of the frequency, beam width.
 
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
@@ -16,10 +16,10 @@ pub(super) const SCENE: &str = "b1828-11";
 /// Derivatives of the frequency that are fitted, F1 and F2.
 pub(super) const FITTED: usize = 2;
 
-/// By how much the part of geometry is enlarged to be seen.
+/// Enlargement of the part of geometry.
 pub(super) const ENLARGED: f64 = 50.0;
 
-/// Periods of lines, in precession periods: the first is that which a biaxial star lacks.
+/// Periods of lines, in precession periods; a biaxial star lacks the first.
 const LINES: [f64; 3] = [2.0, 1.0, 0.5];
 
 const TOTAL: Line = solid(BLACK, 0.8);
@@ -83,7 +83,7 @@ pub(super) fn sheet() -> Result<Sheet, String> {
     })
 }
 
-/// Amplitudes of lines of the curves, each fitted beside the others and what the fit of F0, F1, F2 takes: so they are those before that fit.
+/// Amplitudes of lines of the curves, fitted together with the terms of the fit of F0, F1, F2, so that they are those before that fit.
 fn lines(curves: &Table, precession: f64) -> Result<Table, String> {
     let columns = ["period [d]", "residual [ms]", "rate of the frequency [1e-15 Hz/s]", "beam width [ms]"];
     let mut table = Table::new("lines", columns);
@@ -164,13 +164,13 @@ fn draw(curves: &Table, precession: f64) -> String {
 /// Room for bars above the curve of the rate (1e-15 Hz/s).
 const ABOVE: f64 = 0.45;
 
-/// The row with the largest number in a column: the date and the number.
+/// The largest number in a column: its date and its value.
 fn most(curves: &Table, column: usize) -> [f64; 2] {
     let row = curves.rows.iter().max_by(|a, b| a[column].total_cmp(&b[column])).expect("pulses");
     [row[0], row[column]]
 }
 
-/// Bars as long as the precession period and half of it, each from a peak of the rate to the next that it leads to.
+/// Bars as long as the precession period and half of it, each from a peak of the rate to the next such peak.
 fn bars(page: &mut Page, panel: &Panel, curves: &Table, precession: f64) {
     let [peak, top] = most(curves, 4);
     let first = peak - ((peak - curves.rows[0][0]) / precession).floor() * precession;
@@ -243,7 +243,7 @@ fn caption(timed: &Timed, curves: &Table, lines: &Table) -> Caption {
 mod tests {
     use super::*;
 
-    /// Lines of known amplitudes and phases, beside a cubic polynomial that the fit of the rotation takes.
+    /// Lines of known amplitudes and phases plus a cubic polynomial, which the fit of the rotation absorbs.
     #[test]
     fn lines_have_the_amplitudes_that_they_were_made_with() {
         let precession = 100.0;

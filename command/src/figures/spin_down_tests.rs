@@ -1,4 +1,4 @@
-//! The figures of the star that slows down: curves are their tables, tables are what `timing` writes, and both are closed forms.
+//! The figures of the star that slows down: curves agree with their tables, tables with the output of `timing`, and both with closed forms.
 
 use std::f64::consts::{PI, TAU};
 
@@ -19,7 +19,7 @@ fn near(found: f64, expected: f64, part: f64) {
     assert!((found / expected - 1.0).abs() < part, "{found:e}, expected {expected:e}");
 }
 
-/// The curves of a frame are columns times factors, in the order of drawing; of a logarithmic axis their sizes.
+/// The curves of a frame are columns times factors, in the order of drawing; magnitudes for a logarithmic axis.
 fn assert_curves(what: &str, frame: &Frame, table: &Table, columns: &[(usize, f64)], sized: bool) {
     let pieces: Vec<_> = frame.curves.iter().flat_map(|(_, pieces)| pieces).collect();
     assert_eq!(pieces.len(), columns.len(), "{what}");
@@ -41,7 +41,7 @@ fn curves_are_the_columns() {
     assert_eq!(labels, [(date, "residual [ms]"), (date, "dν/dt [Hz/s]"), (date, "beam width [ms]")]);
     let table = &spin_down.tables[0];
     assert_curves("residuals", &found[0], table, &[(2, 1.0), (3, spin_down::ENLARGED), (1, 1.0)], false);
-    // The label has the power of ten.
+    // The label contains the power of ten.
     assert_curves("rate", &found[1], table, &[(4, 1e-15)], false);
     assert_curves("width", &found[2], table, &[(5, 1.0)], false);
     // Bars are as long as the periods, and begin and end at peaks of the rate.
@@ -67,7 +67,7 @@ fn curves_are_the_columns() {
     assert_curves("limit", &found[1], table, &[(3, 1e12), (6, 1e12 * violation_residuals::ENLARGED)], false);
 }
 
-/// Of the same scene, read from its file.
+/// For the same scene, read from its file.
 #[test]
 fn tables_are_those_of_timing() {
     let scene = Scene::named(spin_down::SCENE).unwrap();
@@ -108,8 +108,9 @@ fn tables_are_those_of_timing() {
     }
 }
 
-/// A dipole in vacuum brakes as `sin^2` of the angle of the magnetic axis to `L`, `1 - (cos theta cos chi + sin theta sin chi cos psi)^2`: the lines of its rate are `F1` times
-/// the harmonics of that over its mean, those of the residuals these over `F0 (2 pi / P)^2`, `P` the period of each. Geometry, which moves them, is of 0.05 ms.
+/// A dipole in vacuum brakes as `sin^2` of the angle of the magnetic axis to `L`, `1 - (cos theta cos chi + sin theta sin chi cos psi)^2`: the lines
+/// of its rate are `F1` times the harmonics of that over its mean, those of the residuals are these over `F0 (2 pi / P)^2`, `P` the period of each.
+/// Geometry contributes 0.05 ms.
 #[test]
 fn lines_are_those_of_the_torque_of_a_dipole() {
     let [curves, lines] = &figure("spin-down").tables[..] else { panic!("two tables") };
@@ -129,7 +130,7 @@ fn lines_are_those_of_the_torque_of_a_dipole() {
     }
     near(lines.rows[1][1], 12.8, 0.005);
     near(lines.rows[2][1], 2.4, 0.005);
-    // None of 1000 d, in any curve.
+    // No curve has a line at 1000 d.
     for k in 1..4 {
         assert!(lines.rows[0][k] < 1e-3 * lines.rows[1][k], "{:?}", lines.rows[0]);
     }
@@ -138,7 +139,8 @@ fn lines_are_those_of_the_torque_of_a_dipole() {
     near(largest, 16.93, 1e-3);
 }
 
-/// The pulse lasts while the axis of the beam is within `rho` of the line of sight: `cos rho = cos theta_m cos i + sin theta_m sin i cos phi`, `phi` by which it turns in half of that.
+/// The pulse lasts while the axis of the beam is within `rho` of the line of sight: `cos rho = cos theta_m cos i + sin theta_m sin i cos phi`, with
+/// `phi` the rotation in half of that time.
 #[test]
 fn the_beam_width_is_that_of_a_cone() {
     let curves = &figure("spin-down").tables[0];
@@ -152,12 +154,12 @@ fn the_beam_width_is_that_of_a_cone() {
     let all: Vec<_> = (0..1000).map(|k| width(psi(k))).collect();
     let of = |values: &[f64]| values.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), x| (l.min(*x), h.max(*x)));
     let ((narrow, wide), (least, most)) = (of(&all), of(&column(curves, 5)));
-    // The star slows down by 5e-5.
+    // The frequency of the star falls by 5e-5.
     near(least, narrow, 2e-4);
     near(most, wide, 2e-4);
 }
 
-/// What violation adds is the difference of the residuals with and without it, each fitted by itself; it grows as `s`.
+/// The contribution of violation is the residuals with it minus those without, each fitted; it is proportional to `s`.
 #[test]
 fn violation_adds_the_difference_of_residuals() {
     let table = &figure("violation-residuals").tables[0];
@@ -169,7 +171,8 @@ fn violation_adds_the_difference_of_residuals() {
     assert!(off < 1e-11, "{off:e} of {size:e}");
     for (k, (factor, ..)) in (3..5).zip(SIZES) {
         for (less, more) in column(table, k).into_iter().zip(&added) {
-            // The precession of the largest is out of step by 2.4e-5 rad at the end, the square of which is seen, and L has turned by 0.03 rad, the cube of which is.
+            // The largest violation changes the phase of the precession by 2.4e-5 rad at the end, visible to second order, and turns L by 0.03 rad,
+            // visible to third order.
             assert!((less * SIZES[2].0 / factor - more).abs() < 1e-4 * size, "{less:e} {more:e}");
         }
     }

@@ -1,4 +1,4 @@
-//! What captions say in words holds in the tables beside them.
+//! The statements of captions hold in the tables beside them.
 
 use std::f64::consts::TAU;
 
@@ -16,7 +16,7 @@ fn assert_says(figure_name: &str, words: &str) {
     assert!(says.contains(words), "`{words}` is not in the caption of {figure_name}: {says}");
 }
 
-/// Names of the two strongest lines, how weak one is, and which is the slowest.
+/// Names of the two strongest lines, the amplitude of a weak one, and the slowest line.
 #[test]
 fn the_spectra_of_the_beam_have_the_lines_that_are_named() {
     let lines = |name: &str| table("beam-alignment-spectra", &format!("{name}-lines"));
@@ -42,7 +42,7 @@ fn the_spectra_of_the_beam_have_the_lines_that_are_named() {
     assert!((lines("tp-I").rows[0][1] / slow("tp-I")[1] / 640.0 - 1.0).abs() < 0.02);
 }
 
-/// The rates of a caption are the frequencies of lines of `m.n`.
+/// The rates in a caption are the frequencies of lines of `m.n`.
 #[test]
 fn mean_rates_in_captions_are_frequencies_of_lines() {
     for figure_name in ["beam-alignment-spectra", "wave-spectra"] {
@@ -55,7 +55,7 @@ fn mean_rates_in_captions_are_frequencies_of_lines() {
             };
             let [alpha, gamma, slow] = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]].map(line);
             let (_, rates) = rates.split_once(&format!("{name}: ")).expect("the star");
-            // The body turns backwards about its axis, and L about Z.
+            // The body turns backwards about its axis, L about Z.
             let told = [("*α* = ", ", ", alpha, 7), ("*γ* = ", ", ", -gamma, 7), ("*l* = ", ", ", -slow, 7)];
             assert_told(rates, &told);
         }
@@ -76,7 +76,7 @@ fn powers_of_lines_are_those_of_the_lists() {
     assert_eq!(told, expected);
 }
 
-/// The mean torque goes as `P_2(cos w)`, `w` the wobble, which is zero at 54.7 deg.
+/// The mean torque, as `P_2(cos w)`, vanishes at the wobble `w` = 54.7 deg.
 #[test]
 fn waves_at_multiples_of_the_slow_rate_vanish_where_the_mean_torque_does() {
     let zero = (1.0_f64 / 3.0).sqrt().acos();
@@ -100,14 +100,14 @@ fn error(name: &str, beta_0: f64, parameter: f64) -> &'static [f64] {
     rows.min_by(|a, b| off(a).total_cmp(&off(b))).expect("a row")
 }
 
-/// The power by which an error grows with the second parameter, from one row of the map to a later one.
+/// The exponent of an error as a function of the second parameter, from one row of the map to a later one.
 fn power(name: &str, beta_0: f64, parameters: [f64; 2]) -> f64 {
     let [a, b] = parameters.map(|parameter| error(name, beta_0, parameter));
     (b[2] / a[2]).ln() / (b[1] / a[1]).ln()
 }
 
-/// Where the error is above eight times the rest at the smallest `A`, that rest takes at most `ln(9/8) / ln 3`, 0.11, from a power over a factor of
-/// three; the next order changes it about as much.
+/// If the error is above eight times the remainder at the smallest `A`, this remainder changes an exponent measured over a factor of three by at
+/// most `ln(9/8) / ln 3`, 0.11; the next order changes it about as much.
 #[test]
 fn errors_of_twofold_precession_grow_as_the_caption_says() {
     assert_says("perturbation-regimes", "Up to an *A* of 0.03 the error of the printed twofold solution grows as *A*,");
@@ -174,7 +174,7 @@ fn errors_of_methods_grow_as_the_caption_says() {
         let [x, t, _, _, corrected, printed, ..] = row[..] else { panic!("{row:?}") };
         let long_run = 2.0 * x * x * t;
         assert!((corrected / long_run - 0.9).abs() < 0.15 || long_run > 0.1, "{row:?}");
-        // Where one of the two is most of it.
+        // If one of the two dominates.
         if long_run < 1e-3 * x {
             assert!((printed / (0.01 * x) - 1.0).abs() < 0.1, "{row:?}");
         } else if long_run > 0.1 * x {
@@ -200,7 +200,7 @@ fn errors_of_methods_grow_as_the_caption_says() {
     }
 }
 
-/// `2 pi / gamma'` of both, `2 pi / l'` of tp-II, and how far the rates of Eq. (57) are off after 400 t_c.
+/// `2 pi / gamma'` of both, `2 pi / l'` of tp-II, and the phase errors from the rates of Eq. (57) after 400 t_c.
 #[test]
 fn pulses_are_modulated_with_the_periods_that_are_told() {
     assert_says("pulse-series", "modulated with the period of *γ*, about 40 *t*_{c}");
@@ -222,7 +222,8 @@ fn pulses_are_modulated_with_the_periods_that_are_told() {
     assert!((off - 1.0).abs() < 0.3, "{off} rad");
 }
 
-/// `l.(s l)` is the level on a contour and the middle eigenvalue on the separatrix, and nearly so on the path of sp-II; the star near Y comes back to it.
+/// `l.(s l)` is the level on a contour, the middle eigenvalue on the separatrix and nearly so on the path of sp-II; the path of the star near Y
+/// closes.
 #[test]
 fn paths_of_the_momentum_follow_contours() {
     let s = COEFFICIENTS.tensor();

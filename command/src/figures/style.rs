@@ -1,4 +1,4 @@
-//! Sizes, colours and lines that all figures share. Lengths in points, 1/72 inch.
+//! Sizes, colours and lines common to all figures. Lengths are in points, 1/72 inch.
 
 /// Width of a column of the paper, 8.6 cm.
 pub(super) const COLUMN: f64 = 8.6 * CENTIMETRE;
@@ -15,10 +15,10 @@ pub(super) const LABEL: f64 = 9.0;
 /// Size of numbers at ticks and of legends.
 pub(super) const SMALL: f64 = 8.0;
 
-/// Fonts of the SVG: the one that the PNG is drawn with, then fonts with the same widths.
+/// Fonts of the SVG: the one used for the PNG, then fonts with the same widths.
 pub(super) const FONTS: &str = "Arimo, 'Liberation Sans', Arial, Helvetica, sans-serif";
 
-// Okabe and Ito's colours, told apart by readers who see red and green alike. What they mean is said by line styles too.
+// Colours of Okabe and Ito, distinguishable without red-green vision. Line styles carry the same information.
 pub(super) const BLACK: &str = "#000000";
 pub(super) const GREY: &str = "#8c8c8c";
 pub(super) const LIGHT: &str = "#c8c8c8";

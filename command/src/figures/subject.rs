@@ -1,4 +1,4 @@
-//! A motion as figures need it.
+//! A motion with the data that figures need.
 
 use std::sync::OnceLock;
 
@@ -13,10 +13,10 @@ use twofold::solutions::perturbation::{Form, Perturbation, constants_from_initia
 use super::scale::Scale;
 use twofold_scene::scene_file::{Pulsar, Scene, Viewer};
 
-/// Truncation error of the motions, far below what a picture shows; the data of the figures have all their digits.
+/// Truncation error of the motions, far below what a picture shows; the data of the figures are written with all digits.
 pub(super) const TOLERANCE: f64 = 1e-14;
 
-/// How much of a motion the figures show, in `t_c` from the start; none above the span of the motion.
+/// Parts of a motion in the figures, in `t_c` from the start; none is longer than the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shown {
     /// Angles and the path of `e_z`.
@@ -29,7 +29,7 @@ pub struct Shown {
     pub pulses: f64,
 }
 
-/// A motion with everything that figures of it need.
+/// A motion with everything that its figures need.
 #[derive(Debug, Clone)]
 pub struct Subject {
     /// Name in headings, `tp-I`.
@@ -38,9 +38,9 @@ pub struct Subject {
     pub problem: Problem<f64>,
     /// Euler angles of that state.
     pub initial_angles: EulerAngles<f64>,
-    /// In which units it is drawn.
+    /// Units of the figures.
     pub scale: Scale,
-    /// The perturbation solution whose constants give the motion, as printed, or why there is none.
+    /// The perturbation solution whose constants give the motion, as printed, or the reason why there is none.
     pub printed: Result<Perturbation<f64>, &'static str>,
     /// The corrected solution with the same initial values.
     pub corrected: Option<Perturbation<f64>>,
@@ -53,11 +53,11 @@ pub struct Subject {
     pub(super) quasi_periodic: OnceLock<Result<QuasiPeriodicMotion, String>>,
 }
 
-/// Rotation that figures of any motion show at most (rad): some hundred turns, beyond which curves become a blot.
+/// Largest rotation in figures of any motion (rad): about a hundred turns, beyond which curves merge.
 const MOST_ROTATION: f64 = 600.0;
 
 impl Subject {
-    /// The motion of `duration` (t_c, either way) without observer and beam, shown for as long as curves can be told apart.
+    /// The motion of `duration` (t_c, either sign) without observer and beam, shown for as long as curves can be distinguished.
     pub fn new(
         name: &str,
         problem: Problem<f64>,
@@ -66,7 +66,7 @@ impl Subject {
     ) -> Result<Self, String> {
         let spheroid = problem.spheroid();
         let torque = spheroid.constant_c.abs() * problem.coefficients().norm();
-        // A star at rest turns at the rate of its swing, one without a torque not at all.
+        // A star at rest turns at the rate of its swing, and without a torque not at all.
         let swing = (2.0 * torque / spheroid.inertia_xx).sqrt();
         let rate = (problem.initial().momentum.norm() / spheroid.inertia_xx).max(swing);
         let rate = if rate > 0.0 { rate } else { 1.0 / duration.abs() };
@@ -101,7 +101,7 @@ impl Subject {
     pub fn of_scene(name: &str, scene: &Scene) -> Result<Self, String> {
         let motion = Self::new(name, scene.problem, scene.initial_angles, scene.duration())?;
         let (scale, printed) = (Scale::of_scene(scene), scene.perturbation);
-        // A scene has a perturbation solution where its tensor is diagonal.
+        // A scene has a perturbation solution if its tensor is diagonal.
         let s = scene.problem.coefficients().diagonal();
         let s = PrincipalCoefficients::new([s.x, s.y, s.z]);
         let corrected = printed
@@ -139,7 +139,7 @@ impl Subject {
         Ok((self.viewer()?, self.pulsar.ok_or_else(|| format!("{}: no beam is given", self.name))?))
     }
 
-    /// `alpha'` and `|gamma'|` of free precession, Eq. (48), as they are drawn, where the motion is twofold precession by its constants.
+    /// `alpha'` and `|gamma'|` of free precession, Eq. (48), in the unit of the figure, if the motion is twofold precession given by its constants.
     pub(super) fn free_rates(&self) -> Vec<f64> {
         let twofold = self.printed.ok().filter(|solution| solution.zeroth_rate != 0.0);
         let gamma = self.problem.spheroid().oblateness() * self.spin();
@@ -151,7 +151,7 @@ impl Subject {
         self.motion.state(t).map_err(|error| format!("{}: {error}", self.name))
     }
 
-    /// Continuous Euler angles at times in order; those on a pole, where there are none, are left out.
+    /// Continuous Euler angles at ordered times; times at a pole, where the angles are undefined, are left out.
     pub(super) fn angles(&self, times: &[f64]) -> Result<Vec<(f64, EulerAngles<f64>)>, String> {
         let mut angles = ContinuousAngles::new(&self.motion, 0.0, &self.initial_angles)
             .map_err(|error| format!("{}: {error}", self.name))?;
@@ -159,7 +159,7 @@ impl Subject {
     }
 }
 
-/// The corrected solution with the initial values of the printed one; none where none is found.
+/// The corrected solution with the initial values of the printed one; `None` if none is found.
 pub(super) fn corrected_solution(
     printed: &Perturbation<f64>,
     spheroid: &RigidSpheroid<f64>,
@@ -176,7 +176,7 @@ pub(super) fn times(end: f64, count: usize) -> Vec<f64> {
     (0..=count).map(|i| if i == count { end } else { end * i as f64 / count as f64 }).collect()
 }
 
-/// So many numbers at even distances of their logarithms, from one power of ten to another.
+/// Numbers with equally spaced logarithms, from one power of ten to another.
 pub(super) fn powers_of_ten((low, high, count): (f64, f64, usize)) -> impl Iterator<Item = f64> {
     (0..count).map(move |i| 10f64.powf(low + (high - low) * i as f64 / (count - 1) as f64))
 }
@@ -197,7 +197,7 @@ mod tests {
         Subject::new("a star", Problem::new(spheroid, s, state).unwrap(), angles, duration).unwrap()
     }
 
-    /// Parts of 600 rad at the rate of rotation, or of a swing; all of a motion that is shorter.
+    /// Fractions of 600 rad at the rate of rotation, or of a swing; a shorter motion is shown completely.
     #[test]
     fn a_figure_shows_so_much_rotation() {
         let near = |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 1e-14, "{found} {expected}");
@@ -225,7 +225,7 @@ mod tests {
         assert_eq!([at_rest.rotation_rate, at_rest.shown.angles], [0.02, -50.0]);
     }
 
-    /// A wave of a physical star needs its distance, one in the paper's units does not.
+    /// A wave of a physical star needs a distance, a wave in the paper's units does not.
     #[test]
     fn a_physical_star_without_a_distance_lacks_it() {
         let lacks =
@@ -246,7 +246,7 @@ mod tests {
         let ten = f64::sqrt(10.0);
         let expected = [1e-2, 1e-2 * ten, 0.1, 0.1 * ten, 1.0, ten, 10.0];
         assert_eq!(found.len(), expected.len());
-        // The logarithm is exact to some 2^-52, of which the power makes ln 10 times as much.
+        // The rounding of the logarithm is about 2^-52, and the power multiplies it by ln 10.
         assert!(
             found.iter().zip(expected).all(|(found, expected)| (found / expected - 1.0).abs() < 2e-15),
             "{found:?}"

@@ -1,4 +1,4 @@
-//! A page of SVG: lines, areas, marks and text. Lengths in points, y downwards.
+//! A page of SVG: lines, areas, marks and text. Lengths are in points, y downwards.
 
 use std::fmt::Write;
 
@@ -25,7 +25,7 @@ impl Rectangle {
     }
 }
 
-/// Which point of a text is given.
+/// The reference point of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Anchor {
     Start,
@@ -33,7 +33,7 @@ pub(super) enum Anchor {
     End,
 }
 
-/// Smallest size of letters, those below and above the line included.
+/// Smallest size of letters, including subscripts and superscripts.
 const SMALLEST: f64 = 7.0;
 
 #[derive(Debug)]
@@ -46,12 +46,12 @@ pub(super) struct Page {
 }
 
 impl Page {
-    /// An empty page of the figure called `name`, by which its parts are told apart where several stand in one document.
+    /// An empty page for the figure `name`, which makes its ids unique in a document with several figures.
     pub(super) fn new(name: &str, width: f64, height: f64) -> Self {
         Self { name: name.to_owned(), width, height, body: String::new(), clips: 0 }
     }
 
-    /// The SVG document; `title` is for readers who do not see it.
+    /// The SVG document; `title` describes it for readers who do not see it.
     pub(super) fn finish(self, title: &str) -> String {
         let Self { width, height, body, .. } = self;
         let (title, centimetres) = (escaped(&super::markup::plain(title)), |points: f64| points / CENTIMETRE);
@@ -65,7 +65,7 @@ impl Page {
     }
 
     fn write(&mut self, element: std::fmt::Arguments<'_>) {
-        // A String takes everything.
+        // Writing to a String cannot fail.
         let _ = self.body.write_fmt(element);
         self.body.push('\n');
     }
@@ -88,7 +88,7 @@ impl Page {
         self.write(format_args!("<path d=\"{data}Z\" fill=\"{fill}\"/>"));
     }
 
-    /// A filled rectangle that reaches a little over its lower and its right side, so that no seam is left between neighbours.
+    /// A filled rectangle that extends slightly over its lower and right sides, so that there is no seam between neighbours.
     pub(super) fn cell(&mut self, r: Rectangle, fill: &str) {
         self.write(format_args!(
             "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{:.2}\" fill=\"{fill}\" shape-rendering=\"crispEdges\"/>",
@@ -115,7 +115,7 @@ impl Page {
         self.area(&[to, along(head, 0.36 * head), along(0.75 * head, 0.0), along(head, -0.36 * head)], line.colour);
     }
 
-    /// Text with markup on one line, its baseline at `at`.
+    /// Text with markup on one line, with its baseline at `at`.
     pub(super) fn text(&mut self, at: At, anchor: Anchor, size: f64, colour: &str, text: &str) {
         self.turned_text(at, 0.0, anchor, size, colour, text);
     }
@@ -125,7 +125,7 @@ impl Page {
         self.text(at, anchor, LABEL, "#000000", text);
     }
 
-    /// Text in the middle of `at`, with a white edge that keeps it legible over lines.
+    /// Text centred at `at`, with a white edge that keeps it legible over lines.
     pub(super) fn name(&mut self, [x, y]: At, colour: &str, text: &str) {
         let edge = " stroke=\"#ffffff\" stroke-width=\"2.2\" paint-order=\"stroke\"";
         self.spans([x, y + 0.35 * LABEL], Anchor::Middle, LABEL, colour, text, edge);
@@ -182,7 +182,7 @@ impl Page {
         ));
     }
 
-    /// What `draw` draws, cut off outside of `r`.
+    /// The output of `draw`, clipped to `r`.
     pub(super) fn clipped(&mut self, r: Rectangle, draw: impl FnOnce(&mut Self)) {
         self.clips += 1;
         let id = format!("{}-clip-{}", self.name, self.clips);
@@ -195,7 +195,7 @@ impl Page {
     }
 }
 
-/// How far a cell reaches over its neighbours: more than a pixel of the PNG, less than half of a line round all of them.
+/// Overlap of neighbouring cells: more than a pixel of the PNG, less than half of a line around all of them.
 const OVERLAP: f64 = 0.3;
 
 fn stroke(line: Line) -> String {
@@ -203,7 +203,7 @@ fn stroke(line: Line) -> String {
     format!(" stroke=\"{}\" stroke-width=\"{}\"{dashes}", line.colour, line.width)
 }
 
-/// Points nearer than this to the line between their neighbours are left out, 0.02 pt: a twentieth of a thin line.
+/// Points closer than this to the line between their neighbours are left out: 0.02 pt, a twentieth of a thin line.
 const FLATNESS: f64 = 0.02;
 
 fn path_data(points: &[At]) -> String {
@@ -246,7 +246,7 @@ fn distance_to_piece(p: At, a: At, b: At) -> f64 {
 mod tests {
     use super::*;
 
-    /// What a line can do without is what lies on it, between its ends.
+    /// Only points on the line between its ends are removed.
     #[test]
     fn a_line_keeps_its_corners_and_where_it_turns_back() {
         let straight = [[0.0, 0.0], [1.0, 0.019], [2.0, -0.019], [4.0, 0.0]];

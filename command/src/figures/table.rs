@@ -2,11 +2,11 @@
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// What tells it from the other tables of its figure; empty where there is one only.
+    /// Name that distinguishes it from other tables of its figure; empty if it is the only one.
     pub name: String,
     /// Headers with units, `t [t_c]`.
     pub columns: Vec<String>,
-    /// Rows of as many numbers.
+    /// Rows with one number per column.
     pub rows: Vec<Vec<f64>>,
 }
 
@@ -22,12 +22,12 @@ impl Table {
         self.rows.push(row);
     }
 
-    /// The points of column `y` over column `x`, by place.
+    /// The points of column `y` against column `x`, by index.
     pub(super) fn points(&self, x: usize, y: usize) -> Vec<(f64, f64)> {
         self.rows.iter().map(|row| (row[x], row[y])).collect()
     }
 
-    /// Comma-separated values; numbers with as few digits as identify the double.
+    /// Comma-separated values; numbers have the fewest digits that identify the double.
     pub fn csv(&self) -> String {
         let mut text = self.columns.join(",") + "\n";
         for row in &self.rows {

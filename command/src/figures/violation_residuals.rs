@@ -1,4 +1,4 @@
-//! What Lorentz violation of several sizes adds to the residuals of PSR B1828-11.
+//! The effect of Lorentz violation of several sizes on the residuals of PSR B1828-11.
 
 use super::drawing::*;
 use super::spin_down::{Timed, angles, dates, sizes};
@@ -8,7 +8,7 @@ const NAME: &str = "violation-residuals";
 /// 95 % limit on `alpha_2` in the scene.
 pub(super) const LIMIT: f64 = 1.6e-9;
 
-/// `s` of the scene, which is that of the limit, times these; how each is drawn and named.
+/// Factors on `s` of the scene, which is that of the limit, with line style and name.
 pub(super) const SIZES: [(f64, Line, &str); 3] = [
     (1.0, solid(BLUE, 1.2), "limit"),
     (1e2, dashed(BLUE, 1.1), "limit × 10^{2}"),
@@ -19,10 +19,10 @@ const TORQUE: Line = solid(VERMILION, 1.2);
 const GEOMETRY: Line = solid(BLACK, 1.0);
 const DIRECT: Line = dashed(PURPLE, 1.1);
 
-/// By how much the direct part is enlarged to be seen.
+/// Enlargement of the direct part.
 pub(super) const ENLARGED: f64 = 50.0;
 
-/// Sizes of residuals that are shown (s).
+/// Range of residuals (s).
 const SHOWN: (f64, f64) = (1e-14, 0.1);
 
 pub(super) fn sheet() -> Result<Sheet, String> {
@@ -35,7 +35,7 @@ pub(super) fn sheet() -> Result<Sheet, String> {
     let direct = format!("of that without the torque for alpha_2 = {LIMIT:e} [s]");
     let mut table = Table::new("", columns.into_iter().chain(added).chain([direct]));
     for (i, date) in free.dates().enumerate() {
-        // Differences of causes, which have no rounding of arrival times.
+        // Differences of causes are free of the rounding of arrival times.
         let added = |timed: &Timed| timed.causes.violation[i] + (timed.causes.torque[i] - free.causes.torque[i]);
         let first = [date, free.causes.torque[i], free.causes.geometry[i]];
         let direct = violated[0].causes.violation[i];
@@ -65,7 +65,7 @@ fn draw(table: &Table) -> String {
     let panel = Panel::new(upper, x.bare(), Axis::logarithmic("size of the residual [s]", SHOWN.0, SHOWN.1));
     let causes = [(1, 1.0, TORQUE, "torque".to_owned()), (2, 1.0, GEOMETRY, "geometry".to_owned())];
     let violations = (3..).zip(SIZES).map(|(column, (_, line, name))| (column, 1.0, line, name.to_owned()));
-    // Changes of sign go below the frame.
+    // Changes of sign are below the frame.
     let size = |late: f64| late.abs().max(0.1 * SHOWN.0);
     curves(&panel, &mut page, &causes.into_iter().chain(violations).collect::<Vec<_>>(), size);
     panel.letter(&mut page, 0, 2, "torque, geometry, and what Lorentz violation adds");
@@ -105,7 +105,7 @@ fn caption(timed: &Timed, table: &Table, shift: f64) -> Caption {
 mod tests {
     use super::*;
 
-    /// Each is 1.0495 of its unit, which has two digits: 0.1 % more would be 1.1.
+    /// Each is 1.0495 of its unit, printed with two digits: 0.1 % more would be 1.1.
     #[test]
     fn a_caption_tells_sizes_in_their_units() {
         let mut table = Table::new("", ["date", "torque", "geometry", "1", "2", "3", "direct"]);

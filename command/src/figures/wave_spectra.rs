@@ -10,10 +10,10 @@ use super::waves;
 
 const LINE: Line = solid(BLACK, 0.8);
 
-/// Half of the width of the inset, as a part of the rate of which the wave has harmonics.
+/// Half of the width of the inset, relative to the fundamental rate of the harmonics.
 const INSET: f64 = 0.22;
 
-/// An inset is drawn for amplitudes above this part of the largest.
+/// An inset is drawn for amplitudes above this fraction of the largest.
 const ENLARGED: f64 = 1e-5;
 
 /// The lines of both polarizations.
@@ -49,12 +49,13 @@ fn largest(both: &Both) -> f64 {
     both.iter().flatten().map(|line| line.amplitude).fold(0.0, f64::max)
 }
 
-/// Whether a wave is more than the error of the motion, below which there are no lines.
+/// Whether a wave exceeds the error of the motion; otherwise there are no lines.
 fn radiates(both: &Both) -> bool {
     both.iter().any(|lines| !lines.is_empty())
 }
 
-/// The rate of `alpha`, of which the wave has harmonics, as it is drawn; none where nothing is left to enlarge near its third.
+/// The rate of `alpha`, the fundamental of the wave's harmonics, in the unit of the figure; `None` if there is nothing to
+/// enlarge near its third harmonic.
 fn fundamental(subject: &Subject, both: &Both, highest: f64) -> Result<Option<f64>, String> {
     let rate = subject.quasi_periodic()?.frequencies().rate("alpha'");
     let rate = rate.map(|rate| subject.scale.frequency(rate.abs()));
@@ -73,7 +74,7 @@ fn part(lines: &[SpectralLine], rate: f64) -> impl Iterator<Item = &SpectralLine
 fn draw(name: &str, subjects: &[&Subject], spectra: &[Both], highest: f64) -> Result<String, String> {
     let grid = Grid::two_rows(subjects.len(), 98.0, 44.0);
     let mut page = Page::new(name, PAGE, grid.bottom(2) + BELOW);
-    // One scale for both stars and polarizations, so that sizes can be compared.
+    // Both stars and polarizations have the same scale, so that amplitudes can be compared.
     let most = subjects.iter().zip(spectra).map(|(s, both)| largest(both).max(waves::error(s))).fold(0.0, f64::max);
     let most = if most > 0.0 { most } else { 1.0 };
     for (i, (subject, both)) in subjects.iter().zip(spectra).enumerate() {
@@ -102,7 +103,7 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[Both], highest: f64) -> Re
     Ok(page.finish("Spectra of the gravitational waves"))
 }
 
-/// The part of the spectrum near three times `rate` at a scale of its own, in the upper right of the frame.
+/// The spectrum near three times `rate` with its own scale, in the upper right of the frame.
 fn inset(page: &mut Page, frame: Rectangle, rate: f64, lines: &[SpectralLine]) {
     let part: Vec<_> = part(lines, rate).cloned().collect();
     let most = part.iter().map(|line| line.amplitude).fold(f64::MIN_POSITIVE, f64::max);
@@ -146,7 +147,7 @@ fn caption(subjects: &[&Subject], spectra: &[Both], highest: f64) -> Result<Capt
     })
 }
 
-/// What the spectra of a motion say.
+/// The findings from the spectra of a motion.
 fn findings(subject: &Subject, both: &Both) -> String {
     if !radiates(both) {
         let error = significant(waves::error(subject), 1);
@@ -211,7 +212,8 @@ mod tests {
         assert_eq!(largest(&[vec![], vec![]]), 0.0);
     }
 
-    /// At three times `alpha'`, which is 1.1 / cos 0.7 either way, and up to 3.22 times it on the axis. The wave of a physical star has amplitudes of 1e-30.
+    /// At three times `alpha'`, which is 1.1 / cos 0.7 in either direction, for axes up to 3.22 times it. The wave of a physical star has amplitudes
+    /// of 1e-30.
     #[test]
     fn an_inset_is_there_for_what_it_enlarges() {
         let third = 3.3 / 0.7_f64.cos();
@@ -226,7 +228,7 @@ mod tests {
             assert_eq!(rate(&both(third, 1e-31), 1.07 * third), None, "beyond the end");
             assert_eq!(rate(&[vec![], vec![]], 2.0 * third), None, "nothing");
         }
-        // Here `alpha` does not go round.
+        // Here `alpha` does not circulate.
         assert_eq!(fundamental(&fixtures::tone(-1.0, 1.0), &both(0.0, 1e-30), 300.0).unwrap(), None);
     }
 
@@ -257,7 +259,7 @@ mod tests {
         );
         let alone = told(&[&by_angles], &[[vec![once(1.0)], vec![once(1.0)]]]);
         assert!(alone.shows.ends_with("*r*)."), "{}", alone.shows);
-        // Of equal ones the first.
+        // Of equal lines the first counts.
         assert_eq!(alone.says, "The strongest line of b is in *h*_{+}: *α*, at 1.5 rad/*t*_{c}, of an amplitude of 1.");
     }
 }

@@ -1,4 +1,4 @@
-//! `h_+` and `h_x` at the observer in time.
+//! `h_+` and `h_x` at the observer against time.
 
 use twofold::dynamics::{BodyState, RotationState};
 use twofold::observables::gravitational_wave::Polarizations;
@@ -12,7 +12,7 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
     Ok(Sheet { svg: draw(name, subjects, &tables), caption: caption(subjects, &tables), tables })
 }
 
-/// The two polarizations in a state, as they are drawn.
+/// The two polarizations in a state, in the unit of the figure.
 pub(super) fn wave(subject: &Subject, state: &BodyState<f64>) -> Result<Polarizations<f64>, String> {
     let (problem, observer) = (&subject.problem, subject.viewer()?.basis());
     Ok(spheroid_wave(
@@ -24,8 +24,8 @@ pub(super) fn wave(subject: &Subject, state: &BodyState<f64>) -> Result<Polariza
     ))
 }
 
-/// What an error of the numerical motion makes of a wave, as it is drawn: the acceleration is that of a product of `n` and `L`, of the size
-/// `epsilon Omega^2`, and the torque. A wave below that is not known.
+/// The error of a wave due to that of the numerical motion, in the unit of the figure: the second derivative has products of `n` and `L` of
+/// the size `epsilon Omega^2`, and the torque. A smaller wave is not significant.
 pub(super) fn error(subject: &Subject) -> f64 {
     let (problem, spheroid) = (&subject.problem, subject.problem.spheroid());
     let rate = problem.initial().momentum.norm() / spheroid.inertia_xx;
@@ -46,9 +46,9 @@ fn waves(subject: &Subject) -> Result<Table, String> {
 fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
     let grid = Grid::two_rows(subjects.len(), 74.0, 44.0);
     let mut page = Page::new(name, PAGE, grid.bottom(2) + BELOW);
-    // One scale for both stars and polarizations, so that sizes can be compared.
+    // Both stars and polarizations have the same scale, so that amplitudes can be compared.
     let values = || tables.iter().flat_map(|table| table.rows.iter().flat_map(|row| [row[1], row[2]]));
-    // What the motion does not know is not spread over the frame.
+    // An insignificant wave does not fill the frame.
     let least = subjects.iter().map(|subject| error(subject)).fold(0.0, f64::max);
     let least = [-least, least].into_iter().filter(|_| !subjects.iter().zip(tables).any(|(s, t)| radiates(s, t)));
     for (i, (subject, table)) in subjects.iter().zip(tables).enumerate() {
@@ -68,7 +68,7 @@ fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
     page.finish("Gravitational waves in time")
 }
 
-/// Whether a wave is more than the error of the motion.
+/// Whether a wave exceeds the error of the motion.
 fn radiates(subject: &Subject, table: &Table) -> bool {
     table.rows.iter().any(|row| row[1].abs().max(row[2].abs()) > error(subject))
 }
@@ -115,7 +115,7 @@ mod tests {
     use crate::figures::caption_tests::assert_begins;
     use crate::figures::fixtures::{free, tone};
 
-    /// It goes with the oblateness and the square of the rotation, and with the torque beside it.
+    /// It is proportional to the oblateness and to the square of the rotation, with a term for the torque.
     #[test]
     fn the_error_of_a_wave_goes_with_what_makes_it() {
         let error = |oblateness: f64, rate: f64, torque: f64| {

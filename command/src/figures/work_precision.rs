@@ -1,4 +1,4 @@
-//! Time against error of every method on some scenes.
+//! Time against error for every method on some scenes.
 
 use super::Figure;
 use super::drawing::*;
@@ -13,7 +13,7 @@ const SCENES: [&str; 3] = ["tp-II", "nearly-free", "strongly-violated"];
 
 const ERRORS: (f64, f64) = (1e-15, 1e-2);
 
-/// Lines and marks of the methods, in order of appearance; further ones begin again.
+/// Lines and marks of the methods, in order of appearance; they are reused if there are more.
 const STYLES: [(Line, Mark); 8] = [
     (solid(BLACK, 1.5), Mark::Disc),
     (dashed(VERMILION, 1.1), Mark::Ring),
@@ -25,7 +25,7 @@ const STYLES: [(Line, Mark); 8] = [
     (dotted(BLUE, 1.4), Mark::Ring),
 ];
 
-/// Time of a motion of 1,000 t_c against its error: the best runs of each method, `n` and `L` above, with `e_x` below.
+/// Time of a motion of 1,000 t_c against its error: the best runs of each method; `n` and `L` above, with `e_x` below.
 pub fn work_precision(rows: &[Row]) -> Figure {
     let width = (PAGE - LEFT - 6.0 - 2.0 * 14.0) / 3.0;
     let grid = Grid { left: LEFT, top: 16.0, width, height: 118.0, between: [14.0, 22.0] };
@@ -81,7 +81,7 @@ pub fn work_precision(rows: &[Row]) -> Figure {
     }
 }
 
-/// Names in a line of the legend.
+/// Number of names per line of the legend.
 const PER_LINE: usize = 4;
 
 const LEGEND_LEFT: f64 = 12.0;
@@ -111,20 +111,21 @@ mod tests {
     use crate::figures::fixtures::made_up_runs;
     use twofold_bench::timing::Times;
 
-    /// Nine methods take 0.1 ms times their place and the number of the run, 1 to 7; the first run has an error of 1e-2.
+    /// Nine methods take 0.1 ms times their index and the number of the run, 1 to 7; the first run has an error of 1e-2.
     #[test]
     fn the_axis_of_times_has_room_for_all_that_are_shown() {
         let mut rows = made_up_runs();
         let (low, high) = times(&rows);
         assert!((low * 1.5 - 0.1).abs() < 1e-12 && (high / 1.5 - 6.3).abs() < 1e-12, "{low} {high}");
-        // What is not shown takes no room.
+        // A run that is not shown takes no room.
         for row in rows.iter_mut().filter(|row| row.times.least > 3.45e-3) {
             row.error = 0.011;
         }
         assert!((times(&rows).1 / 1.5 - 3.2).abs() < 1e-12, "{:?}", times(&rows));
     }
 
-    /// Of a method those runs that no other of its runs beats, with errors from 1e-15 to 0.007; each run has times and errors of its own. Times are of some microseconds.
+    /// For each method those runs that no other of its runs beats, with errors from 1e-15 to 0.007; all times and errors differ. Times are some
+    /// microseconds.
     #[test]
     fn panels_have_the_runs_of_their_scene_and_what_is_carried() {
         let run = |scene: &str, carries, method: &str, error: f64, time: f64| Row {

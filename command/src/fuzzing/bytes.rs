@@ -2,10 +2,10 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Bytes that are read from the front; beyond their end are zeros.
+/// Bytes read from the front; beyond their end there are zeros.
 pub(super) struct Bytes<'a>(&'a [u8]);
 
-/// Numbers at which formulas turn: zeros, signs, ends of ranges, poles, what is not a number.
+/// Critical numbers of formulas: zeros, signs, ends of ranges, poles, NaN and infinities.
 const SPECIAL: [[f64; 8]; 4] = [
     [0.0, -0.0, 1.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MIN_POSITIVE],
     [5e-324, -5e-324, f64::MAX, f64::MIN, f64::EPSILON, 1.0 - f64::EPSILON / 2.0, 1.0 + f64::EPSILON, PI],
@@ -28,12 +28,12 @@ impl<'a> Bytes<'a> {
         *first
     }
 
-    /// A whole number below `end`, of two bytes.
+    /// A whole number below `end`, from two bytes.
     pub(super) fn below(&mut self, end: usize) -> usize {
         (usize::from(self.byte()) << 8 | usize::from(self.byte())) % end.max(1)
     }
 
-    /// A special number, one of any bits, or one of ordinary size with its sign.
+    /// A special number, a number with arbitrary bits, or one of ordinary size with its sign.
     pub(super) fn number(&mut self) -> f64 {
         match self.byte() {
             kind @ 0..64 => SPECIAL.as_flattened()[usize::from(kind) % 32],
@@ -43,12 +43,12 @@ impl<'a> Bytes<'a> {
         }
     }
 
-    /// From -4 to 4.
+    /// A number from -4 to 4.
     fn ordinary(&mut self) -> f64 {
         f64::from(u16::from_le_bytes([self.byte(), self.byte()]) as i16) / 8192.0
     }
 
-    /// A number such as scenes have, mostly: from -4 to 4.
+    /// A number as in scenes, mostly from -4 to 4.
     pub(super) fn usual(&mut self) -> f64 {
         if self.byte() < 32 { self.number() } else { self.ordinary() }
     }

@@ -1,4 +1,4 @@
-//! The command with arguments from a fuzzer, in this process, where that is little work.
+//! The command with arguments from a fuzzer, executed in this process if the work is small.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -28,12 +28,12 @@ const FILES: [(&str, &str); 6] = [
     ("t.tim", "FORMAT 1\na 0 55321.25 1 @\na 0 55421.5 1 @\na 0 56421.75 1 @\na 0 57521 1 @\na 0 58621 1 @\n"),
 ];
 
-/// Arguments, one on a line: parsed, and carried out in a folder of their own where that is little work and no path leads out of it.
+/// Arguments, one per line: parsed, and executed in a separate folder if the work is small and no path leads out of it.
 pub fn command_line(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     let Ok(cli) = Cli::try_parse_from(["twofold"].into_iter().chain(text.lines())) else { return };
     let Some(command) = cli.command else { return };
-    // What could reach a file of the machine is only parsed.
+    // Arguments that could reach a file of the machine are only parsed.
     if text.contains(['/', '\\', '~']) || text.contains("..") {
         return;
     }
@@ -60,7 +60,7 @@ fn folder() -> &'static Path {
     folder.path()
 }
 
-/// Removes what a command has written; what it leaves unfinished without saying so is a fault.
+/// Removes the output of a command; an unfinished file without its mark is a fault.
 fn clean(folder: &Path) {
     for entry in fs::read_dir(folder).expect("a folder") {
         let entry = entry.expect("an entry");
@@ -75,7 +75,7 @@ fn clean(folder: &Path) {
     }
 }
 
-/// Whether a command is milliseconds of work.
+/// Whether a command takes only milliseconds.
 fn is_little_work(command: &Command) -> bool {
     let short = |name: &str| match Scene::named_with(name, Columns::Unused) {
         Ok(scene) => is_small(&scene) || name == "p.toml",

@@ -9,7 +9,7 @@ use twofold_scene::measurements::{DataFile, parameters_of};
 use twofold_scene::pulsar_table::pulsars as read_pulsars;
 use twofold_scene::scene_file::{Scene, built_in};
 
-/// One of the authors' files, chosen by the first byte, cut down to the rows that are there.
+/// One of the authors' files, chosen by the first byte and cut to the rows that exist.
 pub fn authors_data(bytes: &[u8]) {
     let Some((kind, text)) = bytes.split_first() else { return };
     let Ok(text) = std::str::from_utf8(text) else { return };
@@ -28,7 +28,7 @@ fn scene() -> &'static Scene {
     })
 }
 
-/// A table of pulses or of strains, and a fit to it where it has few rows within the span of a scene.
+/// A table of pulses or of strains, and a fit to it if it has few rows within the span of a scene.
 pub fn data_file(bytes: &[u8]) {
     const MOST_FITTED: usize = 40;
     let Some((kinds, table)) = bytes.split_first() else { return };
@@ -53,7 +53,7 @@ pub fn data_file(bytes: &[u8]) {
     }
 }
 
-/// The text of a table of pulsars, with every number that follows from it.
+/// The text of a table of pulsars, with every number derived from it.
 pub fn pulsars(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     match read_pulsars("pulsars.toml", text) {

@@ -1,9 +1,9 @@
-//! Entry points for fuzzing, one for each kind of input; the test suite replays what the fuzzer has found.
+//! Entry points for fuzzing, one for each kind of input; the test suite replays the fuzzer's findings.
 //!
-//! A function returns whatever the bytes are. It panics where a promise is broken: a file is used or refused with a message, a number
-//! that is written is finite, a table that goes on after damage is the undamaged one. The work of an input is bounded here where the
-//! program lets a user ask for hours. `scripts/fuzz` runs the search, `tools/fuzz/corpus` holds what it has found, and
-//! `docs/reliability/fuzzing.md` tells how much was searched.
+//! A function returns for any bytes. It panics if a promise is broken: a file is used or refused with a message, a written number is
+//! finite, a table continued after damage equals the undamaged one. The work for an input is bounded here where the program lets a
+//! user ask for hours. `scripts/fuzz` runs the search, `tools/fuzz/corpus` holds its findings, and `docs/reliability/fuzzing.md`
+//! states how much was searched.
 
 mod bytes;
 mod command_line;
@@ -22,10 +22,10 @@ pub use scene::scene;
 pub use sweep::sweep;
 pub use timing::{table, timing_file, timing_model};
 
-/// A function that takes bytes, and its name.
+/// Name of a target, and its function of bytes.
 pub type Target = (&'static str, fn(&[u8]));
 
-/// All of them.
+/// All targets.
 pub const TARGETS: [Target; 11] = [
     ("scene", scene),
     ("sweep", sweep),

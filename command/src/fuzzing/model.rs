@@ -40,14 +40,14 @@ use twofold::units::time_unit;
 
 use super::bytes::Bytes;
 
-/// Rotation (rad) up to which a motion is computed, and beyond which it must be refused at once.
+/// Rotations (rad) up to which a motion is computed, and beyond which it must be refused immediately.
 const LITTLE: f64 = 300.0;
 const REFUSED: f64 = 1e13;
 
-/// Steps that take some milliseconds.
+/// Number of steps that takes some milliseconds.
 const MANY: f64 = 1e4;
 
-/// A scene as bytes give it, with a span, a tolerance, a beam and an observer.
+/// A scene from bytes, with a span, a tolerance, a beam and an observer.
 struct Case {
     body: RigidSpheroid<f64>,
     s: PrincipalCoefficients<f64>,
@@ -85,7 +85,7 @@ impl Case {
         Problem::new(self.body, self.tensor, self.state).ok()
     }
 
-    /// Whether a motion is little work, or so much that it must be refused: by the rotation of the symmetry axis, of which steps are made.
+    /// Whether a motion is little work, or so much that it must be refused, judged by the rotation of the symmetry axis, which determines the steps.
     fn is_moderate_motion(&self) -> bool {
         let Self { body, state, tensor, span, .. } = self;
         let duration = (span.1 - span.0).abs();
@@ -94,7 +94,7 @@ impl Case {
         is_little_or_refused(turned) && is_little_or_refused(pulled)
     }
 
-    /// The same of what follows the rotation of the body, which may be much faster.
+    /// The same for computations that follow the rotation of the body, which can be much faster.
     fn is_moderate(&self) -> bool {
         let Self { body, state, span, .. } = self;
         let rate = state.momentum.norm() / body.inertia_xx.abs().min(body.inertia_zz.abs());
@@ -111,7 +111,7 @@ fn is_little_or_refused(rotation: f64) -> bool {
     rotation.is_nan() || rotation <= LITTLE || rotation >= REFUSED
 }
 
-/// A case by the first byte, its numbers by the others. Everything ends, with a result or an error.
+/// A case by the first byte, with numbers from the others. Each ends with a result or an error.
 pub fn model(bytes: &[u8]) {
     let mut bytes = Bytes::new(bytes);
     match bytes.byte() % 16 {
@@ -165,7 +165,7 @@ fn by_splitting(case: &Case, scheme: u8) {
     if !case.is_moderate() {
         return;
     }
-    // Without a torque steps may be long, and a great rotation is made of as many as are allowed: minutes, as forecast.
+    // Without a torque steps can be long, and a large rotation takes all the allowed steps: minutes, as predicted.
     if forecast.map_or(true, |forecast| forecast.steps < MANY)
         && let Ok(motion) = reduced.splitting(*span, *tolerance)
     {

@@ -1,4 +1,4 @@
-//! Sweeps that go on from files that were torn, changed or made by somebody else.
+//! Sweeps continued from files that were torn, changed or made by another program.
 
 use std::fs;
 use std::sync::OnceLock;
@@ -12,16 +12,16 @@ use twofold_scene::sweep::{
     Done, Identity, Spool, SpoolError, SpoolFiles, Sweep, SweepText, compute, csv_line, signed_again,
 };
 
-/// Eighteen scenes without a motion; every third is refused.
+/// Eighteen scenes without a motion; every third one is refused.
 const SWEEP: &str = "scene = \"free\"\n[[vary]]\nparameter = \"initial.beta\"\nvalues = [0.4, 0.5, -1.0]\n[[vary]]\n\
                      parameter = \"star.spin\"\ngrid = { from = 0.5, to = 1.0, points = 6 }\n[time]\nend = 1.0\n";
 
-/// Scenes at which the table was marked.
+/// Scenes at which the journal was marked.
 const MARKS: [u64; 6] = [1, 2, 5, 9, 14, 18];
 
 const MOST_CHANGES: usize = 8;
 
-/// The sweep, its table and the three files with which it went on, at the end.
+/// The sweep, its complete table and the three files from which it was continued.
 struct Whole {
     text: SweepText,
     tables: [Vec<u8>; 2],
@@ -51,7 +51,7 @@ impl Whole {
         })
     }
 
-    /// Goes on to the scene `end`, as the command does.
+    /// Continues to the scene `end`, as the command does.
     fn continued(&self, files: &SpoolFiles, end: u64) -> Result<Done, SpoolError> {
         let sweep = Sweep::new(&self.text).expect("a sweep");
         let headers = [csv_line(&sweep.header()), csv_line(&sweep.errors_header())];
@@ -63,8 +63,8 @@ impl Whole {
     }
 }
 
-/// Changes to the three files of an interrupted sweep, which then goes on: it is refused, or its table is the uninterrupted one to
-/// the byte. Where a line of the journal was changed and signed anew, which no accident does, any table will do.
+/// Changes the three files of an interrupted sweep and continues it: it is refused, or its table equals the uninterrupted one to
+/// the byte. If a line of the journal was changed and signed again, which no accident does, any table is allowed.
 pub fn resume(bytes: &[u8]) {
     let whole = Whole::get();
     let mut bytes = Bytes::new(bytes);
@@ -97,7 +97,7 @@ pub fn resume(bytes: &[u8]) {
     }
 }
 
-/// One change to one of the files; says whether it made a line of the journal that only the program could have written.
+/// Makes one change to one of the files; returns whether it created a line of the journal that only the program could have written.
 fn change(contents: &mut [Vec<u8>; 3], bytes: &mut Bytes<'_>) -> bool {
     let kind = bytes.byte();
     let which = usize::from(bytes.byte() % 3);
@@ -119,7 +119,7 @@ fn change(contents: &mut [Vec<u8>; 3], bytes: &mut Bytes<'_>) -> bool {
             content.splice(place..place, new);
         }
         6 => {
-            // A line once more, elsewhere: what a disk or a copy may do.
+            // A line is repeated elsewhere, as a disk or a copy may do.
             let line = content.split_inclusive(|byte| *byte == b'\n').nth(place % 8).unwrap_or(b"").to_vec();
             content.splice(place..place, line);
         }

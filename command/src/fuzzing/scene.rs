@@ -4,11 +4,11 @@ use twofold_scene::pulsar_timing::{PulsarScene, csv, par, tim};
 use twofold_scene::scene_file::Scene;
 use twofold_scene::trajectory::{write_csv, write_pulses};
 
-/// Most rotation (rad) and most samples of a scene that is run to its end.
+/// Largest rotation (rad) and number of samples of a scene that is computed completely.
 const ROTATION: f64 = 200.0;
 const SAMPLES: usize = 64;
 
-/// The text of a scene file: read, planned and, where that is little work, run.
+/// The text of a scene file: read, planned and, if the work is small, run.
 pub fn scene(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     match Scene::from_toml("scene.toml", text) {
@@ -17,7 +17,7 @@ pub fn scene(bytes: &[u8]) {
     }
 }
 
-/// Whether a scene is little work, however it is asked.
+/// Whether a scene is little work for any request.
 pub(super) fn is_small(scene: &Scene) -> bool {
     scene.rotation() <= ROTATION && scene.times.count() <= SAMPLES
 }

@@ -4,10 +4,10 @@ use super::scene::is_small;
 use twofold_scene::scene_file::{SceneError, built_in};
 use twofold_scene::sweep::{Sweep, SweepText};
 
-/// Stands between the text of a sweep and that of its scene.
+/// Separator between the text of a sweep and that of its scene.
 const BETWEEN: &str = "\n%%\n";
 
-/// The texts of a sweep file and, after `%%`, of the scene that it names: read and, where that is little work, computed in part.
+/// The texts of a sweep file and, after `%%`, of the scene that it names: read and, if the work is small, computed in part.
 pub fn sweep(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     let (text, scene) = text.split_once(BETWEEN).map_or((text, None), |(text, scene)| (text, Some(scene)));

@@ -1,4 +1,4 @@
-//! Arrival times and widths of pulses: `.tim` files and tables of them, the timing model they are fitted with, tables that Python reads.
+//! Arrival times and widths of pulses: `.tim` files and tables of them, the timing model of their fits, and tables for Python.
 
 use std::hint::black_box;
 use std::sync::OnceLock;
@@ -16,14 +16,14 @@ use twofold_scene::scene_file::{Scene, built_in};
 
 use super::bytes::Bytes;
 
-/// Most data that are fitted, and the period of the wobble (s) whose limit is looked for.
+/// Largest number of fitted data, and the period of the wobble (s) whose limit is computed.
 const MOST_FITTED: usize = 40;
 const PERIOD: f64 = 1e7;
 
-/// Most of what an epoch may be off when it is written and read again (s).
+/// Largest change of an epoch that is written and read again (s).
 const ROUNDING: f64 = 1e-10;
 
-/// A pulsar without a wobble, and one with it that slows down.
+/// A pulsar without a wobble, and one with a wobble that slows down.
 fn pulsars() -> &'static [(Epoch, TimingModel); 2] {
     static PULSARS: OnceLock<[(Epoch, TimingModel); 2]> = OnceLock::new();
     PULSARS.get_or_init(|| {
@@ -45,8 +45,8 @@ fn chosen(bits: usize) -> Vec<TimingParameter> {
         .collect()
 }
 
-/// A `.tim` or a table of arrival times and widths, after three bytes that choose the pulsar, what is observed and the unknowns: refused with its name, or finite data, the same again when they
-/// are written; numbered, and fitted where they are few.
+/// A `.tim` or a table of arrival times and widths, after three bytes that choose pulsar, observables and unknowns: refused with its name, or finite
+/// data that are unchanged after writing and reading; numbered, and fitted if they are few.
 pub fn timing_file(bytes: &[u8]) {
     let Some(([kind, first, second], text)) = bytes.split_first_chunk() else { return };
     let name = if kind & 1 == 0 { "data.tim" } else { "data.csv" };
@@ -71,10 +71,10 @@ pub fn timing_file(bytes: &[u8]) {
     }
 }
 
-/// What is written of arrival times is read as the same.
+/// Written arrival times are the same when read again.
 fn is_read_again(data: &TimingData, epoch: &Epoch) {
     let date = |arrival: &MeasuredArrival| epoch.after(arrival.time).expect("a date that was read");
-    // A date that is rounded to one before 0 is none of a file.
+    // A date that is rounded to one before 0 cannot stand in a file.
     if data.arrivals.iter().any(|arrival| date(arrival).day() < 0) {
         return;
     }
@@ -94,7 +94,7 @@ fn is_read_again(data: &TimingData, epoch: &Epoch) {
     }
 }
 
-/// What data say of unknowns: finite numbers, or why there are none.
+/// The uncertainties of unknowns: finite numbers, or a reason for none.
 fn fitted(model: &TimingModel, data: &TimingData, unknowns: &[TimingParameter]) {
     let _ = black_box(timing_fisher(model, data, unknowns).map(|fisher| fisher.sigmas()));
     if let Ok(found) = fit_timing(model, data, unknowns) {
@@ -108,7 +108,7 @@ fn fitted(model: &TimingModel, data: &TimingData, unknowns: &[TimingParameter]) 
     }
 }
 
-/// A timing model and data of numbers of every kind, as Python gives them: an answer or an error, in bounded time.
+/// A timing model and data with arbitrary numbers, as from Python: a result or an error, in bounded time.
 pub fn timing_model(bytes: &[u8]) {
     let mut bytes = Bytes::new(bytes);
     let frequency = [bytes.number(), bytes.usual() * 1e-17];
@@ -116,7 +116,7 @@ pub fn timing_model(bytes: &[u8]) {
         .into_iter()
         .map(|parameter| (parameter, bytes.usual()))
         .collect();
-    // Numbers of a pulsar for what is not zero, so that one is mostly made.
+    // Numbers typical of a pulsar, for which the model is usually valid.
     let scaled = |(parameter, value): (TimingParameter, f64)| {
         let unit = match parameter {
             TimingParameter::F1 | TimingParameter::InclinationRate => 1e-13,
@@ -156,7 +156,7 @@ pub fn timing_model(bytes: &[u8]) {
     fitted(&model, &data, &unknowns);
 }
 
-/// A table that Python is given: refused with a reason, or columns of as many fields as there are rows, which are finite, missing, or words.
+/// A table passed to Python: refused with a reason, or columns with one field per row that are finite, missing, or words.
 pub fn table(bytes: &[u8]) {
     let Ok((columns, rows)) = columns_of(bytes).inspect_err(|why| assert!(!why.is_empty())) else { return };
     for column in columns {

@@ -1,4 +1,4 @@
-//! The checks, grouped by kind, with what each measured.
+//! The checks, grouped by kind, with their measured values.
 
 use maud::{Markup, html};
 
@@ -28,7 +28,7 @@ pub(super) fn section(content: &Content, index: &Index) -> Markup {
 fn table(results: &[&report::Result], index: &Index) -> Markup {
     let columns = ["Check", "What holds", "Measured", "Bound", "Verdict", "Time [s]"];
     html! {
-        // A phone shows each row as a block, which would hide from a screen reader that this is a table.
+        // On a phone each row is a block; without the roles a screen reader would not recognise the table.
         table.checks role="table" {
             thead role="rowgroup" { tr role="row" { @for column in columns { th scope="col" role="columnheader" { (column) } } } }
             tbody role="rowgroup" {
@@ -80,7 +80,7 @@ fn what(check: &Check, outcome: &Outcome, index: &Index) -> Markup {
     }
 }
 
-/// What failed, for the top of the page.
+/// The failures, for the top of the page.
 pub(super) fn failures(content: &Content) -> Markup {
     html! {
         @for (check, outcome) in content.results.iter().filter(|(_, outcome)| !outcome.passed) {

@@ -47,7 +47,7 @@ pub(super) fn links(claims: &[&Claim]) -> Markup {
     }
 }
 
-/// A verdict is void if a check that it rests on fails.
+/// Whether a verdict is void: a check behind it fails.
 pub(super) fn is_void(claim: &Claim, content: &Content) -> bool {
     !claim.checks.iter().all(|id| content.results.iter().any(|(check, outcome)| check.id == *id && outcome.passed))
 }

@@ -1,4 +1,4 @@
-//! Links between the parts of the page: what can be linked to, which texts name it, and who names whom.
+//! Links between the parts of the page: the targets, the texts that name them, and the reverse list.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -30,13 +30,13 @@ pub(super) fn discrepancy(number: &str) -> String {
     format!("discrepancy-{number}")
 }
 
-/// What there is on the page, and which claims, discrepancies and figures name it.
+/// The targets on the page, and the claims, discrepancies and figures that name them.
 #[derive(Debug, Default)]
 pub(super) struct Index {
     known: BTreeSet<String>,
-    /// Ids of the figures by the paper's numbers.
+    /// Ids of the figures by the numbers in the paper.
     figures: BTreeMap<u8, String>,
-    /// Id of what is named -> ids of what names it, with their labels.
+    /// Id of a target -> ids of the parts that name it, with their labels.
     named_by: BTreeMap<String, Vec<(String, String)>>,
 }
 
@@ -66,7 +66,7 @@ impl Index {
         }
     }
 
-    /// Links to what names `target` and whose ids begin with `prefix`.
+    /// Links to the parts that name `target` and whose ids begin with `prefix`.
     pub(super) fn named_by(&self, target: &str, prefix: &str) -> Vec<Markup> {
         let sources = self.named_by.get(target).into_iter().flatten();
         sources
@@ -75,25 +75,25 @@ impl Index {
             .collect()
     }
 
-    /// A link to the figure whose numbers the golden table `figure_NAME` has.
+    /// A link to the figure of the golden table `figure_NAME`.
     pub(super) fn figure_of(&self, golden: &str) -> Option<Markup> {
         let name = golden.strip_prefix("figure_")?.replace('_', "-");
         let id = figure(&name);
         self.known.contains(&id).then(|| html! { a href={ "#" (id) } { (name) } })
     }
 
-    /// Plain text with its formulas set, in which `(25)`, `discrepancy 1` and `Figure 8` are links to what is on the page.
+    /// Plain text with typeset formulas, in which `(25)`, `discrepancy 1` and `Figure 8` are links within the page.
     pub(super) fn linked(&self, text: &str) -> Markup {
         self.linked_with(text, typeset)
     }
 
-    /// The same with another way to set what is between the links.
+    /// The same with another function that typesets the text between the links.
     pub(super) fn linked_with(&self, text: &str, set: impl Fn(&str) -> Markup) -> Markup {
         html! {
             @for (place, (piece, target)) in self.pieces(text).into_iter().enumerate() {
                 @match (target, piece.strip_prefix('-').filter(|_| place > 0)) {
                     (Some(id), _) => a href={ "#" (id) } { (piece) },
-                    // From one equation to another.
+                    // A range of equations.
                     (None, Some(rest)) => { "–" (set(rest)) }
                     (None, None) => (set(piece)),
                 }
@@ -101,7 +101,7 @@ impl Index {
         }
     }
 
-    /// What a name in code is: a check or a golden table.
+    /// The target of a name in code: a check or a golden table.
     pub(super) fn code(&self, name: &str) -> Option<String> {
         [check(name), golden(name)].into_iter().find(|id| self.known.contains(id))
     }

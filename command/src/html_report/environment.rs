@@ -1,11 +1,11 @@
-//! When and on which system the report was made. Nothing that names a person, a machine or a folder.
+//! Time and system of the report. It names no person, machine or folder.
 
 use std::path::Path;
 use std::process::Command;
 use std::thread;
 use std::time::{Duration, SystemTime};
 
-/// Facts about the run, each with its name, in the order in which they are shown.
+/// Facts about the run with their names, in the order of the report.
 pub type Environment = Vec<(&'static str, String)>;
 
 /// Of this process, now.
@@ -29,7 +29,7 @@ pub(super) fn brief(facts: &Environment) -> String {
     format!("{}.", facts.join(", "))
 }
 
-/// The date in UTC, if the clock is one of our time: a machine may wake up in 1969 or in the year 10000.
+/// The date in UTC, if the clock is plausible: a machine may start in 1969 or in the year 10000.
 fn date_and_time(now: SystemTime) -> String {
     const YEAR_10000: Duration = Duration::from_secs(253_402_300_800);
     match now.duration_since(SystemTime::UNIX_EPOCH) {
@@ -40,14 +40,14 @@ fn date_and_time(now: SystemTime) -> String {
     }
 }
 
-/// The commit of the folder that this was built in, if that folder is still there and under git, as it is now.
+/// The present commit of the folder in which this was built, if that folder still exists and is under git.
 fn source() -> Option<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let git = |args: &[&str]| {
         let output = Command::new("git").arg("-C").arg(folder).args(args).output().ok()?;
         output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
     };
-    // Not the commit of another repository in which this one lies unpacked.
+    // The commit of another repository around an unpacked copy does not count.
     git(&["ls-files", "--error-unmatch", "Cargo.toml"])?;
     let commit = git(&["rev-parse", "HEAD"])?;
     let changes = git(&["status", "--porcelain", "--untracked-files=no", "--", ":/"])?;
@@ -68,7 +68,7 @@ mod tests {
         assert_eq!(in_words("61a92c83", " M src/lib.rs"), "commit 61a92c83, with changes not committed");
     }
 
-    /// An assertion for debugging is evaluated in a build that has them, and in no other.
+    /// Debug assertions are evaluated in a build that has them, and in no other.
     #[test]
     fn the_build_is_told_as_it_is() {
         let mut are_checked = false;

@@ -1,6 +1,6 @@
 //! The paper's equations as LaTeX, from `command/data/equations.tex`.
 
-/// What an entry of the file is; the file describes the kinds.
+/// The kind of an entry; the file describes the kinds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Form {
     Printed,
@@ -31,7 +31,7 @@ pub(super) fn entries() -> Result<Vec<Entry>, String> {
     Ok(entries)
 }
 
-/// `25) used: REMARK`.
+/// As in `25) used: REMARK`.
 fn entry(header: &'static str) -> Option<Entry> {
     let (number, rest) = header.split_once(") ")?;
     let (form, remark) = rest.split_once(": ").unwrap_or((rest, ""));

@@ -1,4 +1,4 @@
-//! The equations: each typeset, with what implements it and what was found of it.
+//! The equations: each typeset, with its implementation and the findings about it.
 
 use std::collections::BTreeMap;
 
@@ -109,7 +109,7 @@ fn evidence(equation: &twofold_verify::equation_table::Equation, content: &Conte
     }
 }
 
-/// A line of a list of facts; nothing where there are none.
+/// A line of a list of facts; empty if there are none.
 pub(super) fn row(term: &str, values: Vec<Markup>) -> Markup {
     html! {
         @if !values.is_empty() {

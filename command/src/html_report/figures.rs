@@ -7,7 +7,7 @@ use super::equations::row;
 use super::{Content, golden};
 use crate::figures::{self, Figure};
 
-/// Claims that a figure shows: its name and the names of the claims.
+/// Claims shown by a figure: its name and the names of the claims.
 const SHOWN: &[(&str, &[&str])] = &[
     ("motion-tp-1", &["caption-values"]),
     ("motion-tp-2", &["caption-values", "twofold-large-tilt"]),
@@ -53,7 +53,7 @@ fn article(figure: &Figure, content: &Content, index: &Index) -> Markup {
     let numbers = format!("figure_{}", figure.name.replace('-', "_"));
     let golden = content.golden.iter().filter(|table| table.name == numbers);
     let summary = figures::plain(&figure.summary);
-    // The drawing is one picture with a name, not a heap of letters; the prolog of a file has no place in a page.
+    // For a screen reader the drawing is one named picture, not many letters; a page allows no prolog of a file.
     let svg = figure.svg.find("<svg").map_or("", |start| &figure.svg[start..]);
     html! {
         article.figure id=(id) {

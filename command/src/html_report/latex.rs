@@ -1,4 +1,4 @@
-//! LaTeX to MathML, which browsers set without any script.
+//! LaTeX to MathML, which browsers display without scripts.
 
 use math_core::{LatexToMathML, MathCoreConfig, MathDisplay};
 use maud::{Markup, PreEscaped};
@@ -7,7 +7,7 @@ pub(super) fn displayed(latex: &str) -> Result<Markup, String> {
     mathml(latex, MathDisplay::Block)
 }
 
-/// Maths within a line of text.
+/// A formula within a line of text.
 pub(super) fn inline(latex: &str) -> Result<Markup, String> {
     mathml(latex, MathDisplay::Inline)
 }
@@ -16,7 +16,7 @@ fn mathml(latex: &str, display: MathDisplay) -> Result<Markup, String> {
     let why = |error: &dyn std::fmt::Debug| format!("{error:?} in the LaTeX\n{latex}");
     let converter = LatexToMathML::new(MathCoreConfig::default()).map_err(|error| why(&error))?;
     let mathml = converter.convert_with_local_counter(latex, display).map_err(|error| why(&error))?;
-    // Chromium sets combining accents beside their letter; later versions of the crate use the letters that we put here.
+    // Chromium sets combining accents beside their letter; later versions of the crate use the characters that are substituted here.
     Ok(PreEscaped(mathml.replace('\u{302}', "\u{2c6}").replace('\u{303}', "\u{2dc}")))
 }
 

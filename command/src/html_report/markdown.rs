@@ -7,12 +7,12 @@ use super::cross_reference::{self, Index};
 use super::latex;
 use super::typography::typeset;
 
-/// A page without its first heading. Numbered headings (`## 3. Title`) are discrepancies, with ids; what they name is noted in `index`.
+/// A page without its first heading. Numbered headings (`## 3. Title`) are discrepancies with ids; the targets that they name are noted in `index`.
 pub(super) fn page(markdown: &str, index: &mut Index) -> Result<Markup, String> {
     let parser = Parser::new_ext(markdown, Options::ENABLE_TABLES | Options::ENABLE_MATH);
     let mut events = TextMergeStream::new(parser);
     let mut output = Vec::new();
-    // Id and name of the section; whether text stands as it is.
+    // Id and name of the section; whether the text is verbatim.
     let (mut section, mut verbatim) = (None::<(String, String)>, false);
     while let Some(event) = events.next() {
         let kept = match event {
@@ -64,7 +64,7 @@ pub(super) fn page(markdown: &str, index: &mut Index) -> Result<Markup, String> 
             }
             Event::InlineMath(text) => raw(latex::inline(&text)?),
             Event::DisplayMath(text) => raw(latex::displayed(&text)?),
-            // The pages have no HTML of their own; if one gets some, it is shown as it is written.
+            // The pages contain no HTML of their own; any HTML is shown as text.
             Event::Html(text) | Event::InlineHtml(text) => Event::Text(text),
             other => other,
         };
@@ -80,7 +80,7 @@ pub(super) fn numbers(markdown: &str) -> impl Iterator<Item = &str> {
     markdown.lines().filter_map(|line| line.strip_prefix("## ")).filter_map(heading_number)
 }
 
-/// One line of Markdown, without a paragraph about it.
+/// One line of Markdown, without the enclosing paragraph.
 pub(super) fn line(markdown: &str, index: &mut Index) -> Result<Markup, String> {
     let Markup { 0: html } = page(markdown, index)?;
     Ok(PreEscaped(html.trim().trim_start_matches("<p>").trim_end_matches("</p>").to_owned()))
@@ -106,7 +106,7 @@ fn heading_number(title: &str) -> Option<&str> {
     number.bytes().all(|byte| byte.is_ascii_digit()).then_some(number)
 }
 
-/// A link to another page of `docs/` becomes one to the part of the report made of it.
+/// A link to another page of `docs/` becomes one to the corresponding part of the report.
 fn destination(url: &str) -> String {
     match url.strip_suffix(".md") {
         Some(page) if !url.contains("://") => format!("#{page}"),

@@ -1,7 +1,7 @@
-//! The report: one page of HTML with everything in it, which needs no network, no script and no other file.
+//! The report: one complete HTML page, which needs no network, no script and no other file.
 //!
-//! The page is put together with maud, which escapes every text that it is given. What goes in as markup is named by
-//! `PreEscaped`: the MathML of our equations, the pages of `docs/`, the figures' SVG and the style sheets.
+//! The page is built with maud, which escapes every text. `PreEscaped` marks what is inserted as markup: the MathML of
+//! our equations, the pages of `docs/`, the figures' SVG and the style sheets.
 
 mod checks;
 mod claims;
@@ -30,13 +30,13 @@ pub struct Content {
     pub seconds: f64,
     pub golden: Vec<GoldenTable>,
     pub figures: Vec<Figure>,
-    /// Where and when.
+    /// Time and system.
     pub environment: Environment,
 }
 
 const TITLE: &str = "Precession of spheroids under Lorentz violation: verification report";
 
-/// Allows nothing but what is in the page itself.
+/// Allows only what is in the page itself.
 const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; img-src data:; font-src data:; base-uri 'none'; form-action 'none'";
 
@@ -91,7 +91,7 @@ pub fn page(content: &Content) -> Result<String, String> {
     Ok(page.into_string())
 }
 
-/// Everything that can be linked to by name.
+/// All named targets.
 fn index(content: &Content) -> Index {
     let mut index = Index::default();
     equations::numbers().for_each(|number| index.add(cross_reference::equation(number)));
@@ -123,7 +123,7 @@ pub(crate) mod tests {
     use twofold_verify::check::{Check, Measured, Outcome};
     use twofold_verify::golden::Printed;
 
-    /// A page of all checks, none of them run, two of which fail; and what is on it.
+    /// A page with all checks, none of them run, two of which fail; and its content.
     pub(crate) static FAILURES: LazyLock<(String, Content)> = LazyLock::new(|| {
         let measured = |id| match id {
             "nordtvedt-form" => Ok(Measured::new(f64::NAN, "worst at <b>here</b> & there")),
@@ -183,7 +183,7 @@ pub(crate) mod tests {
         page[start..].split(end).next().expect("a part")
     }
 
-    /// Counts at the top, and from each thing links to those that name it.
+    /// Counts at the top, and links from each part to those that name it.
     #[test]
     fn the_page_counts_what_it_has_and_links_both_ways() {
         let (page, content) = &*FAILURES;
@@ -208,7 +208,7 @@ pub(crate) mod tests {
             for check in claim.checks {
                 assert!(part(page, &cross_reference::check(check), "</tr>").contains(&link), "{check} {link}");
             }
-            // A claim that is said to be in Eq. (25) is named beside that equation.
+            // A claim placed in Eq. (25) is named at that equation.
             let number = claim.place.split_once("Eq. (").and_then(|(_, rest)| rest.split(')').next()?.parse().ok());
             if let Some(number) = number {
                 numbered += 1;
@@ -229,7 +229,7 @@ pub(crate) mod tests {
         }
         let mut named = 0;
         for id in values(page, "id").into_iter().filter(|id| id.starts_with("discrepancy-")) {
-            // To the next heading, or to the end of the page's section.
+            // Up to the next heading, or to the end of the section.
             let text = part(page, id, "<h").split("</section>").next().expect("a part");
             for equation in values(text, "href").into_iter().filter(|link| link.starts_with("#eq-")) {
                 named += 1;
@@ -243,7 +243,7 @@ pub(crate) mod tests {
         assert!(equation.contains("href=\"#figure-pulse-series\""), "{equation}");
     }
 
-    /// What stands in the column of this name, row by row.
+    /// The entries of the column with this name, row by row.
     fn column<'p>(article: &'p str, name: &str) -> Vec<&'p str> {
         let start = format!(" data-label=\"{name}\">");
         article.split(start.as_str()).skip(1).filter_map(|rest| rest.split("</td>").next()).collect()
@@ -272,7 +272,7 @@ pub(crate) mod tests {
             page.contains(&format!("{} in 1.0 s", content.results.len())),
             "the time that all checks took together"
         );
-        // The golden table of a figure has its name, with other strokes.
+        // The golden table of a figure has its name, with underscores.
         let mut linked = 0;
         for figure in &content.figures {
             let article = part(page, &cross_reference::figure(&figure.name), "</article>");
@@ -288,7 +288,7 @@ pub(crate) mod tests {
             }
         }
         assert!(linked > 3, "{linked}");
-        // Each form of an equation by the word before its remark in the source.
+        // Each form of an equation appears with the word before its remark in the source.
         let source = include_str!("../../data/equations.tex");
         for (word, name) in [("used", "Used"), ("corrected", "Corrected"), ("note", "Note")] {
             let written =
@@ -299,7 +299,7 @@ pub(crate) mod tests {
         }
     }
 
-    /// One of several is enough.
+    /// One failing check of several is enough.
     #[test]
     fn a_verdict_is_void_if_any_of_its_checks_fails() {
         let claim =

@@ -1,4 +1,4 @@
-//! The top of the page: the verdict, what failed, and how much there is of what.
+//! The top of the page: the verdict, the failures, and the counts.
 
 use maud::{Markup, html};
 

@@ -1,8 +1,8 @@
-//! Formulas within plain text, set as a reader expects them: `alpha_0` with a Greek letter and a subscript, `<=` as one sign.
+//! Formulas within plain text, typeset as a reader expects: `alpha_0` with a Greek letter and a subscript, `<=` as one sign.
 
 use maud::{Markup, html};
 
-/// Names and what is set for them, in turn.
+/// Names and their symbols, alternating.
 const SYMBOLS: &str = "alpha α beta β gamma γ delta δ epsilon ϵ eps ϵ zeta ζ eta η theta θ kappa κ \
     lambda λ mu μ nu ν xi ξ pi π rho ρ sigma σ tau τ phi ϕ varphi φ \
     chi χ psi ψ omega ω Gamma Γ Delta Δ Theta Θ Lambda Λ Phi Φ Psi Ψ Omega Ω \
@@ -30,7 +30,7 @@ pub(super) fn typeset(text: &str) -> Markup {
 
 fn pieces(text: &str) -> Vec<Piece<'_>> {
     let (mut pieces, mut at) = (Vec::new(), 0);
-    // Whether a word stands before, whose powers are set if they are numbers, and whether it is a symbol, of which all are, and indices.
+    // Whether the preceding token is a word, and whether that is a symbol: symbols take all powers and indices, other words only numeric powers.
     let mut word_is_symbol = None;
     while let Some(first) = text[at..].chars().next() {
         let rest = &text[at..];
@@ -83,14 +83,14 @@ fn pieces(text: &str) -> Vec<Piece<'_>> {
     pieces
 }
 
-/// Whether the stroke between the two texts is a minus sign, not the hyphen of a word or between numbers of a range.
+/// Whether the stroke between the two texts is a minus sign, not the hyphen of a word or of a range.
 fn is_minus(before: &str, after: &str) -> bool {
     let (before, after) = (before.chars().next_back(), after.chars().next());
     let space_before = before.is_none_or(|c| c.is_whitespace() || "([|=~/".contains(c));
     space_before && after.is_some()
 }
 
-/// Mantissa, exponent and length of the number `2e-16` at the beginning of `text`; of `2.2e-16` what is after the point is one.
+/// Mantissa, exponent and length of the number `2e-16` at the beginning of `text`; the part of `2.2e-16` after the point is such a number, too.
 fn power_of_ten(text: &str) -> Option<(&str, &str, usize)> {
     let digits = |from: usize| from + text[from..].bytes().take_while(u8::is_ascii_digit).count();
     let mantissa = digits(0);
@@ -106,7 +106,7 @@ fn symbol_of(word: &str) -> Option<&'static str> {
     std::iter::from_fn(|| words.next().zip(words.next())).find(|(name, _)| *name == word).map(|(_, letter)| letter)
 }
 
-/// The index or power at the beginning of `text` without its braces, and the length of what it takes.
+/// The index or power at the beginning of `text` without its braces, and its length.
 fn script(text: &str) -> Option<(&str, usize)> {
     if let Some(inner) = text.strip_prefix('{') {
         return inner.find('}').map(|end| (&inner[..end], end + 2));
@@ -116,7 +116,7 @@ fn script(text: &str) -> Option<(&str, usize)> {
     }
     let sign = usize::from(text.starts_with(['+', '-']));
     let length = sign + text[sign..].bytes().take_while(u8::is_ascii_alphanumeric).count();
-    // `h_+` has its sign for an index, `x^-` nothing.
+    // The sign of `h_+` is an index, that of `x^-` is not.
     (length > 0 && text != "-").then_some((&text[..length], length))
 }
 

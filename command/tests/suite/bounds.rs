@@ -1,4 +1,4 @@
-//! The command `twofold bounds` as a user meets it: status, messages, output.
+//! The command `twofold bounds` as a user sees it: status, messages, output.
 
 use crate::common::{Folder, ends, is_refused, twofold};
 use twofold_verify::refused_files::refused_files;
@@ -44,16 +44,16 @@ fn a_bare_change_is_a_limit_and_one_with_an_error_is_measured() {
     assert!(value(&measured, 0, "limit") > 3.0 * value(&bare, 0, "limit"));
     let keys = |json: &serde_json::Value| json["pulses"][0]["figures"].to_string();
     assert!(keys(&measured).contains("limit_over_eta_by_change") && !keys(&bare).contains("limit_over_eta_by_change"));
-    // A change of nothing is a measurement too, if it has an error.
+    // A change of zero is a measurement, too, if it has an error.
     assert!(value(&one_pulse("[0, 0.108]", ""), 0, "limit") > 0.0);
 }
 
-/// Directions count unless they are known, and what is given for eta is used.
+/// Directions enter unless they are known, and a given eta is used.
 #[test]
 fn eta_follows_from_what_is_known() {
     let limit_of_eta = |further: &str| value(&one_pulse("[0.020, 0.108]", further), 0, "eta");
     assert_eq!(limit_of_eta("eta = 10\n"), 10.0);
-    // 1 / (sin(95 deg) sin(45 deg) cos(45 deg)), and one azimuth in twenty within 4.5 degrees of no motion along the line of sight.
+    // 1 / (sin(95 deg) sin(45 deg) cos(45 deg)); one azimuth in twenty is within 4.5 degrees of those without motion along the line of sight.
     let expected = 2.0 / (95f64.to_radians().sin() * 4.5f64.to_radians().sin());
     assert!((limit_of_eta("beta_0 = 45\n") / expected - 1.0).abs() < 1e-9);
     assert!(limit_of_eta("") > 87.0);
@@ -62,7 +62,7 @@ fn eta_follows_from_what_is_known() {
     assert!((value(&given, 0, "limit") / value(&given, 0, "limit_over_eta_by_inputs") - 10.0).abs() < 1e-9);
 }
 
-/// Limits of others stand under a line of titles, each with its source.
+/// Limits of others follow below a title line, each with its source.
 #[test]
 fn limits_of_others_are_listed() {
     let page = String::from_utf8(ends(twofold(&["bounds"]), 0).stdout).expect("text");

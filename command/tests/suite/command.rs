@@ -1,4 +1,4 @@
-//! The command `twofold` as a user meets it: status, messages, files.
+//! The command `twofold` as a user sees it: status, messages, files.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::process::Command;
 use crate::common::{Folder, TWOFOLD, altered, ends, is_refused, number_after, stderr, stdout, succeeds, twofold};
 use twofold_verify::refused_files::refused_files;
 
-/// Refused, and no file is left.
+/// The scene is refused, and no file remains.
 fn assert_refused(scene: &Path, fragments: &[impl AsRef<str>]) {
     let folder = Folder::new();
     let scene = scene.to_str().expect("path in UTF-8");
@@ -121,7 +121,7 @@ fn scenes_are_listed_and_each_listed_name_runs() {
     }
 }
 
-/// The file of a built-in scene, printed, is that scene.
+/// The printed file of a built-in scene is that scene.
 #[test]
 fn a_printed_scene_is_a_template() {
     let printed = twofold(&["scenes", "--print", "tp-2"]);
@@ -132,7 +132,7 @@ fn a_printed_scene_is_a_template() {
     assert!(table.starts_with(b"t [t_c],h_plus [1]") && table == run("tp-2"));
 }
 
-/// A table of 10 MB or more is foretold, and nearly so large.
+/// A table of 10 MB or more is announced with about its size.
 #[test]
 fn the_size_of_a_large_table_is_foretold() {
     let folder = Folder::with(&[("scene.toml", &altered("tp-1", &[("samples = 4001", "samples = 30001")]))]);
@@ -158,12 +158,12 @@ fn verify_prints_tables_or_json() {
     assert!(json.as_array().expect("array").iter().any(|check| check["id"] == id && check["passed"] == true));
 }
 
-/// What the README shows the commands with.
+/// The form of the commands in the README.
 #[cfg(unix)]
 const PREFIX: &str = "cargo run --release -- ";
 
-/// One after the other in an empty folder, every command succeeds: each finds the files that it names. Those that take longest, the whole
-/// report and the timings, are only asked for their help; `tests/signals.rs` starts them.
+/// Every command succeeds, one after the other in an empty folder: each finds the files that it names. For the slowest ones, the full
+/// report and the timings, only the help is requested; `signals.rs` starts them.
 #[cfg(unix)]
 #[test]
 fn the_commands_of_the_readme_work() {

@@ -1,4 +1,4 @@
-//! The command as a user meets it, for the tests of its parts.
+//! The command as a user sees it, for the tests of its parts.
 #![allow(dead_code, reason = "no test uses everything")]
 
 use std::fs;
@@ -18,20 +18,20 @@ pub fn twofold(args: &[&str]) -> Output {
     Command::new(TWOFOLD).args(args).output().expect("the command starts")
 }
 
-/// Runs the command, which succeeds.
+/// Runs the command and requires success.
 #[track_caller]
 pub fn succeeds(args: &[&str]) -> Output {
     ends(twofold(args), 0)
 }
 
-/// A command that ended with this status.
+/// Requires this exit status.
 #[track_caller]
 pub fn ends(output: Output, status: i32) -> Output {
     assert_eq!(output.status.code(), Some(status), "{}", stderr(&output));
     output
 }
 
-/// A text with all of these in it.
+/// Requires all fragments in a text.
 #[track_caller]
 pub fn has_all(text: &str, fragments: &[impl AsRef<str>]) {
     for fragment in fragments.iter().map(AsRef::as_ref) {
@@ -39,7 +39,7 @@ pub fn has_all(text: &str, fragments: &[impl AsRef<str>]) {
     }
 }
 
-/// A command that refused its input: status 2, nothing on standard output, one message with all of these in it.
+/// Requires a refusal: status 2, nothing on standard output, one message with all fragments.
 #[track_caller]
 pub fn is_refused(output: &Output, fragments: &[impl AsRef<str>]) {
     let message = stderr(output);
@@ -58,7 +58,7 @@ pub fn number_after(text: &str, phrase: &str) -> f64 {
     number.trim_end_matches([',', ';']).parse().unwrap_or_else(|why| panic!("{number}: {why}"))
 }
 
-/// A folder in which commands run; it is removed at the end.
+/// A temporary folder for commands.
 pub struct Folder(TempDir);
 
 impl Folder {
@@ -84,7 +84,7 @@ impl Folder {
         self.path().join(name)
     }
 
-    /// Writes a file, in folders that are made for it.
+    /// Writes a file and creates the folders for it.
     pub fn write(&self, name: &str, text: impl AsRef<[u8]>) {
         let path = self.at(name);
         fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
@@ -106,7 +106,7 @@ impl Folder {
         fs::metadata(self.at(name)).map_or(0, |found| found.len())
     }
 
-    /// What is in the folder, in order.
+    /// The names in the folder, in order.
     pub fn names(&self) -> Vec<String> {
         names_in(self.path())
     }
@@ -128,7 +128,7 @@ impl Folder {
         found
     }
 
-    /// The command, in the folder.
+    /// The command, started in the folder.
     pub fn command(&self, args: &[&str]) -> Command {
         let mut command = Command::new(TWOFOLD);
         command.args(args).current_dir(self.path()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -140,14 +140,14 @@ impl Folder {
         self.command(args).output().expect("the command starts")
     }
 
-    /// Runs it, and it succeeds.
+    /// Runs it and requires success.
     #[track_caller]
     pub fn succeeds(&self, args: &[&str]) -> Output {
         ends(self.run(args), 0)
     }
 }
 
-/// A built-in scene in which texts are replaced.
+/// A built-in scene with replaced texts.
 #[track_caller]
 pub fn altered(name: &str, changes: &[(&str, &str)]) -> String {
     changes.iter().fold(built_in(name).expect("a scene").toml.to_owned(), |text, (from, to)| {
@@ -156,7 +156,7 @@ pub fn altered(name: &str, changes: &[(&str, &str)]) -> String {
     })
 }
 
-/// A built-in scene in which the lines that begin so are others.
+/// A built-in scene in which lines with the given beginnings are replaced.
 pub fn with_lines(name: &str, lines: &[(&str, &str)]) -> String {
     let text = built_in(name).expect("a scene").toml;
     let other = |line| lines.iter().find(|(start, _)| str::starts_with(line, start)).map_or(line, |(_, other)| *other);
@@ -168,7 +168,7 @@ pub fn cells(table: &str) -> Vec<Vec<&str>> {
     table.lines().map(|line| line.split(',').collect()).collect()
 }
 
-/// The numbers of a table after its header; what is empty is not a number.
+/// The numbers of a table after its header; empty fields are NaN.
 pub fn numbers(table: &str) -> Vec<Vec<f64>> {
     let number = |text: &str| if text.is_empty() { f64::NAN } else { text.parse().expect("a number") };
     table.lines().skip(1).map(|line| line.split(',').map(number).collect()).collect()
@@ -179,35 +179,35 @@ pub fn stdout(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
-/// Standard error as text, without the lines that come after some time, as on a busy machine.
+/// Standard error as text, without the lines that appear after some time, as on a busy machine.
 pub fn stderr(output: &Output) -> String {
     let text = String::from_utf8_lossy(&output.stderr);
     let is_progress = |line: &str| line.starts_with("note: ") && line.contains(" % done");
     text.split_inclusive('\n').filter(|line| !is_progress(line)).collect()
 }
 
-/// Looks again and again until the sign is there; false if the process ends before.
+/// Waits until the sign appears; false if the process ends before.
 pub fn comes_to(child: &mut Child, mut sign: impl FnMut() -> bool) -> bool {
     while !sign() {
         if child.try_wait().expect("its state").is_some() {
             return sign();
         }
-        // Leaves the processor to others between two looks.
+        // Yields the processor between two checks.
         sleep(Duration::from_millis(1));
     }
     true
 }
 
-/// Sends the signal of a name, as `TERM`.
+/// Sends a signal by its name, such as `TERM`.
 #[cfg(unix)]
 pub fn send(child: &Child, signal: &str) {
     let sent = Command::new("sh").args(["-c", &format!("kill -s {signal} {}", child.id())]).status().expect("kill");
     assert!(sent.success(), "{signal}");
 }
 
-/// The names of what is in a folder, in order.
+/// The names in a folder, in order.
 pub fn names_in(folder: &Path) -> Vec<String> {
-    // A command that runs may take a folder away.
+    // A running command may remove a folder.
     let entries = fs::read_dir(folder).into_iter().flatten();
     let mut names: Vec<_> =
         entries.map(|entry| entry.expect("entry").file_name().to_string_lossy().into_owned()).collect();

@@ -1,4 +1,4 @@
-//! `twofold compare` on files in the authors' format, made from our own motion, sound and with deliberate defects.
+//! `twofold compare` on files in the authors' format, made from our own motion, correct ones and ones with deliberate defects.
 
 use std::process::{Command, Output};
 use std::sync::OnceLock;
@@ -30,7 +30,7 @@ fn motion(name: &str, changes: &[(&str, &str)], columns: &[&str], fields: &[usiz
     rows(&table, fields)
 }
 
-/// `gwtp1.dat`, `sp1.dat`, `mntp1_widset.dat` and `mntp1_pset.dat` as the authors would have them without any error.
+/// `gwtp1.dat`, `sp1.dat`, `mntp1_widset.dat` and `mntp1_pset.dat` without any error.
 fn files() -> &'static [(&'static str, String)] {
     static FILES: OnceLock<Vec<(&str, String)>> = OnceLock::new();
     FILES.get_or_init(|| {
@@ -63,7 +63,7 @@ fn files() -> &'static [(&'static str, String)] {
     })
 }
 
-/// All sound files.
+/// All correct files.
 fn sound() -> Folder {
     let folder = Folder::new();
     for (file, text) in files() {
@@ -72,12 +72,12 @@ fn sound() -> Folder {
     folder
 }
 
-/// The sound text of a file.
+/// The correct text of a file.
 fn text_of(name: &str) -> &'static str {
     &files().iter().find(|(file, _)| *file == name).expect("a file").1
 }
 
-/// One file, changed, alone in its folder.
+/// One changed file, alone in its folder.
 fn with_change(name: &str, change: impl Fn(&str) -> Vec<u8>) -> Folder {
     let folder = Folder::new();
     folder.write(name, change(text_of(name)));
@@ -96,7 +96,7 @@ fn sound_files_agree_and_the_rest_is_told() {
     let folder = sound();
     folder.write("LICENSE", "MIT");
     folder.write("cross1.dat", "what it is nobody knows");
-    // There is no third scene: a name that is nearly a known one is not read either.
+    // A name similar to a known one is not read: there is no third scene.
     folder.write("tp3.dat", "1\t2");
     has_all(
         &stdout(&ends(compare(&folder, &[]), 0)),
@@ -116,7 +116,7 @@ fn sound_files_agree_and_the_rest_is_told() {
         for column in file["columns"].as_array().expect("columns") {
             assert_eq!(column["verdict"], "agrees");
             assert!(column["largest_difference"].as_f64().expect("number") < 1e-10, "{column}");
-            // A time of the file, not a difference.
+            // The field is a time of the file, not a difference.
             let at = column["at"].as_f64().expect("a time");
             assert!((0.0..=500.0).contains(&at) && (at == 0.0 || at > 1e-3), "{column}");
         }
@@ -126,7 +126,7 @@ fn sound_files_agree_and_the_rest_is_told() {
     assert!((0.04..0.05).contains(&other_start["largest_difference"].as_f64().expect("number")));
 }
 
-/// What `docs/compare.md` says is allowed is what is: for each row of its table of results, and the errors in its table of reasons.
+/// The allowed differences are those of `docs/compare.md`: for each row of its table of results, and the errors in its table of reasons.
 #[test]
 fn what_the_page_says_is_allowed_is_allowed() {
     let folder = sound();
@@ -137,7 +137,7 @@ fn what_the_page_says_is_allowed_is_allowed() {
         &["angles", "perturbation", "e_x", "e_z"],
         &[0, 1, 10, 2, 11, 4, 5, 6, 7, 8, 9],
     );
-    // The curves beside m.n are not judged.
+    // The curves in the file of m.n are not judged.
     let signal = motion("tp-1", &[samples], &["m.n"], &[0, 1, 1, 1]);
     for (name, text) in [("tp1.dat", angles), ("mntp1.dat", signal)] {
         folder.write(name, text);
@@ -170,7 +170,7 @@ fn what_the_page_says_is_allowed_is_allowed() {
         for (i, column) in columns.iter().enumerate() {
             let stated = stated[i.min(stated.len() - 1)];
             match allowed(file, column) {
-                // The published files have other last times than these, by less than a percent.
+                // The last times of the published files differ from these by less than a percent.
                 Some(limit) => {
                     let part = limit / stated.parse::<f64>().unwrap_or(f64::NAN);
                     assert!((part - 1.0).abs() < 1e-2, "{file}: {column}: {limit:e}, {stated} on the page");
@@ -181,7 +181,7 @@ fn what_the_page_says_is_allowed_is_allowed() {
         }
     }
     assert_eq!(judged, 27, "columns that can be judged");
-    // The errors of the files themselves, of two digits and up to half a unit more in the last.
+    // The errors of the files themselves have two digits, with up to half a unit more in the last.
     let (_, reasons) = page.split_once("## What is allowed").expect("a section");
     let half_more = |error: &str| {
         let digit = error.split_once('e').expect("a power").1.parse::<i32>().expect("a power") - 1;
@@ -204,7 +204,7 @@ fn what_the_page_says_is_allowed_is_allowed() {
     }
 }
 
-/// A file that differs by more than it is known to be off has status 1, and the place is told.
+/// A file that differs by more than its known error gives status 1 and the place of the difference.
 #[test]
 fn a_difference_beyond_the_files_own_error_fails() {
     let shifted = |column: usize, by: f64| {
@@ -231,7 +231,7 @@ fn a_difference_beyond_the_files_own_error_fails() {
         assert!(row.contains(named), "{row}");
         ends(changed(by.signum() * within), 0);
     }
-    // One file among sound ones.
+    // One defective file among correct ones.
     let all = sound();
     all.write("mntp1_pset.dat", with_line(text_of("mntp1_pset.dat"), 40, shifted(1, 2e-4)));
     let text = stdout(&ends(compare(&all, &[]), 1));
@@ -303,7 +303,7 @@ fn malformed_files_are_named_with_line_and_column() {
     for (file, bytes, fragments) in cases {
         is_refused(&compare(&with_change(file, |_| bytes.clone()), &[]), fragments);
     }
-    // Every malformed file is named at once; line ends of another system and a line end at the end are no fault.
+    // All malformed files are reported at once; foreign line ends and a final line end are no fault.
     let folder = with_change("gwtp1.dat", |_| b"1 2".to_vec());
     folder.write("mntp1_pset.dat", "1 two");
     is_refused(&compare(&folder, &[]), &["gwtp1.dat:1:4: ", "mntp1_pset.dat:1:3: "]);

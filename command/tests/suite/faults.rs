@@ -1,5 +1,5 @@
-//! What the command does when the machine fails it: a disk that is full, a reader that is gone, a folder that takes no file, a kill at any
-//! moment, a bare environment, names that are no text. Every outcome is a defined one: all or nothing under the final names.
+//! Behaviour of the command when the machine fails: a full disk, a reader that has gone, a folder that cannot be written, a kill at any
+//! moment, an empty environment, names that are not text. Every outcome is defined: all or nothing under the final names.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -8,7 +8,7 @@ use std::process::{Command, Output, Stdio};
 
 use crate::common::{Folder, TWOFOLD, altered, comes_to, ends, stderr};
 
-/// Commands that write files, without their `--out`, and the number of bytes a file may have so that they fail on the way.
+/// Commands that write files, without their `--out`, and a size limit (bytes) at which they fail on the way.
 const WRITERS: [(&[&str], u32); 9] = [
     (&["run", "s.toml"], 2),
     (&["pulses", "s.toml"], 1),
@@ -29,12 +29,12 @@ fn scenes() -> Folder {
     Folder::with(&[("s.toml", &short), ("p.toml", &altered("b1937+21", &[])), ("g.toml", sweep)])
 }
 
-/// What the commands wrote beside the scenes.
+/// The files that the commands wrote next to the scenes.
 fn written(folder: &Folder) -> Vec<String> {
     folder.names().into_iter().filter(|name| !name.ends_with(".toml")).collect()
 }
 
-/// By a shell, after its `before`.
+/// Runs the command in a shell, after `before`.
 fn shell(folder: &Folder, before: &str, args: &[&str]) -> Output {
     let script = format!("{before}; exec \"$0\" \"$@\"");
     let mut command = Command::new("sh");
@@ -46,8 +46,8 @@ fn out<'a>(args: &[&'a str]) -> Vec<&'a str> {
     [args, &["--out", "out"]].concat()
 }
 
-/// A file that reaches its largest size is as a disk that is full: status 1, the file is named, and nothing is left but what the
-/// sweep goes on from, to the same bytes.
+/// A file at its size limit acts as a full disk: status 1, the file is named, and only the files remain from which a sweep
+/// continues to the same bytes.
 #[test]
 fn a_full_disk_leaves_nothing_under_the_final_name() {
     for (args, blocks) in WRITERS {
@@ -69,7 +69,7 @@ fn a_full_disk_leaves_nothing_under_the_final_name() {
     }
 }
 
-/// Commands that print a result, and those that say what they have done.
+/// Commands that print a result, and those that report what they have done.
 const PRINTERS: [(&[&str], bool); 15] = [
     (&["run", "s.toml"], true),
     (&["run", "s.toml", "--explain"], true),
@@ -88,7 +88,7 @@ const PRINTERS: [(&[&str], bool); 15] = [
     (&["verify", "--filter", "steady-precession"], false),
 ];
 
-/// Standard output that is full is an error of every command that prints; standard output that nobody reads is none.
+/// A full standard output is an error for every command that prints; a closed reader is not.
 #[test]
 fn standard_output_may_be_full_or_gone() {
     let folder = scenes();
@@ -101,14 +101,14 @@ fn standard_output_may_be_full_or_gone() {
         drop(child.stdout.take());
         let output = child.wait_with_output().expect("its end");
         assert_eq!(output.status.code(), Some(0), "{args:?}: {}", stderr(&output));
-        // What was printed before the reader went may be followed by a note of the estimated error.
+        // After the reader has gone, a note on the estimated error may follow.
         let is_clean = |line: &str| !line.starts_with("error") && !line.contains("panicked");
         assert!(stderr(&output).lines().all(is_clean), "{}", stderr(&output));
     }
     assert!(written(&folder).is_empty(), "{:?}", written(&folder));
 }
 
-/// A result that goes to a closed standard output is lost: an error. The null device, a table in a file, and a command whose result is
+/// A result printed to a closed standard output is lost: an error. The null device, a table in a file, and a command whose result is
 /// its status lose nothing.
 #[test]
 fn a_closed_standard_output_is_an_error_where_a_result_is_lost() {
@@ -120,7 +120,7 @@ fn a_closed_standard_output_is_an_error_where_a_result_is_lost() {
         assert_eq!(is_said, is_result, "{args:?}: {}", stderr(&closed));
         let thrown_away = shell(&folder, "exec > /dev/null", args);
         assert_eq!(thrown_away.status.code(), Some(0), "{args:?}: {}", stderr(&thrown_away));
-        // A file that is open for reading too is no null device.
+        // A file that is also open for reading is not the null device.
         let kept = shell(&folder, "exec 1<> kept", args);
         assert_eq!(kept.status.code(), Some(0), "{args:?}: {}", stderr(&kept));
     }
@@ -128,7 +128,7 @@ fn a_closed_standard_output_is_an_error_where_a_result_is_lost() {
     assert_eq!(written(&folder), ["kept", "out"]);
 }
 
-/// A file in place of a folder, a folder of the system that takes none, and one without leave to write.
+/// A file in place of a folder, a system folder that accepts no file, and a folder without write permission.
 #[test]
 fn a_folder_that_takes_no_file_is_refused_at_once() {
     let folder = scenes();
@@ -140,7 +140,7 @@ fn a_folder_that_takes_no_file_is_refused_at_once() {
         fs::set_permissions(&closed, permissions).expect("permissions");
     };
     mode(0o555);
-    // Root may write there all the same.
+    // Root may write there nevertheless.
     let is_closed = fs::write(closed.join("probe"), "").is_err();
     for (args, _) in WRITERS {
         for out in ["file/out", "/proc/out", "closed/out"].into_iter().take(if is_closed { 3 } else { 2 }) {
@@ -153,8 +153,8 @@ fn a_folder_that_takes_no_file_is_refused_at_once() {
     assert_eq!(folder.read("file"), "mine");
 }
 
-/// Killed without warning, as it starts, with its first file, with the first bytes in it or as the final name appears, a command leaves what is whole, what says that it is not (`.part`, `.partial`), or
-/// nothing; done again it gives the same bytes.
+/// After a kill at its start, at its first file, at the first bytes in it or when the final name appears, a command leaves complete files, files
+/// marked as incomplete (`.part`, `.partial`), or nothing; run again it gives the same bytes.
 #[test]
 fn a_kill_at_any_moment_leaves_no_file_without_its_mark() {
     let complete = |folder: &Folder| {
@@ -192,7 +192,7 @@ fn a_kill_at_any_moment_leaves_no_file_without_its_mark() {
     }
 }
 
-/// No HOME, no PATH, no locale: nothing is asked of the environment.
+/// The command needs nothing from the environment: no HOME, no PATH, no locale.
 #[test]
 fn an_empty_environment_will_do() {
     let folder = scenes();
@@ -205,7 +205,7 @@ fn an_empty_environment_will_do() {
     }
 }
 
-/// A name that is no text is as good as another for what is written; what is read is asked for in UTF-8.
+/// An output may have a name that is not text; names of inputs must be UTF-8.
 #[test]
 fn names_that_are_no_text_are_written_to_and_not_read_from() {
     let folder = scenes();
@@ -225,7 +225,7 @@ fn names_that_are_no_text_are_written_to_and_not_read_from() {
     }
 }
 
-/// Tables that are much too wide or too long, or endless, are refused with what is allowed.
+/// Tables that are much too wide, too long or endless are refused with the allowed size.
 #[test]
 fn tables_beyond_the_bounds_are_refused() {
     let folder = scenes();

@@ -1,4 +1,4 @@
-//! `twofold figures` as a user meets it: files, names, refusals.
+//! `twofold figures` as a user sees it: files, names, refusals.
 
 use crate::common::{Folder, names_in, stdout, succeeds};
 

@@ -1,4 +1,4 @@
-//! Inputs that fuzzing has found, each once, in the functions that it searches: what covers something, and what once failed.
+//! Replays inputs found by fuzzing, each once, in the fuzzed functions: those that extend coverage and those that once failed.
 
 use std::env;
 use std::fs;
@@ -7,10 +7,10 @@ use std::process::{Command, Stdio};
 
 use twofold_command::fuzzing::TARGETS;
 
-/// Set in the process that tries the inputs of one target.
+/// Set in the process that runs the inputs of one target.
 const TARGET: &str = "TWOFOLD_FUZZ_TARGET";
 
-/// A line of a corpus is a JSON string, one character for each byte: what covers something, and what once failed.
+/// A line of a corpus is a JSON string, one character for each byte.
 fn inputs(target: &str) -> Vec<Vec<u8>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tools/fuzz/corpus");
     let lines = |name: String, is_needed: bool| match fs::read_to_string(folder.join(&name)) {
@@ -35,7 +35,7 @@ fn every_input_is_used_or_refused() {
         return try_all(&target);
     }
     let program = env::current_exe().expect("a path");
-    // A process for each: the command line prints, and changes the folder it is in.
+    // One process per target: the command line prints, and changes its folder.
     let start = |(target, _): &(&'static str, _)| {
         let mut command = Command::new(&program);
         command.args(["--exact", "fuzz_corpus::every_input_is_used_or_refused", "--nocapture"]).env(TARGET, target);
@@ -46,7 +46,7 @@ fn every_input_is_used_or_refused() {
         let message = String::from_utf8_lossy(&output.stderr);
         let end: Vec<_> = message.lines().rev().take(20).collect();
         assert!(output.status.success(), "{target}: {}", end.into_iter().rev().collect::<Vec<_>>().join("\n"));
-        // A name that fits no test is no failure of the process.
+        // A name that matches no test does not fail the process.
         assert!(String::from_utf8_lossy(&output.stdout).contains("1 passed"), "{target}: the test was not run");
     }
 }
@@ -55,7 +55,7 @@ fn try_all(target: &str) {
     let (_, function) = TARGETS.iter().find(|(name, _)| *name == target).expect("a target");
     for input in inputs(target) {
         let shown = input.escape_ascii().to_string();
-        // Told before, for where a panic is no end.
+        // Printed first, for panics that hang.
         eprintln!("{shown}");
         function(&input);
     }

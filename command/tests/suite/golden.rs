@@ -1,4 +1,4 @@
-//! The paper's numbers beside ours, as snapshots for review in `golden/`, and their digits against rigorous enclosures.
+//! The paper's numbers with ours, as snapshots for review in `golden/`, and their digits compared with rigorous enclosures.
 
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
@@ -28,7 +28,7 @@ fn golden_tables_are_as_reviewed() {
     });
 }
 
-/// Every number is certified or listed, and `docs/reliability/certified.md` says how many are.
+/// Every number is certified or listed; `docs/reliability/certified.md` states the counts.
 #[test]
 fn digits_are_certified_or_listed_with_a_reason() {
     let file = |name| std::fs::read_to_string(format!("../{name}")).expect("the file is there");

@@ -1,4 +1,4 @@
-//! From data back to the scene: fits that recover and fits that are refused.
+//! From data back to the scene: successful and refused fits.
 
 use crate::common::{Folder, altered, cells, has_all, stderr, stdout};
 use twofold::dynamics::RigidSpheroid;
@@ -18,7 +18,7 @@ fn model(name: &str) -> Parameters<f64> {
     parameters_of(&Scene::named(name).expect("scene")).expect("model")
 }
 
-/// Exact data of all pulses but those of the first turn.
+/// Exact data of all pulses except those of the first turn.
 fn data(model: &Parameters<f64>, end: f64, noise: &[Noise]) -> Vec<Datum> {
     let signal = Signal::new(model, end).expect("signal");
     let mut events = signal.events().expect("pulses");
@@ -27,7 +27,7 @@ fn data(model: &Parameters<f64>, end: f64, noise: &[Noise]) -> Vec<Datum> {
     data_of(&signal, &events, &samples, noise).expect("data")
 }
 
-/// Data without errors lead back to the truth, from an offset of hundreds of error bars, to the digits of the motion.
+/// Data without errors give the true parameters, from an offset of hundreds of error bars, to the accuracy of the motion.
 #[test]
 fn exact_data_give_the_truth() {
     let truth = model("tp-2");
@@ -52,7 +52,7 @@ fn exact_data_give_the_truth() {
     }
 }
 
-/// The covariance does not depend on the data's errors of this time, and is in proportion to their variance.
+/// The covariance does not depend on the particular errors of the data, and is proportional to their variance.
 #[test]
 fn error_bars_are_in_proportion_to_the_errors() {
     let truth = model("tp-2");
@@ -72,7 +72,7 @@ fn error_bars_are_in_proportion_to_the_errors() {
     }
 }
 
-/// After 1e9 turns exact data lead back to s of 1e-9, beam, observer and phase, the wobble known: its derivatives cancel to 1e-13, below their rounding.
+/// After 1e9 turns exact data give s = 1e-9, beam, observer and phase for a known wobble, whose derivatives cancel to 1e-13, below their rounding.
 #[test]
 fn decades_give_the_truth() {
     let near = model("tp-2");
@@ -90,21 +90,22 @@ fn decades_give_the_truth() {
     assert!(fisher.degenerate.is_empty() && fisher.weak.is_empty(), "{:?} {:?}", fisher.degenerate, fisher.weak);
     let start = beside(&fisher, 0.3, &mut random).expect("a start");
     let found = fit(&start, &data, unknowns, end).expect("fit");
-    // A last digit of L is 1e-6 rad, a thousandth of an error.
+    // The last digit of L is 1e-6 rad, a thousandth of an error.
     assert!(found.chi_squared < 1e-3, "chi^2 = {}", found.chi_squared);
     for ((value, truth), sigma) in found.fisher.values().iter().zip(truth.values(unknowns)).zip(found.fisher.sigmas()) {
         assert!((value - truth).abs() < 0.05 * sigma, "{value} for {truth} +- {sigma}");
     }
 }
 
-/// The strain of a strong violation after 1e8 turns leads back to the truth, by the motion on the torus. Its pulses, by the averaged motion, are refused.
+/// The strain of a strong violation after 1e8 turns gives the true parameters by the motion on the torus. Its pulses by the averaged motion are
+/// refused.
 #[test]
 fn strains_of_a_strong_violation_may_be_of_any_span() {
     use Parameter::{SAxial, Spin};
     let (truth, unknowns, end) = (model("tp-2"), &[SAxial, Spin], 1e9);
     let signal = Signal::new(&truth, end).expect("signal");
     assert!(signal.is_long());
-    // Its pulses too are found late.
+    // Its pulses are found at late times, too.
     let events = signal.events_after(&[1e8, 2e8, 3e8, 4e8, 5e8]).expect("pulses");
     let turns: Vec<_> = events.iter().map(|event| (event.turn, event.epoch + event.midpoint())).collect();
     let again = signal.events_of_turns(&turns).expect("the same pulses");
@@ -115,7 +116,7 @@ fn strains_of_a_strong_violation_may_be_of_any_span() {
     let data = data_of(&signal, &[], &times, &noise).expect("data");
     let fisher = Fisher::of(&truth, &[], &data, unknowns).expect("Fisher matrix");
     assert!(fisher.degenerate.is_empty() && fisher.weak.is_empty(), "{:?} {:?}", fisher.degenerate, fisher.weak);
-    // Two phases after 1e9 t_c tell two frequencies to some 1e-3 / 1e9.
+    // Two phases 1e9 t_c apart determine two frequencies to about 1e-3 / 1e9.
     assert!(fisher.sigmas().iter().all(|sigma| *sigma < 1e-10), "{:?}", fisher.sigmas());
     let mut random = ChaCha8Rng::seed_from_u64(4);
     let found = fit(&beside(&fisher, 0.3, &mut random).expect("a start"), &data, unknowns, end).expect("fit");
@@ -124,7 +125,7 @@ fn strains_of_a_strong_violation_may_be_of_any_span() {
     }
 }
 
-/// The same simulation twice is the same to the bit, another one is another.
+/// A repeated simulation is equal to the bit; one with another number differs.
 #[test]
 fn simulations_follow_from_their_number() {
     let [a, b, c] = [4, 4, 5].map(|seed| Simulation::new(seed).expect("simulation"));
@@ -144,7 +145,7 @@ fn what_the_data_do_not_determine_is_refused_with_the_reason() {
         (&[Alpha, PhiO, S(0, 1), Spin], &TIMES_AND_WIDTHS, &["rotation of all (star, s^IJ and observer) about Z"]),
         (&[Oblateness, Spin, Strain], &strain, &["h is in proportion to eps"]),
         (&[Spin, Chi], &strain, &["chi: pulses and their widths show it, and these data do not"]),
-        // Determined in principle, but not by data as bad as these.
+        // Determined in principle, but not by such imprecise data.
         (&Parameter::OF_PULSES, &[(Observable::Arrivals, 1e3), (Observable::Widths, 1e3)], &["d("]),
     ] {
         match fit(&truth, &data(&truth, 100.0, noise), unknowns, 100.0) {
@@ -154,13 +155,13 @@ fn what_the_data_do_not_determine_is_refused_with_the_reason() {
     }
 }
 
-/// A star of tp-1's shape, seen off its poles.
+/// A star of tp-1's shape, seen from off the poles.
 const STAR: &str = "[star]\ninertia_ratio = 1.1\nspin = 1.0\n[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n[initial]\n\
     alpha = 1.5707963267948966\nbeta = 0.7\ngamma = 0.3\nalpha_rate = 1.51\nbeta_rate = 0.1\n[observer]\ntheta_o = 0.8\nphi_o = 0.4\n[pulsar]\n\
     chi = 0.5\ndelta = 0.2\nrho = 0.6\n[time]\nspan = 100.0\nsamples = 51\n";
 
-/// Pulses of a star without spin do not depend on eps, those without a torque not on C, those of a star at rest on an axis of s not on eps either; the
-/// strain of a star at rest about its axis is zero. Derivatives by these are rounding. They are named, and other error bars are as without them.
+/// Pulses do not depend on eps for a star without spin, nor on C for one without a torque, nor on eps for a star at rest on an axis of s; the strain
+/// of a star at rest about its axis is zero. Derivatives by these parameters are rounding. They are named, and other error bars are unchanged.
 #[test]
 fn an_unknown_without_effect_is_named_and_leaves_the_others_alone() {
     let folder = Folder::new();
@@ -238,7 +239,7 @@ fn data_that_are_too_few_or_of_no_pulse_are_refused() {
     assert!(error.to_string().contains("turn 4000"), "{error}");
 }
 
-/// More strain than the most oblate star has: the fit stops at the limit and says so.
+/// The strain exceeds that of the most oblate star: the fit stops at the limit and says so.
 #[test]
 fn a_fit_that_ends_on_a_limit_is_refused() {
     let truth = model("tp-2");
@@ -276,7 +277,7 @@ fn series_written_by_the_command_are_fitted() {
     assert_eq!(simulated(), simulated());
 }
 
-/// One datum of a linear model late by `d` standard deviations: of `d` its residual keeps the part `q`, with the sign of `d`, and `chi^2 = q d^2`.
+/// One datum of a linear model is late by `d` standard deviations: its residual is `q d`, with the sign of `d`, and `chi^2 = q d^2`.
 #[test]
 fn a_late_pulse_has_a_positive_residual() {
     let truth = model("tp-2");
@@ -288,18 +289,18 @@ fn a_late_pulse_has_a_positive_residual() {
         data[place].value += late * data[place].sigma;
         let found = fit(&truth, &data, unknowns, 100.0).expect("fit");
         let residual = found.residuals[place];
-        // Errors of 1e-5 move the unknowns by so little that the model is linear to about as much.
+        // Errors of 1e-5 change the unknowns so little that the model is linear to about that precision.
         assert!(residual / late > 0.1, "{residual} of {late}");
         assert!((found.chi_squared / (residual * late) - 1.0).abs() < 1e-2, "{} and {residual}", found.chi_squared);
-        // An unbiased estimate of the variance: data less unknowns.
+        // The unbiased estimate of the variance divides by data minus unknowns.
         let sum: f64 = found.residuals.iter().map(|residual| residual * residual).sum();
         let mean = sum / (data.len() - unknowns.len()) as f64;
         assert!((found.root_mean_square().powi(2) / mean - 1.0).abs() < 1e-9, "{}", found.root_mean_square());
     }
 }
 
-/// `-n` and `-m` have the `m.n` of `n` and `m`; and half a turn about X, which leaves a diagonal `s^IJ` as it is, changes nothing that is seen. So the
-/// data of a star are those of others with angles in the lower half.
+/// `-n` and `-m` have the `m.n` of `n` and `m`, and half a turn about X, which leaves a diagonal `s^IJ` unchanged, has no visible effect. The data of
+/// a star are therefore also those of stars with angles in the lower half.
 #[test]
 fn angles_beyond_a_right_angle_are_fitted() {
     let truth = model("tp-2");

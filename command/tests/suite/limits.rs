@@ -1,4 +1,4 @@
-//! The command `twofold limits` as a user meets it: values, limits, refusals.
+//! The command `twofold limits` as a user sees it: values, limits, refusals.
 
 use std::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ fn timed(pulsar: &str) -> Folder {
     folder
 }
 
-/// Rows of a table of the command: the fields of a line by its first one.
+/// The fields of the row with this name in a table of the command.
 fn row<'t>(page: &'t str, name: &str) -> Vec<&'t str> {
     let line = page.lines().find(|line| line.split_whitespace().next() == Some(name));
     line.unwrap_or_else(|| panic!("{name} in {page}")).split_whitespace().collect()
@@ -23,18 +23,18 @@ fn arrival_times_of_a_wobbling_star_give_it_back() {
     let unknowns = "phase,f0,f1,f2,wobble,precession_phase,precession_rate";
     let found = folder.succeeds(&["limits", "b1828-11", "b1828-11.tim", "--parameters", unknowns]);
     let page = stdout(&found);
-    // 3 degrees and 500 days are what the scene states.
+    // The scene states 3 degrees and 500 days.
     for (name, expected) in [("wobble", 3.0_f64.to_radians()), ("precession_rate", TAU / (500.0 * 86_400.0))] {
         let fields = row(&page, name);
         let [value, sigma] = [1, 2].map(|k| fields[k].parse::<f64>().expect("a number"));
         assert!((value - expected).abs() < 1e-2 * sigma + 1e-9 * expected, "{name}: {value} for {expected}");
     }
     assert!(page.contains("Held fixed: chi = ") && page.contains("torque_share = 1"), "{page}");
-    // F0 and its epoch are those of the scene, to the error of the fit and the digits of a double-double number.
+    // F0 and its epoch agree with the scene, within the error of the fit and the digits of a double-double number.
     let notes = stderr(&found);
     assert!(notes.contains("400 arrivals, 0 widths, 0 priors"), "{notes}");
     assert!(notes.contains("f0 = 2.46887171") && notes.contains(" Hz at MJD 49621.0"), "{notes}");
-    // A prior is one more datum, and as sharp as it is it holds.
+    // A prior is one more datum; one this sharp decides.
     let prior = ["limits", "b1828-11", "b1828-11.tim", "--parameters", unknowns, "--prior", "wobble:0.0523:1e-9"];
     let with_prior = stdout(&folder.succeeds(&prior));
     assert!((row(&with_prior, "wobble")[1].parse::<f64>().expect("a number") - 0.0523).abs() < 1e-8, "{with_prior}");
@@ -61,8 +61,8 @@ fn the_same_times_in_other_files_are_the_same_data() {
     assert_eq!(fields(&page(&["b1937+21.csv", "--observe", "arrivals:1e-6"])), fields(&expected));
 }
 
-/// Of `N` times with the error `sigma` an amplitude has the error `sigma (2 / N)^(1/2)`, an amplitude of a small wobble is `theta cot chi / (2 pi F0)`, and half a normal distribution has its
-/// quantile of 95 % at 1.96.
+/// From `N` times with the error `sigma` an amplitude has the error `sigma (2 / N)^(1/2)`; the amplitude of a small wobble is
+/// `theta cot chi / (2 pi F0)`, and half a normal distribution has its 95 % quantile at 1.96.
 #[test]
 fn the_limit_on_a_wobble_is_that_of_an_amplitude() {
     let folder = timed("b1937+21");
@@ -70,7 +70,7 @@ fn the_limit_on_a_wobble_is_that_of_an_amplitude() {
     let found = folder.succeeds(&args);
     let page = stdout(&found);
     assert!(page.contains("Limits on the wobble at 95 %"), "{page}");
-    // Nothing is said of s where the inclination is held fixed.
+    // There is no statement about s if the inclination is held fixed.
     assert!(!page.contains("s^ZZ") && page.contains(" 20.00 ") && page.contains("chi = 1.3089969 rad, "), "{page}");
     assert!(page.ends_with("a braking torque along L, independent normal errors\n"), "{page}");
     let table = folder.read("limits.csv");
@@ -92,24 +92,24 @@ fn the_limit_on_a_wobble_is_that_of_an_amplitude() {
         assert!((row[0] / period - 1.0).abs() < 1e-6, "{table}");
         assert!((row[3] / expected - 1.0).abs() < 0.05, "{} for {expected}", row[3]);
     }
-    // 400 times in 15 years are 13.7 d apart, less than 20 d and more than half of them.
+    // 400 times in 15 years are 13.7 d apart: less than 20 d, but more than half of it.
     let told = stderr(&found);
     assert!((number_after(&told, "data are ") / (5478.75 / 399.0) - 1.0).abs() < 1e-3, "{told}");
     let rarer = folder.succeeds(&["limits", "b1937+21", "b1937+21.tim", "--periods", "200:40:2"]);
     assert!(!stderr(&rarer).contains("data are "), "{}", stderr(&rarer));
 }
 
-/// Over a span `T` the error of a slope of `N` widths is `sigma (12 / N)^(1/2) / T`.
+/// Over a span `T` the slope of `N` widths has the error `sigma (12 / N)^(1/2) / T`.
 #[test]
 fn widths_limit_the_motion_of_the_axis_and_s() {
-    // Without Lorentz violation the inclination and with it the slope of the width stay.
+    // Without Lorentz violation the inclination, and with it the width, is constant.
     let folder = Folder::with(&[("star.toml", &altered("b1937+21", &[("alpha_2 = 1.6e-9", "alpha_2 = 0.0")]))]);
     folder.succeeds(&["timing", "star.toml", "--epochs", "400", "--out", "."]);
     let args = ["limits", "star.toml", "star.csv", "--observe", "widths:1e-6"];
     let page = stdout(&folder.succeeds(&args));
     let again = folder.run(&["limits", "star.toml", "star.csv", "star.csv", "--observe", "widths:1e-6"]);
     is_refused(&again, &["star.csv: the datum of MJD ", "also in an earlier file"]);
-    // In two files they are the same data.
+    // Split into two files, the data are the same.
     let table = folder.read("star.csv");
     let lines: Vec<_> = table.lines().collect();
     folder.write("first.csv", lines[..200].join("\n"));
@@ -125,7 +125,7 @@ fn widths_limit_the_motion_of_the_axis_and_s() {
         .map(|line| line.split(',').nth(1).and_then(|day| day.parse().ok()).expect("a day"))
         .collect();
     let span = (times[times.len() - 1] - times[0]) * 86_400.0;
-    // cos rho = cos Theta cos i + sin Theta sin i cos(W / 2), with the angles of the scene: dW/di at a fixed rho.
+    // cos rho = cos Theta cos i + sin Theta sin i cos(W / 2), with the angles of the scene, gives dW/di at a fixed rho.
     let (theta, i, rho) =
         (75.0_f64.to_radians(), 80.0_f64.to_radians(), row(&page, "rho")[1].parse::<f64>().expect("rho"));
     let half = ((rho.cos() - theta.cos() * i.cos()) / (theta.sin() * i.sin())).acos();
@@ -133,8 +133,8 @@ fn widths_limit_the_motion_of_the_axis_and_s() {
         2.0 * (theta.sin() * i.cos() * half.cos() - theta.cos() * i.sin()) / (theta.sin() * i.sin() * half.sin());
     let expected = 1e-6 * (12.0_f64 / 400.0).sqrt() / span * TAU * 641.928 / slope.abs();
     assert!((sigma / expected - 1.0).abs() < 0.02, "{sigma} for {expected}");
-    // A normal number of mean zero times eta of unknown directions has its quantile of 95 % at 103.08 of its deviation where the spin axis is at 40 deg to the line of sight, by the quadratures of
-    // another program, and in inverse proportion to the sine of that angle.
+    // The product of a normal number of mean zero and eta for unknown directions has its 95 % quantile at 103.08 deviations if the spin axis is at 40
+    // deg to the line of sight, by the quadratures of another program, and in inverse proportion to the sine of that angle.
     let limit = number_after(&page, "|2 s^ZZ - s^XX - s^YY| is at most ");
     let expected = 103.08 * 40.0_f64.to_radians().sin() / i.sin() * 4.0 * i.sin() * sigma / (TAU * 641.928);
     // The page has three digits of the deviation.
@@ -201,12 +201,12 @@ fn what_is_wrong_is_named() {
     }
     let blind = ends(folder.run(&["limits", "b1937+21", "b1937+21.tim", "--parameters", "phase,rho"]), 1);
     has_all(&stderr(&blind), &["do not determine", "d(rho) alone"]);
-    // A wobble that shows: no limit.
+    // A detected wobble gives no limit.
     let folder = timed("isolated-pulsar");
     let wobbling = folder.run(&["limits", "isolated-pulsar", "isolated-pulsar.tim", "--periods", "50:2000:5"]);
     has_all(&stderr(&wobbling), &["wobble (rad)", "zero"]);
     assert!(!wobbling.status.success());
-    // Every other pulse 86 microseconds late: nothing that the model knows.
+    // Every second pulse is 86 microseconds late, which no parameter explains.
     let folder = timed("b1937+21");
     let table = folder.read("b1937+21.csv");
     let mut text = String::from("arrival_day [MJD],arrival_fraction [d]\n");
@@ -226,7 +226,7 @@ fn what_is_wrong_is_named() {
     );
 }
 
-/// F2 of a star whose F1 is zero at the start of the fit, and one of timing noise; and numbers that two files count differently.
+/// F2 of a star whose F1 is zero at the start of the fit, and F2 of timing noise; and two files with different pulse numbers.
 #[test]
 fn any_f2_is_fitted_and_files_count_for_themselves() {
     let folder = timed("b1937+21");

@@ -1,10 +1,10 @@
-//! What commands say beside their tables: estimated errors, plans, notes and progress.
+//! Messages of commands besides their tables: estimated errors, plans, notes and progress.
 
 use crate::common::{Folder, altered, comes_to, number_after, numbers, stderr, stdout, twofold, with_lines};
 use twofold_scene::scene_file::built_in;
 
-/// The note at the end of `run` is not below the largest difference of the last row from that of a motion a million times as accurate, and
-/// not ten times above it.
+/// The note at the end of `run` is between one and ten times the largest difference of the last row from that of a motion a million times
+/// as accurate.
 #[test]
 fn the_estimated_error_that_run_prints_is_that_of_its_last_row() {
     let last_row = |tolerance: &str, method: &str| {
@@ -22,7 +22,7 @@ fn the_estimated_error_that_run_prints_is_that_of_its_last_row() {
     }
 }
 
-/// What is allowed and looks like a mistake is said.
+/// Allowed input that is probably a mistake is noted.
 #[test]
 fn a_spin_beyond_break_up_and_a_julian_date_are_noted() {
     let notes = |lines: &[(&str, &str)], args: &[&str]| {
@@ -54,12 +54,12 @@ fn a_spin_beyond_break_up_and_a_julian_date_are_noted() {
 fn a_long_run_without_a_terminal_tells_how_far_it_is() {
     use std::io::{BufRead, BufReader};
     let folder = Folder::with(&[("long.toml", &altered("tp-1", &[("span = 400", "span = 4e7")]))]);
-    // Minutes by the series in time, milliseconds by that on the torus.
+    // The series in time takes minutes, that on the torus milliseconds.
     let mut run =
         folder.command(&["run", "long.toml", "--method", "taylor", "--columns", "e_z", "--out", "motion.csv"]);
     let mut child = run.spawn().expect("the command starts");
     assert!(comes_to(&mut child, || folder.names().len() > 1), "it ended by itself");
-    // What is not complete is hidden beside the name that it will get.
+    // An incomplete file is hidden, next to its final name.
     let names = folder.names();
     assert!(names[0].starts_with(".motion.csv.") && names[0].ends_with(".part"), "{names:?}");
     crate::common::send(&child, "USR1");
@@ -70,7 +70,8 @@ fn a_long_run_without_a_terminal_tells_how_far_it_is() {
     assert!(line.starts_with("note: ") && line.contains(" % done after "), "{line}");
 }
 
-/// A star that spins about its axis at 20 Hz, along Z, and whose beam just touches the line of sight: at the azimuth of the observer, 0.1 rad after the start.
+/// A star that spins about its axis at 20 Hz, along Z, with a beam that just touches the line of sight: at the azimuth of the observer, 0.1 rad after
+/// the start.
 const GRAZING: &str = "[star]\nmass = 1.4\nradius = 12.0\noblateness = 0.01\nspin_frequency = 20.0\n\
     [lorentz_violation]\neigenvalues = [0.0, 0.0, 0.0]\n[initial]\nalpha = 0.3\nbeta = 0.0\nalpha_rate = 1.0\nbeta_rate = 0.0\n\
     [observer]\ntheta_o = 0.9\nphi_o = 0.4\n[pulsar]\nchi = 0.5\nrho = 0.4\n[time]\nstart = 7.0\nspan = 0.2\nsamples = 3\n";
@@ -90,10 +91,10 @@ fn notes_and_plans_of_a_physical_star_have_its_times_in_seconds() {
     );
 }
 
-/// The method named as next is the cheapest of the others that meet the tolerance, and the ratio is that of their costs.
+/// The method named second is the cheapest of the others that meet the tolerance, and the ratio is that of their costs.
 #[test]
 fn the_next_method_is_the_second_cheapest() {
-    // Without violation all methods are good enough.
+    // Without violation all methods are accurate enough.
     let plan = stdout(&twofold(&["run", "free", "--columns", "e_z", "--explain"]));
     let unit = |unit: &str| match unit {
         "ns," => 1.0,
@@ -116,7 +117,8 @@ fn the_next_method_is_the_second_cheapest() {
     assert!((ratio - costs[1].0 / costs[0].0).abs() < 0.06 + 0.1 * ratio, "{ratio} {costs:?}");
 }
 
-/// A motion of more turns than are kept is computed in segments, the error of which goes on from one to the next: at the end it has grown with the phase.
+/// A motion with more turns than can be kept is computed in segments. The error continues from one to the next and has grown with the phase at the
+/// end.
 #[test]
 fn the_error_of_a_long_motion_is_that_at_its_end() {
     let (before, _) = built_in("tp-1").expect("tp-1").toml.split_once("[time]").expect("times");

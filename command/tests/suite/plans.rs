@@ -1,4 +1,4 @@
-//! What commands compute, counted: for every group of columns alone and for all together no more than the plan lists.
+//! The counted work of commands: for every group of columns alone and for all together it is not more than the plan lists.
 
 use twofold::plan::{Evaluations, Method, Output, State, Work};
 use twofold_scene::scene_file::{BUILT_IN, COLUMN_GROUPS, Scene, Times, column_group};
@@ -18,7 +18,7 @@ fn written(scene: &Scene) -> Summary {
     write_csv(scene, std::io::sink(), |_| Ok(())).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// What `work` may be at most, by the plan of the scene's columns.
+/// Requires `work` to be at most that of the plan of the scene's columns.
 fn assert_no_more_than_listed(scene: &Scene, work: &Work, place: &str) {
     let plan = scene.plan(&scene.columns).unwrap_or_else(|error| panic!("{error}"));
     let Some(prediction) = plan.prediction else {
@@ -57,7 +57,7 @@ fn columns_are_computed_from_no_more_than_the_plan_lists() {
     assert!(methods.contains(&Method::Free) && methods.contains(&Method::Taylor), "{methods:?}");
 }
 
-/// The state that each output alone carries, as docs/plans.md has it.
+/// The state that each output alone needs, as in docs/plans.md.
 #[test]
 fn outputs_carry_what_they_need() {
     let state = |group: Output| scene("tp-1").plan(&[group]).expect("plan").state;
@@ -78,7 +78,7 @@ fn outputs_carry_what_they_need() {
     }
 }
 
-/// One far time: a closed form is evaluated once, at that time; a numerical motion goes there and is evaluated once.
+/// One far time: a closed form is evaluated once, at that time; a numerical motion is integrated up to it and evaluated once.
 #[test]
 fn one_far_time_does_not_pay_for_those_before() {
     for (name, method) in [
@@ -91,7 +91,7 @@ fn one_far_time_does_not_pay_for_those_before() {
             let mut scene = with_columns(name, &[column_group(column).expect("group")]);
             scene.times = Times::Listed { start: 0.0, times: vec![1000.0] };
             scene.method = (method == Method::Taylor).then_some(method);
-            // Above the rounding after 200 turns, for which a closed form with phases in 32 digits is taken.
+            // Above the rounding after 200 turns, so that a closed form with phases in 32 digits is chosen.
             scene.tolerance = 1e-10;
             let plan = scene.plan(&scene.columns).expect("plan");
             let work = written(&scene).work;
@@ -121,7 +121,7 @@ fn pulses_evaluate_as_listed() {
     }
 }
 
-/// A method that is forced is used, and one that the scene does not allow is refused with key, value and reason.
+/// A prescribed method is used; one that the scene does not allow is refused with key, value and reason.
 #[test]
 fn a_method_is_forced_or_refused() {
     let mut tp2 = scene("tp-2");

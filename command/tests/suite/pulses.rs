@@ -40,7 +40,7 @@ fn pulses_have_turns_and_closest_approaches_where_turns_can_be_counted() {
     );
 }
 
-/// A window of the span of a scene has the pulses of the whole, and one after 1e9 t_c begins a new count.
+/// A window of the span of a scene has the pulses of the whole; after 1e9 t_c the count starts again.
 #[test]
 fn a_window_may_be_late() {
     let rows = |args: &[&str]| {

@@ -1,4 +1,4 @@
-//! What the command writes against the answers of a second program, which shares nothing with this one: `verify/oracles/second_program`.
+//! The output of the command compared with the answers of a second, completely independent program: `verify/oracles/second_program`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -28,7 +28,7 @@ fn text_of(value: &Value) -> &str {
     value.as_str().expect("a text")
 }
 
-/// The rows of an output as texts: of a table, of words, or what stands in an object at the places that the expected rows name.
+/// The rows of an output as texts: of a table, of words, or the entries of an object at the places in the expected rows.
 fn rows(text: &str, output: &Value) -> Vec<Vec<String>> {
     let owned = |row: Vec<&str>| row.into_iter().map(str::to_owned).collect();
     match text_of(&output["separator"]) {
@@ -54,8 +54,8 @@ fn rows(text: &str, output: &Value) -> Vec<Vec<String>> {
     }
 }
 
-/// The first difference between a text and the output that is expected, in words. A double may differ by the tolerance of its column, or of its cell
-/// where there is one; whole numbers and texts are the same; `*` is any number.
+/// The first difference between a text and the expected output, in words. A double may differ by the tolerance of its column, or of its cell if it
+/// has one; whole numbers and texts must agree; `*` matches any number.
 fn difference(text: &str, output: &Value) -> Option<String> {
     let (found, expected) = (rows(text, output), list(&output["rows"]));
     if found.len() != expected.len() {
@@ -89,7 +89,7 @@ fn difference(text: &str, output: &Value) -> Option<String> {
     None
 }
 
-/// Where the estimated error of a sweep is below the true one of the symmetry axis, in words; the second program's own error is some 1e-13.
+/// Cases in which the estimated error of a sweep is below the true one of the symmetry axis, in words; the second program's own error is about 1e-13.
 fn estimate_below(text: &str, output: &Value) -> Option<String> {
     let found = rows(text, output);
     let of_axis = |title: &str| ["e_z_X@", "e_z_Y@", "e_z_Z@"].iter().any(|name| title.starts_with(name));
@@ -109,7 +109,7 @@ fn estimate_below(text: &str, output: &Value) -> Option<String> {
     None
 }
 
-/// The parts of a dotted key, as of `lorentz_violation.w[1]`: the section, if there is one, the name and the indices.
+/// The parts of a dotted key such as `lorentz_violation.w[1]`: the section, if there is one, the name and the indices.
 fn parts(key: &str) -> (&str, &str, Vec<usize>) {
     let (section, name) = key.split_once('.').unwrap_or(("", key));
     let mut pieces = name.split(['[', ']']).filter(|piece| !piece.is_empty());
@@ -117,7 +117,7 @@ fn parts(key: &str) -> (&str, &str, Vec<usize>) {
     (section, name, pieces.map(|index| index.parse().expect("an index")).collect())
 }
 
-/// A scene file with another value at a key: the line of the key is replaced.
+/// A scene file with the line of a key replaced by another value.
 fn with_value(text: &str, key: &str, value: &Value) -> String {
     let (section, name, indices) = parts(key);
     let (mut here, mut replaced) = ("", 0);
@@ -128,7 +128,7 @@ fn with_value(text: &str, key: &str, value: &Value) -> String {
         }
         match line.split_once(" = ") {
             Some((found, old)) if here == section && found == name => {
-                // Numbers, texts and lists are written alike in TOML and JSON.
+                // Numbers, texts and lists have the same form in TOML and JSON.
                 let mut whole =
                     if indices.is_empty() { value.clone() } else { serde_json::from_str(old).expect("a list") };
                 if !indices.is_empty() {
@@ -152,7 +152,7 @@ fn scene_text(answer: &Value) -> String {
     changed.iter().fold(text, |text, (key, value)| with_value(&text, key, value))
 }
 
-/// What is wrong with the outputs of one command, or nothing. Its scene is written anew, with the keys that are changed, unless it names its files itself.
+/// The differences in the outputs of one command. Its scene is written with the changed keys, unless it names its files itself.
 fn failures(answer: &Value, command: &Value) -> Vec<String> {
     let (out, home) = (Folder::new(), home());
     let about = format!("{} {}", answer["scene"], answer["changed"]);
@@ -192,13 +192,13 @@ fn failures(answer: &Value, command: &Value) -> Vec<String> {
     wrong.collect()
 }
 
-/// The answers for a command of an answer.
+/// The commands with this name in a file of answers.
 fn commands<'a>(answer: &'a Value, name: &str) -> impl Iterator<Item = &'a Value> {
     let all = answer["commands"].as_array().expect("commands");
     all.iter().filter(move |command| command["arguments"][0] == name)
 }
 
-/// Compares every command of a name.
+/// Compares all commands with this name.
 fn compare(name: &str, least: usize) {
     let all = answers();
     let pairs: Vec<_> =
@@ -208,7 +208,7 @@ fn compare(name: &str, least: usize) {
     assert!(wrong.is_empty(), "{} of {} outputs:\n{}", wrong.len(), pairs.len(), wrong.join("\n"));
 }
 
-/// What is wrong with a sweep of one scene whose key takes one value, against the answers for the scene with that value in the file.
+/// The differences of a one-scene sweep with one value of its key from the answers for the scene with that value in the file.
 fn failure_of_sweep(answer: &Value, key: &str, value: &Value) -> Option<String> {
     let out = Folder::new();
     let text =
@@ -238,7 +238,7 @@ fn failure_of_sweep(answer: &Value, key: &str, value: &Value) -> Option<String> 
         let (right, what) = if let Some((name, rest)) = title.split_once('@') {
             let (time, unit) = rest.split_once(' ').expect("a unit");
             let column = titles.iter().position(|title| *title == format!("{name} {unit}")).expect(title);
-            // Equal steps may be rounded otherwise.
+            // Equal steps may be rounded differently.
             let time: f64 = time.parse().expect("a time");
             let at = |row: &usize| cell(*row, 0).as_f64().is_some_and(|t| (t - time).abs() <= 1e-15 * time.abs());
             let row = (1..list(&expected["rows"]).len()).find(at).expect(title);

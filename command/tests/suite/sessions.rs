@@ -1,4 +1,4 @@
-//! Commands with what they answer, as they are written down in `command/tests/cases`, whose README.md says what a line does.
+//! Commands with their expected answers, as written in `command/tests/cases`, whose README.md describes the lines.
 
 use std::fs;
 use std::path::Path;
@@ -7,12 +7,12 @@ use crate::common::{Folder, has_all, stderr, stdout};
 use twofold_scene::scene_file::built_in;
 use twofold_scene::sweep::SWEEPS;
 
-/// A text with the ends of its lines.
+/// A text with its escaped line ends expanded.
 fn unescaped(text: &str) -> String {
     text.replace("\\n", "\n")
 }
 
-/// What a line looks for; nothing but where a status stands alone.
+/// The fragments that a line requires; none if it has only a status.
 fn fragments(text: &str) -> Vec<String> {
     text.split(" | ").filter(|part| !part.is_empty()).map(unescaped).collect()
 }
@@ -23,7 +23,7 @@ fn looked_for(text: &str) -> Vec<String> {
     found
 }
 
-/// The words of a line; what is in quotes is one.
+/// The words of a line; a quoted part is one word.
 fn arguments(line: &str) -> Vec<&str> {
     let quoted = line.split('\'').enumerate();
     quoted.flat_map(|(i, part)| if i % 2 == 1 { vec![part] } else { part.split_whitespace().collect() }).collect()
@@ -55,7 +55,7 @@ fn write_file(folder: &Folder, line: &str) {
     folder.write(name, found);
 }
 
-/// Carries out the paragraphs of a file.
+/// Executes the paragraphs of a file.
 fn carry_out(sessions: &str) {
     for paragraph in sessions.split("\n\n") {
         let folder = Folder::new();

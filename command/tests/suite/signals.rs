@@ -1,5 +1,5 @@
-//! Interrupts, hang-ups and requests to terminate, each heeded or ignored by itself, as in a terminal, under `nohup` and in the background
-//! of a script. The tests pass where any of them is ignored: by this process, and so by those it starts.
+//! Interrupts, hang-ups and requests to terminate, each obeyed or ignored separately, as in a terminal, under `nohup` and in the
+//! background of a script. The tests also pass if any of them is ignored by this process, and therefore by those it starts.
 
 use std::fs;
 use std::process::{Child, Command, Stdio};
@@ -12,7 +12,7 @@ const LONG: &str = "[star]\ninertia_ratio = 1.1\nspin = 1.0\n[lorentz_violation]
 const HUGE: &str = "scene = \"tp-2\"\nseed = 1\ndraws = 1000000000\n[time]\nend = 1.0\n[[vary]]\nparameter = \"pulsar.rho\"\n\
                     random = { distribution = \"uniform\", from = 0.4, to = 0.7 }\n";
 
-/// Long commands that write files, and what they say when they are interrupted.
+/// Long commands that write files, and their messages when interrupted.
 const COMMANDS: [(&[&str], &str); 5] = [
     (&["run", "long.toml", "--out", "out"], "error: interrupted: no file was left incomplete\n"),
     (&["figures", "--out", "out"], "error: interrupted: no file was left incomplete\n"),
@@ -24,7 +24,7 @@ const COMMANDS: [(&[&str], &str); 5] = [
 /// Signals by name and number.
 const SIGNALS: [(&str, u32); 3] = [("HUP", 1), ("INT", 2), ("TERM", 15)];
 
-/// The command, in a shell that ignores some signals.
+/// Starts the command in a shell that ignores some signals.
 fn start(folder: &Folder, args: &[&str], ignoring: &str) -> Child {
     let trap = if ignoring.is_empty() { String::new() } else { format!("trap '' {ignoring}; ") };
     let mut command = Command::new("sh");
@@ -39,12 +39,12 @@ fn has_signal(process: &str, mask: &str, signal: u32) -> bool {
     u64::from_str_radix(found.trim(), 16).expect("mask") >> (signal - 1) & 1 == 1
 }
 
-/// What the command has written.
+/// The files that the command has written.
 fn written(folder: &Folder) -> Vec<String> {
     folder.names().into_iter().filter(|name| !name.ends_with(".toml")).collect()
 }
 
-/// Starts a command where some signals are ignored, waits for its first file, sends one signal and, where that is ignored, a request to
+/// Starts a command while some signals are ignored, waits for its first file, sends one signal and, if that is ignored, a request to
 /// terminate.
 fn ends_by(args: &[&str], message: &str, signal: &str, ignoring: &str) {
     let what = format!("{args:?}, {signal}, ignoring `{ignoring}`");
@@ -55,7 +55,7 @@ fn ends_by(args: &[&str], message: &str, signal: &str, ignoring: &str) {
     let is_ignored = |name: &str, number: u32| {
         name != "TERM" && (ignoring.split(' ').any(|ignored| ignored == name) || has_signal("self", "SigIgn:", number))
     };
-    // Handlers stand before the first file does.
+    // Handlers are installed before the first file appears.
     for (name, number) in SIGNALS {
         assert_eq!(has_signal(&process, "SigIgn:", number), is_ignored(name, number), "{what}: {name}");
         assert_eq!(has_signal(&process, "SigCgt:", number), !is_ignored(name, number), "{what}: {name}");
@@ -84,7 +84,7 @@ fn each_signal_ends_a_command_that_leaves_nothing_incomplete() {
     }
 }
 
-/// Its page is `index.html`: other pages in the folder are none of its business. It is interrupted once it has begun.
+/// The page is `index.html`: other pages in the folder do not matter. The command is interrupted after its start.
 #[test]
 fn a_report_may_stand_beside_other_pages() {
     let folder = Folder::with(&[("out/notes.html", "mine")]);
@@ -107,7 +107,7 @@ fn a_signal_that_is_ignored_stays_so_and_leaves_the_others_alone() {
     }
 }
 
-/// A table on standard output has no file to take away; the status says that it is not whole.
+/// A table on standard output leaves no file to remove; the status says that it is incomplete.
 #[test]
 fn a_run_to_standard_output_is_interrupted_too() {
     let folder = Folder::with(&[("long.toml", &LONG.replace("samples = 2", "samples = 2000000"))]);

@@ -1,10 +1,10 @@
-//! The command `twofold spectrum` as a user meets it: status, messages, output.
+//! The command `twofold spectrum` as a user sees it: status, messages, output.
 
 use std::process::Output;
 
 use crate::common::{Folder, ends, has_all, numbers, stderr, stdout, twofold};
 
-/// Rows of a list of lines: numbers, and what each is.
+/// Rows of a list of lines: their numbers and their names.
 fn lines_of(output: &Output) -> Vec<(Vec<f64>, String)> {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(output));
     let row = |line: &str| {
@@ -14,7 +14,7 @@ fn lines_of(output: &Output) -> Vec<(Vec<f64>, String)> {
     stdout(output).lines().skip(1).map(row).collect()
 }
 
-/// A number in the notes after some words.
+/// The number after some words in the notes.
 fn noted(output: &Output, words: &str) -> f64 {
     let notes = stderr(output);
     let rest = notes.split(words).nth(1).unwrap_or_else(|| panic!("{words}: {notes}"));
@@ -34,16 +34,16 @@ fn lines_of_a_spectrum_are_named() {
     assert!((noted(&output, "l' = ") + 0.027_972_468_2).abs() < 1e-10);
     assert!(stderr(&output).contains("h_plus has the constant term"), "{}", stderr(&output));
     assert_eq!(lines_of(&twofold(&["spectrum", "tp-1", "--of", "h_plus", "--most", "3"])).len(), 3);
-    // Without --least, every line above 1e-6 of the largest.
+    // Without --least the limit is 1e-6 of the largest line.
     let by_default = stdout(&twofold(&["spectrum", "tp-1", "--of", "h_plus"]));
     assert_eq!(by_default, stdout(&twofold(&["spectrum", "tp-1", "--of", "h_plus", "--least", "1e-6"])));
-    // In turns.
+    // Frequencies in turns.
     let turns = twofold(&["spectrum", "tp-1", "--of", "h_plus", "--least", "0.1", "--hertz"]);
     assert!(stdout(&turns).starts_with("frequency [turns/t_c],"));
     assert!((lines_of(&turns)[1].0[0] * std::f64::consts::TAU - alpha).abs() < 1e-15);
 }
 
-/// The table of `run` is the constant term and the sum of the lines.
+/// The table of `run` is the constant term plus the sum of the lines.
 #[test]
 fn columns_are_sums_of_their_lines() {
     let physical = ("physical.toml", include_str!("../cases/physical.toml"));
@@ -74,7 +74,7 @@ fn columns_are_sums_of_their_lines() {
             assert!((sum - row[place]).abs() < 1e-9 * largest, "{scene} {column}: {sum} at {row:?}");
         }
     }
-    // Free precession: n goes round L at |L| / I^xx, here once in 9 ms.
+    // Free precession: n circles L at |L| / I^xx, here once in 9 ms.
     let lines = lines_of(&folder.run(&["spectrum", "physical.toml", "--of", "cos_lambda", "--hertz"]));
     assert_eq!((lines.len(), lines[0].1.as_str()), (1, "alpha'"));
     let (spin, beta) = (1.001 * std::f64::consts::TAU * 100.0, 0.5_f64);
@@ -84,7 +84,7 @@ fn columns_are_sums_of_their_lines() {
     assert!((lines[0].0[0] / expected - 1.0).abs() < 1e-14, "{lines:?}");
 }
 
-/// The slow precession of a pulsar takes twenty million years, and is a line all the same.
+/// The slow precession of a pulsar takes twenty million years, and is still resolved as a line.
 #[test]
 fn lines_of_a_pulsar_are_told_apart() {
     let output = twofold(&["spectrum", "b1828-11", "--of", "m.n", "--hertz"]);
@@ -94,7 +94,7 @@ fn lines_of_a_pulsar_are_told_apart() {
     let (slow, spin) = (named("-alpha'"), named("gamma'"));
     assert!(slow > 0.0 && slow < 1e-14 && (spin - 2.47).abs() < 0.01, "{lines:?}");
     assert!(noted(&output, "alpha' = ") == -slow);
-    // Frequencies are right to their last digits, though they are small differences of large ones.
+    // Frequencies are accurate to their last digits, though they are small differences of large ones.
     let apart = named("-alpha' - gamma' + nu'") - named("-gamma' + nu'");
     assert!((apart / slow - 1.0).abs() < 1e-5, "{apart:e} {slow:e}");
 }
@@ -122,7 +122,7 @@ fn a_star_that_spins_about_its_axis_has_one_line() {
     let lines = lines_of(&output);
     assert_eq!((lines.len(), lines[0].1.as_str()), (1, "psi'"));
     assert!((lines[0].0[0] - 1.0).abs() < 1e-15, "{lines:?}");
-    // Nothing moves here.
+    // This column is constant.
     let constant = spectrum("L_Z");
     assert!(lines_of(&constant).is_empty() && stderr(&constant).contains("L_Z has no line"), "{}", stderr(&constant));
     let output = ends(spectrum("beta"), 1);

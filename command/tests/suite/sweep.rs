@@ -1,4 +1,4 @@
-//! The command `twofold sweep` as a user meets it: tables, interruptions, shards, bad rows, refusals.
+//! The command `twofold sweep` as a user sees it: tables, interruptions, shards, bad rows, refusals.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +8,7 @@ use twofold_scene::sweep::{Identity, Spool, SpoolFiles, SweepText};
 use twofold_verify::random::Random;
 use twofold_verify::refused_files::refused_files;
 
-/// Draws and grids about tp-2; a tenth of the scenes is refused.
+/// Draws and grids about tp-2; a tenth of the scenes are refused.
 const SWEEP: &str = include_str!("../cases/sweep.toml");
 
 /// tp-2 at two times.
@@ -16,7 +16,7 @@ fn two_times() -> String {
     altered("tp-2", &[("span = 400 # [t_c]\nsamples = 4001", "times = [3.0, 20.0]")])
 }
 
-/// A table by lines of fields.
+/// The fields of a table, line by line.
 fn rows(folder: &Folder, name: &str) -> Vec<Vec<String>> {
     cells(&folder.read(name)).into_iter().map(|row| row.into_iter().map(str::to_owned).collect()).collect()
 }
@@ -59,8 +59,8 @@ fn a_row_is_the_motion_of_its_scene() {
     assert_eq!(header[header.len() - 1], "lambda_mean [rad]");
 }
 
-/// To the last digit: `n` and `L` of a method that is named are those of `run`, whether the sweep or its scene names it. At this tolerance
-/// splitting and the series differ in every number.
+/// `n` and `L` of a named method agree with `run` to the last digit, whether the sweep or its scene names it. At this tolerance splitting
+/// and the series differ in every number.
 #[test]
 fn rows_are_computed_by_the_method_that_is_named() {
     let folder = Folder::new();
@@ -94,7 +94,7 @@ fn rows_are_computed_by_the_method_that_is_named() {
     assert!(all[0] != all[1] && all[0] != all[2] && all[1] != all[2]);
 }
 
-/// The example of `docs/sweep.md`, as it stands there.
+/// The example of `docs/sweep.md`, verbatim.
 #[test]
 fn the_documented_sweep_runs() {
     let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/sweep.md")).expect("page");
@@ -128,7 +128,7 @@ fn summaries_agree_with_the_other_commands() {
 
     let pulses = stdout(&twofold(&["pulses", "tp-2"])).lines().count() - 1;
     assert_eq!(found[3], pulses as f64);
-    // L goes round Z, backwards; the rate of the first order is within 5 % of the exact one for tp-II.
+    // L circles Z backwards; the rate to first order is within 5 % of the exact one for tp-II.
     assert_eq!(found[4], 3.0);
     assert!((found[5] + 0.035_464).abs() < 0.05 * 0.035_464, "{}", found[5]);
 }
@@ -157,10 +157,10 @@ fn threads_and_shards_do_not_change_a_byte() {
     ends(merge(&names, "merged.csv"), 3);
     assert_eq!(read("one.csv"), read("merged.csv"));
     assert_eq!(read("one.csv.errors.csv"), read("merged.csv.errors.csv"));
-    // The table of a sweep of other outputs has as many scenes under another header.
+    // The table of a sweep with other outputs has as many scenes but another header.
     let other = folder.read("one.csv").replacen("alpha", "other", 1);
     folder.write("other.csv", other);
-    // A sweep with another grid or seed has as many scenes under the same header.
+    // A sweep with another grid or seed has as many scenes and the same header.
     let one = folder.read("one.csv");
     let (head, rest) = one.split_once("\n1,").expect("two rows");
     let (_, rest) = rest.split_once(',').expect("a parameter");
@@ -177,7 +177,7 @@ fn threads_and_shards_do_not_change_a_byte() {
         assert!(why == "part-1.csv" || stderr(&refused).contains(why), "{}", stderr(&refused));
         assert!(!folder.names().iter().any(|name| name.contains("refused")), "{:?}", folder.names());
     }
-    // Errors under the header of another sweep are not taken for this one's.
+    // Errors with the header of another sweep are refused.
     let errors = names.iter().map(|name| format!("{name}.errors.csv")).find(|name| folder.at(name).exists());
     let errors = errors.expect("a part in which a scene fails");
     let ours = folder.read(&errors);
@@ -188,7 +188,7 @@ fn threads_and_shards_do_not_change_a_byte() {
     folder.write(&errors, format!("{head}\n{number},0.125,{}", row.split_once(',').expect("fields").1));
     is_refused(&merge(&names, "refused.csv"), &[&errors, "is of another sweep: its scene", "has other parameters"]);
     folder.write(&errors, ours);
-    // Errors that cannot be read, here a folder, are not taken for none.
+    // Errors that cannot be read, here a folder, do not count as none.
     fs::create_dir(folder.at("part-1.csv.errors.csv")).expect("a folder");
     is_refused(&merge(&names, "refused.csv"), &["part-1.csv.errors.csv"]);
 }
@@ -219,24 +219,24 @@ fn bad_rows_are_reported_and_do_not_end_the_sweep() {
         assert!(row[5..].iter().all(|field| field.parse::<f64>().is_ok_and(f64::is_finite)), "{row:?}");
     }
     assert_eq!(folder.names(), ["sweep.toml", "table.csv", "table.csv.errors.csv"]);
-    // A later sweep without failures does not leave the old errors beside its table.
+    // A later sweep without failures removes the old errors next to its table.
     folder.write("sweep.toml", SWEEP.replace("to = 2.1", "to = 2.0"));
     let refused = ends(folder.run(&["sweep", "sweep.toml", "--out", "table.csv"]), 2);
     assert!(stderr(&refused).contains("--out table.csv: exists; --force replaces it"), "{}", stderr(&refused));
     let errors = folder.bytes("table.csv.errors.csv");
     ends(folder.run(&["sweep", "sweep.toml", "--out", "table.csv", "--force"]), 0);
     assert_eq!(folder.names(), ["sweep.toml", "table.csv"]);
-    // Nor does a merged one.
+    // So does a merged one.
     folder.write("merged.csv.errors.csv", errors);
     ends(folder.run(&["sweep", "sweep.toml", "--out", "merged.csv", "--force", "--merge", "table.csv"]), 0);
     assert_eq!(folder.names(), ["merged.csv", "sweep.toml", "table.csv"]);
 }
 
-/// A sweep of seconds, killed again and again, at a mark of its journal or some rows after one, is in the end the uninterrupted one.
+/// A sweep of seconds, killed again and again at a mark of its journal or some rows later, ends with the uninterrupted table.
 #[test]
 fn a_killed_sweep_goes_on_to_the_same_bytes() {
     let folder = Folder::new();
-    // Many columns make short chunks: a mark is never far, and little is lost by a kill.
+    // Many columns make short chunks: a mark is never far, and a kill loses little.
     let text = SWEEP.replace("draws = 40", "draws = 10").replace("times = [3.0, 20.0]", "span = 300\nsamples = 201");
     folder.write("sweep.toml", &text);
     ends(folder.run(&["sweep", "sweep.toml", "--out", "whole.csv"]), 3);
@@ -250,7 +250,7 @@ fn a_killed_sweep_goes_on_to_the_same_bytes() {
             .command(&["sweep", "sweep.toml", "--out", "table.csv", "--threads", threads])
             .spawn()
             .expect("a process");
-        // A new mark in every run: each gets further.
+        // Each run reaches a new mark, and so gets further.
         let mut is_killed = comes_to(&mut child, || folder.length(journal) > marked);
         let more = folder.length(rows) + random.word() % 1_000_000;
         is_killed = is_killed && (kills % 2 == 0 || comes_to(&mut child, || folder.length(rows) > more));
@@ -270,7 +270,7 @@ fn a_killed_sweep_goes_on_to_the_same_bytes() {
     assert!(!folder.names().iter().any(|name| name.contains("partial")), "{:?}", folder.names());
 }
 
-/// A sweep that was complete and did not get its name: half of a copy of the errors is its own, a table of its name is not.
+/// A complete sweep that was not yet renamed: half of a copy of the errors is its own file, a table with its name is not.
 #[test]
 fn a_file_that_appears_before_the_table_is_named_stays() {
     let folder = Folder::new();
@@ -302,7 +302,7 @@ fn a_file_that_appears_before_the_table_is_named_stays() {
     assert!(folder.bytes("table.csv") == whole && folder.bytes("table.csv.errors.csv") == errors);
 }
 
-/// A sweep that is killed when its table has its name, but its journal is still there.
+/// A sweep that is killed when its table is already renamed but its journal still exists.
 #[test]
 fn a_sweep_killed_while_it_tidied_tells_again_that_scenes_failed() {
     let folder = Folder::with(&[("sweep.toml", SWEEP)]);
@@ -323,7 +323,8 @@ fn a_sweep_killed_while_it_tidied_tells_again_that_scenes_failed() {
     assert_eq!(folder.names(), ["sweep.toml", "table.csv", "table.csv.errors.csv"]);
 }
 
-/// A billion scenes begin at once, take little memory, and are interrupted with what is there kept; the size of the table is foretold, and what is told of the second half counts that half.
+/// A billion scenes start at once, take little memory, and are interrupted without loss; the size of the table is predicted, and the count for the
+/// second half is that of this half.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_huge_sweep_takes_little_memory_and_can_be_interrupted() {
@@ -340,7 +341,7 @@ fn a_huge_sweep_takes_little_memory_and_can_be_interrupted() {
         let status = fs::read_to_string(format!("/proc/{}/status", child.id())).expect("/proc");
         let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).expect("VmHWM");
         let peak: u64 = peak.trim().trim_end_matches(" kB").parse().expect("a number");
-        // Eight chunks of a few megabytes for each thread are the bound; these take far less.
+        // The bound is eight chunks of a few megabytes per thread; these take far less.
         assert!(peak < 150_000, "{peak} kB");
         crate::common::send(&child, "TERM");
         let message = stderr(&ends(child.wait_with_output().expect("status"), 130));
@@ -354,11 +355,11 @@ fn a_huge_sweep_takes_little_memory_and_can_be_interrupted() {
         let line = message.lines().find(|line| line.contains(" scenes in ")).expect("a line about the speed");
         let [computed, seconds, rate] = ["note: ", " scenes in ", " s, "].map(|phrase| number_after(line, phrase));
         assert_eq!((computed, number_after(line, " of ")), (there - before, there), "{message}");
-        // Seconds are told to a hundredth.
+        // Seconds are printed to a hundredth.
         assert!((rate * seconds / computed - 1.0).abs() < 1e-3 + 0.005 / seconds, "{message}");
         assert!(message.contains(&format!("{there} of 500000000 scenes are in table.csv.partial")), "{message}");
     }
-    // A changed sweep does not go on, and leaves what is there.
+    // A changed sweep does not continue, and leaves the existing files alone.
     folder.write("sweep.toml", text.replace("seed = 3", "seed = 4"));
     let before = folder.bytes(rows);
     let refused = ends(folder.run(&["sweep", "sweep.toml", "--out", "table.csv", "--shard", "2/2"]), 2);
@@ -408,8 +409,8 @@ fn parquet_does_not_depend_on_threads_shards_or_interruptions() {
     assert!(!folder.names().iter().any(|name| name.contains("partial")), "{:?}", folder.names());
 }
 
-/// A coarse motion, of errors far above rounding: the column of each is what the columns of the integrals differ by between the start and a
-/// later time, and what the length of `e_z` differs from one by.
+/// A coarse motion with errors far above rounding: each error column is the change of an integral between the start and a later time, or
+/// the deviation of the length of `e_z` from one.
 #[test]
 fn errors_are_the_changes_of_what_is_constant() {
     let folder = Folder::new();

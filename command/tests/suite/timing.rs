@@ -1,4 +1,4 @@
-//! The command `twofold timing` as a user meets it: files, numbers in them, refusals.
+//! The command `twofold timing` as a user sees it: files, numbers in them, refusals.
 
 use crate::common::{
     Folder, altered, cells, ends, has_all, names_in, number_after, numbers, stderr, stdout, succeeds, with_lines,
@@ -11,12 +11,12 @@ use twofold_scene::scene_file::{PULSARS, Scene, TEMPLATES};
 use twofold_scene::trajectory;
 use twofold_verify::double_double::DoubleDouble;
 
-/// The value of a key of a .par.
+/// The value of a key in a .par.
 fn value<'p>(par: &'p str, key: &str) -> Option<&'p str> {
     par.lines().find_map(|line| line.strip_prefix(&format!("{key} "))).map(str::trim)
 }
 
-/// Each template runs as it is; those with a beam have a pulse at every epoch, and the fit of their own data begins at its end.
+/// Each template runs unchanged; those with a beam have a pulse at every epoch, and a fit of their own data starts at its end.
 #[test]
 fn every_template_does_what_it_is_for() {
     for template in TEMPLATES {
@@ -54,7 +54,7 @@ fn every_built_in_pulsar_is_timed_and_runs() {
             "{}: the pulse is always seen",
             built_in.name
         );
-        // The pulse frequency is the one published.
+        // The pulse frequency is the published one.
         let is_frequency = |line: &&str| line.starts_with("spin_frequency") || line.starts_with("frequency");
         let published = built_in.toml.lines().find(is_frequency).expect("a frequency");
         let digits = |text: &str| {
@@ -66,7 +66,8 @@ fn every_built_in_pulsar_is_timed_and_runs() {
             comment.split_once("F0 = ").and_then(|(_, rest)| digits(rest)).or(digits(digits_of_value)).expect("F0");
         let par = folder.read(&format!("{}.par", built_in.name));
         let number = |key: &str| value(&par, key).map(|text| text.parse::<f64>().expect("a number"));
-        // At the epoch of the scene. A torque that varies moves the frequency by 2e-9 of it within a precession, and the fit by a part of that.
+        // At the epoch of the scene. A varying torque changes the frequency by a relative 2e-9 within a precession, and the fit by a fraction
+        // of that.
         let epoch: Epoch = value(&par, "PEPOCH").expect("PEPOCH").parse().expect("a date");
         let [since, _] = scene.epoch.expect("an epoch").seconds_since(&epoch);
         let changed = since * (number("F1").unwrap_or(0.0) + since / 2.0 * number("F2").unwrap_or(0.0));
@@ -76,7 +77,7 @@ fn every_built_in_pulsar_is_timed_and_runs() {
     }
 }
 
-/// The lines of the .tim and the .par say what the table says, to the last digit of each.
+/// The lines of the .tim and the .par agree with the table to the last digit of each.
 #[test]
 fn files_agree_with_the_table() {
     let folder = Folder::new();
@@ -107,7 +108,7 @@ fn files_agree_with_the_table() {
             assert_eq!((number - shift, arrival.day()), (row[0] as i64, row[1] as i64));
             assert!((arrival.fraction() - row[2]).abs() <= 1e-17);
         }
-        // The reference of the numbers, and the residuals, by the digits of the .par alone.
+        // The zero of the numbers and the residuals follow from the digits of the .par alone.
         let times: Vec<_> = points.iter().map(|(n, at)| (*n, at.seconds_since(&date("PEPOCH")))).collect();
         let fit = SpinFit::new(&times, ["F1", "F2"].iter().filter(|key| value(key).is_some()).count()).expect("a fit");
         for (ours, row) in fit.residuals.iter().zip(&rows) {
@@ -118,8 +119,8 @@ fn files_agree_with_the_table() {
     }
 }
 
-/// What a timing program makes of the .par and the .tim: the phase at each arrival by all digits of F0, F1 and F2, counted from TZRMJD. 3e11 turns to 3e-11 s are
-/// 22 digits; dates are rounded to 1e-16 d, 8.6e-12 s, at the arrival and at TZRMJD.
+/// A timing program's reading of the .par and the .tim: the phase at each arrival from all digits of F0, F1 and F2, counted from TZRMJD. 3e11 turns
+/// to 3e-11 s are 22 digits; dates are rounded to 1e-16 d, 8.6e-12 s, at the arrival and at TZRMJD.
 #[test]
 fn the_digits_of_the_files_give_the_residuals() {
     let folder = Folder::new();
@@ -150,7 +151,7 @@ fn the_digits_of_the_files_give_the_residuals() {
     }
 }
 
-/// A fitted spin-down absorbs the residuals that a slow drift of L makes in a year, but not those of a wobble.
+/// A fitted spin-down absorbs the residuals of a slow drift of L over a year, but not those of a wobble.
 #[test]
 fn a_wobble_is_not_absorbed_by_a_spin_down() {
     let scene = Scene { spin_down: None, ..Scene::named("b1828-11").expect("a scene") };
@@ -160,21 +161,22 @@ fn a_wobble_is_not_absorbed_by_a_spin_down() {
         pulsar.timed(&epochs.collect::<Vec<_>>(), derivatives).expect("times").root_mean_square()
     };
     let (period, theta, chi) = (1.0 / 2.468_871_714_7, 3f64.to_radians(), 89f64.to_radians());
-    // First and second order of theta: theta cot chi sin gamma and (theta^2 / 4) sin 2 gamma.
+    // First and second order in theta: theta cot chi sin gamma and (theta^2 / 4) sin 2 gamma.
     let expected = period / std::f64::consts::TAU * ((theta / chi.tan()).hypot(theta * theta / 4.0) / 2f64.sqrt());
     for derivatives in [0, 1] {
         let found = rms(&scene, (400, 7.9e5), derivatives);
         assert!((found / expected - 1.0).abs() < 0.05, "{found:e} for {expected:e}");
     }
-    // |s| of 1e-12 turns L of a millisecond pulsar by 0.014 rad in half a year: a drift of the pulses that a spin-down hides.
+    // |s| = 1e-12 turns L of a millisecond pulsar by 0.014 rad in half a year: a drift of the pulses that a spin-down absorbs.
     let stronger = PULSARS[0].toml.replace("alpha_2 = 1.6e-9", "alpha_2 = 6.6e-7");
     let scene = Scene::from_toml("stronger", &stronger).expect("a scene");
     let [without, with] = [0, 1].map(|derivatives| rms(&scene, (200, 7.9e4), derivatives));
     assert!(without > 1e-10 && with < 0.01 * without, "{without:e} {with:e}");
 }
 
-/// The causes add up to the residuals but for the secular spin-down that no fit takes. Of B1828-11, a wobble of 3 degrees and a magnetic axis 89 degrees from the axis, the torque of a dipole
-/// makes `F1 g / (F0 w^2)` times `a_1 = -sin 2 theta sin 2 chi / 2` and `a_2 / 4 = -sin^2 theta sin^2 chi / 8` late, half of it where half of the torque does not go with the axis.
+/// The causes add up to the residuals, except for the secular spin-down. For B1828-11, with a wobble of 3 degrees and a magnetic axis at 89 degrees
+/// to the axis, the delay by a dipole torque is `F1 g / (F0 w^2)` times `a_1 = -sin 2 theta sin 2 chi / 2` and
+/// `a_2 / 4 = -sin^2 theta sin^2 chi / 8`, and half of that if half of the torque does not depend on the axis.
 #[test]
 fn the_causes_of_residuals_add_up() {
     let amplitudes = |torque: &str| {
@@ -188,8 +190,8 @@ fn the_causes_of_residuals_add_up() {
         let days = |row: &[f64]| row[1] - 49_621.0 + row[2];
         for row in &rows {
             let [residual, geometry, torque, violation] = [row[3], row[16], row[17], row[18]];
-            // Of a quartic the fit of a cubic leaves its fourth Legendre polynomial: F3 = n (2 n - 1) F1^3 / F0^2, n = 3, over ten years; of a thousand
-            // points to a hundredth.
+            // A fit of a cubic to a quartic leaves the fourth Legendre polynomial: F3 = n (2 n - 1) F1^3 / F0^2, n = 3, over ten years; to a
+            // hundredth for a thousand points.
             let half = 1826.25;
             let x = days(row) / half - 1.0;
             let f3 = 15.0 * 3.6568e-13_f64.powi(3) / 2.468_871_714_7_f64.powi(2);
@@ -199,7 +201,7 @@ fn the_causes_of_residuals_add_up() {
             assert!(geometry.abs() < 1e-4 && violation.abs() < 1e-11);
             assert!((row[19] / -3.6568e-13 - 1.0).abs() < 4e-3, "{row:?}");
         }
-        // 3,652.5 d are 7.3 precessions; of seven the fitted polynomial takes a few percent.
+        // 3,652.5 d are 7.3 precessions; the fitted polynomial absorbs a few percent of seven.
         let whole: Vec<_> = rows.iter().filter(|row| days(row) < 3500.0).collect();
         [500.0, 250.0].map(|period| {
             let sums = whole.iter().fold([0.0; 2], |[c, s], row| {
@@ -220,7 +222,7 @@ fn the_causes_of_residuals_add_up() {
     }
 }
 
-/// Commands other than `timing` take the rotation as it is at the epoch, and say so.
+/// Commands other than `timing` use the rotation at the epoch, and say so.
 #[test]
 fn spin_down_is_for_timing() {
     let folder = Folder::new();
@@ -236,12 +238,13 @@ fn spin_down_is_for_timing() {
         &["5.000000e2 d", "more than half of the precession period of the body"].map(str::to_owned),
     );
     assert!(!stderr(&rare).contains("[spin_down]"));
-    // A tenth of the rotation, and no more.
+    // The limit is a tenth of the rotation.
     let late = folder.run(&["timing", "b1828-11", "--to", "9000000", "--epochs", "9", "--force", "--out", "."]);
     has_all(&stderr(&ends(late, 1)), &["F1 t / F0".to_owned()]);
 }
 
-/// With `damping_time` the tangent of the wobble falls by a factor e in so many days, and what Lorentz violation does to the arrival times stays as small as without friction.
+/// With `damping_time` the tangent of the wobble falls by a factor e in that number of days, and the effect of Lorentz violation on the arrival times
+/// stays as small as without friction.
 #[test]
 fn friction_takes_the_wobble_away() {
     let star = |lines: &str| {
@@ -276,7 +279,7 @@ fn friction_takes_the_wobble_away() {
     }
 }
 
-/// With a strong bulge, which turns everything, the columns of rates are the slopes of those beside them, and the energy has that of the bulge.
+/// With a strong bulge the columns of rates are the slopes of the neighbouring columns, and the energy contains that of the bulge.
 #[test]
 fn rates_have_the_turning_of_the_bulge() {
     let lines = [
@@ -286,7 +289,7 @@ fn rates_have_the_turning_of_the_bulge() {
         ("f1", ""),
         ("torque", ""),
         ("wobble", "wobble = 0.7\nmomentum = [0.3, 0.5, 0.8]"),
-        // So weak a rigid deformation that the averaged motion leaves out 1e-7.
+        // The rigid deformation is so weak that the averaged motion neglects 1e-7.
         ("precession_period", "precession_period = 4e6"),
         ("epoch", "span = 0.1"),
         ("years", ""),
@@ -340,11 +343,12 @@ fn dark_epochs_are_left_out_with_a_note() {
     assert!(stdout(&output).contains(&format!("{count} arrival times")));
 }
 
-/// A beam that never passes, one that is always seen, and a star at rest: each has its own sentence, with the closest approach and what to
-/// change.
+/// A beam that never passes, one that is always visible, and a star at rest: each has its own message, with the closest approach and the
+/// key to change.
 #[test]
 fn a_scene_without_pulses_is_told_why() {
-    // Of the magnetic axis, 75 degrees from the spin, to the observer, 80 degrees from it: 5 and 155 degrees. In 15 years L moves by 1e-3 rad, away from the observer.
+    // The magnetic axis is at 75 degrees to the spin and the observer at 80 degrees: 5 and 155 degrees between them. In 15 years L moves by 1e-3 rad,
+    // away from the observer.
     for (line, other, fragments) in [
         (
             "rho = ",
@@ -380,8 +384,8 @@ fn a_scene_without_pulses_is_told_why() {
     }
 }
 
-/// The frequency that a scene states, to the rounding of the initial momentum: arrival times are wrong by as much, linearly in time, and
-/// residuals are not.
+/// The stated frequency of a scene is subject to the rounding of the initial momentum: arrival times are wrong by as much, linearly in
+/// time, and residuals are not.
 #[test]
 fn the_stated_error_holds_the_rounding_of_the_start() {
     let folder = Folder::new();
@@ -393,7 +397,7 @@ fn the_stated_error_holds_the_rounding_of_the_start() {
         let args = ["timing", "free.toml", "--to", "62626", "--epochs", "100", "--force", "--out", "results"];
         let output = folder.succeeds(&args);
         let (notes, summary) = (stderr(&output), stdout(&output));
-        // One number in the summary and in the .par.
+        // The number in the summary agrees with that in the .par.
         let par = folder.read("results/free.par");
         let in_par = value(&par, "F0").expect("F0");
         assert!(summary.contains(&format!("F0 = {in_par} Hz")), "{summary}{in_par}");
@@ -403,7 +407,7 @@ fn the_stated_error_holds_the_rounding_of_the_start() {
             format!("{whole}{fraction:0<24}").parse().expect("digits")
         };
         let off = (exact(in_par) - exact(frequency)) as f64 * 1e-24 / exact(frequency) as f64 * 1e24;
-        // 20 years.
+        // The error over 20 years.
         let late = off.abs() * 7305.0 * 86_400.0;
         let stated = number_after(&notes, "estimated error of the arrival times themselves:");
         assert!(late <= stated && stated < 1e-6, "{frequency}: {late:e} s for {stated:e} s");
@@ -411,11 +415,11 @@ fn the_stated_error_holds_the_rounding_of_the_start() {
         assert!(number_after(&summary, "largest ") <= of_residuals && of_residuals < 1e-11, "{summary}{notes}");
         worst = worst.max(late);
     }
-    // The rounding is there, a thousand times what residuals have.
+    // The rounding is present, a thousand times that of the residuals.
     assert!(worst > 1e-8, "{worst:e} s");
 }
 
-/// Of epochs before that of the scene the first is the farthest. The violation is so strong that what the averaged motion leaves out grows above the
+/// Of epochs before that of the scene the first is the farthest. The violation is so strong that the error of the averaged motion exceeds the
 /// rounding of an arrival time.
 #[test]
 fn the_errors_that_are_printed_are_those_at_the_farthest_epoch() {
@@ -439,7 +443,7 @@ fn the_errors_that_are_printed_are_those_at_the_farthest_epoch() {
 #[test]
 fn the_wave_of_a_pulsar_has_lines_at_its_frequency_and_twice_that() {
     let spectrum = succeeds(&["spectrum", "b1828-11", "--of", "h_plus"]);
-    // The rate of the symmetry axis about L, 2 pi F0 and the wobble's share, and twice that; the slow precession splits both by 3e-17 rad/s.
+    // The rate of the symmetry axis about L, 2 pi F0 plus the share of the wobble, and twice that; the slow precession splits both by 3e-17 rad/s.
     let table = stdout(&spectrum);
     let lines: Vec<f64> = cells(&table)[1..].iter().map(|row| row[0].parse().expect("a frequency")).collect();
     let near = |harmonic: f64| {
@@ -448,7 +452,7 @@ fn the_wave_of_a_pulsar_has_lines_at_its_frequency_and_twice_that() {
     assert!(near(1.0) > 0 && near(2.0) > 0 && near(1.0) + near(2.0) == lines.len(), "{lines:?}");
 }
 
-/// Pulses asked for one by one have the numbers of all those between.
+/// Pulses requested one by one have the same numbers as in a continuous list.
 #[test]
 fn numbers_have_no_break() {
     let timed = |options: &[&str]| {
@@ -460,14 +464,14 @@ fn numbers_have_no_break() {
     let far = timed(&["--from", "49000", "--every", "333.3"]);
     let (first, last) = (&near[0], &far[far.len() - 1]);
     let days = (last[1] - first[1]) + (last[2] - first[2]);
-    // The frequency and its rate at MJD 49621; F2 makes 1e-5 of a turn, the varying torque some hundredths.
+    // The frequency and its rate at MJD 49621; F2 contributes 1e-5 of a turn, the varying torque some hundredths.
     let since = |row: &[f64]| (row[1] - 49_621.0 + row[2]) * 86_400.0;
     let lost = 0.5 * -3.6568e-13 * (since(last).powi(2) - since(first).powi(2));
     let turns = (last[0] - first[0]) - days * 86_400.0 * 2.468_871_714_7 - lost;
     assert!(turns.abs() < 0.1, "{turns}");
 }
 
-/// A span of a million years, as it is allowed, has arrival times; one beyond all dates is refused at its place.
+/// A span of a million years, which is allowed, has arrival times; one beyond all dates is refused at its key.
 #[test]
 fn a_span_in_years_is_as_long_as_is_allowed() {
     let folder = Folder::new();
@@ -481,7 +485,7 @@ fn a_span_in_years_is_as_long_as_is_allowed() {
     }
 }
 
-/// Directions that are off by an angle make the pulses of a slow star late by that part of a turn.
+/// An error of directions by an angle delays the pulses of a slow star by that fraction of a turn.
 #[test]
 fn the_rounding_of_directions_is_a_part_of_a_turn() {
     let frequency = 1e-6;
@@ -491,14 +495,15 @@ fn the_rounding_of_directions_is_a_part_of_a_turn() {
     let scene = Scene::from_toml("slow", &with_lines("b1828-11", &lines)).expect("a scene");
     let scene = Scene { spin_down: None, ..scene };
     let pulsar = PulsarScene::new(&scene).expect("a pulsar");
-    // Without s and at the start nothing else is left; a turn takes 1e6 s but for the 1e-3 by which the axis goes round faster.
+    // Without s and at the start there is no other error; a turn takes 1e6 s, minus 1e-3 due to the precession.
     let turns = pulsar.clock.motion().rounding(0.0) / std::f64::consts::TAU;
     let error = pulsar.residual_error(0.0);
     assert!(turns / frequency > 1e-10, "{turns}");
     assert!((error * frequency / turns - 1.0).abs() < 2e-3, "{error:e} s for {turns:e} turns");
 }
 
-/// A violation so strong that the averaged motion is off by microseconds: pulses are those that `pulses` lists, and the residuals after 20 years are exact to the rounding of an arrival time.
+/// The violation is so strong that the averaged motion is wrong by microseconds: the pulses agree with `pulses`, and the residuals after 20 years are
+/// exact to the rounding of an arrival time.
 #[test]
 fn a_strong_violation_is_timed_by_the_exact_motion() {
     let text = "[star]\nmass = 1.4\ndensity = 4e14\noblateness = 2e-3\nspin_frequency = 57.0\n[lorentz_violation]\n\

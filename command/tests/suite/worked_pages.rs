@@ -1,4 +1,4 @@
-//! The pages `docs/worked-*.md`: their files are written as they stand there, their commands run, every printed word and number compared.
+//! The pages `docs/worked-*.md`: their files are written verbatim, their commands run, and every printed word and number is compared.
 
 use std::env;
 use std::fs;
@@ -7,19 +7,19 @@ use std::process::Command;
 
 use crate::common::{Folder, TWOFOLD, stderr};
 
-/// Numbers agree to this part of themselves. The motion is computed to 1e-13 of a component, and its last digits differ between
-/// processors; what is printed may be a difference of components, or a component near zero, of which four digits are gone.
+/// Relative tolerance for numbers. The motion is computed to 1e-13 of a component, and its last digits differ between
+/// processors; a printed number can be a difference of components, or a component near zero that has lost four digits.
 const RELATIVE: f64 = 1e-9;
 
 /// A part of a text.
 #[derive(Debug, Clone, PartialEq)]
 enum Token<'t> {
     Words(&'t str),
-    /// As it is written.
+    /// A number as written.
     Number(&'t str),
 }
 
-/// Numbers and what is between them. A digit that follows a letter, as in `e_x2`, belongs to the word.
+/// Numbers and the text between them. A digit after a letter, as in `e_x2`, belongs to the word.
 fn tokens(line: &str) -> Vec<Token<'_>> {
     let (bytes, mut tokens, mut at, mut words) = (line.as_bytes(), Vec::new(), 0, 0);
     let digits = |mut at: usize| {
@@ -52,9 +52,9 @@ fn tokens(line: &str) -> Vec<Token<'_>> {
     tokens
 }
 
-/// How far two numbers are apart, and how far they may be: a part of themselves, one and a half units of the last digit printed where
-/// that is more. Dates and frequencies of more digits than a double has agree to 1e-14, a nanosecond. What is below 1e-30, less than a
-/// millionth of any strain here, is the rounding of zero; two digits with an exponent below 1e-9 are an estimated error.
+/// The difference of two numbers, and the allowed one: a relative difference, or one and a half units of the last printed digit if
+/// that is more. Dates and frequencies with more digits than a double must agree to 1e-14, a nanosecond. Below 1e-30, less than a
+/// millionth of any strain here, a number is the rounding of zero; two digits with an exponent below 1e-9 are an estimated error.
 fn apart(found: &str, expected: &str) -> (f64, f64) {
     let parts = |text: &str| -> (f64, f64) {
         let (whole, fraction) = text.split_once('.').unwrap_or((text, "0"));
@@ -79,20 +79,20 @@ fn apart(found: &str, expected: &str) -> (f64, f64) {
     ((found - value).abs(), slack.max(RELATIVE * value.abs()))
 }
 
-/// How far two estimated errors may be apart: a factor of two, or of ten where they are made of a few roundings.
+/// Allowed ratio of two estimated errors: a factor of two, or of ten if they consist of a few roundings.
 fn estimate(a: f64, b: f64) -> f64 {
     let size = a.abs().max(b.abs());
     if size < 1e-14 { 0.9 * size } else { 0.5 * size }
 }
 
-/// Spaces and lines that fit a table to its numbers do not matter.
+/// Removes spaces and lines that only align a table.
 fn squeezed(words: &str) -> String {
     let words = words.replace('─', "");
     words.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// What is compared with more room, by the comments above a block: `<!-- within 1e-11 -->` for all its numbers, `<!-- E_error within 1e37 -->`
-/// for columns whose names begin so, and `<!-- error_estimate estimated -->` for those that are estimated errors.
+/// Larger tolerances from the comments above a block: `<!-- within 1e-11 -->` for all its numbers, `<!-- E_error within 1e37 -->` for columns
+/// with names that begin so, and `<!-- error_estimate estimated -->` for columns of estimated errors.
 #[derive(Debug, Clone, Default)]
 struct Room<'t> {
     within: Vec<(&'t str, f64)>,
@@ -114,7 +114,7 @@ impl<'t> Room<'t> {
         room
     }
 
-    /// For a number of a column.
+    /// For the numbers of a column.
     fn for_numbers(&self, head: &str, [a, b]: [f64; 2]) -> f64 {
         let within = self.within.iter().filter(|(name, _)| head.starts_with(name)).map(|(_, size)| *size);
         let is_estimated = self.estimated.iter().any(|name| head.starts_with(name));
@@ -149,7 +149,7 @@ fn compare(what: &str, found: &[&str], expected: &[&str], room: &Room<'_>) {
     }
 }
 
-/// What is between fences, in order: the word behind the first fence, the text, and how it is compared.
+/// The text between fences, in order: the word after the first fence, the text, and its tolerances.
 fn blocks(page: &str) -> Vec<(&str, &str, Room<'_>)> {
     let mut blocks = Vec::new();
     let mut rest = page;
@@ -162,7 +162,7 @@ fn blocks(page: &str) -> Vec<(&str, &str, Room<'_>)> {
     blocks
 }
 
-/// Runs the page from its first line to its last in an empty folder; how many commands and numbers there were.
+/// Runs the page from top to bottom in an empty folder; returns the commands and the count of numbers.
 fn work_through(page: &str) -> (Vec<String>, usize) {
     let folder = Folder::new();
     let program = Path::new(TWOFOLD).parent().expect("a folder");

@@ -1,4 +1,5 @@
-"""A wobble in arrival times of 10 years, found by dynesty through bilby; means and widths beside those of `twofold.fit_timing`. Needs bilby and dynesty, no network."""
+"""A wobble in arrival times of 10 years, found by dynesty through bilby; means and widths compared with `twofold.fit_timing`. Needs bilby and
+dynesty, no network."""
 
 import logging
 import sys
@@ -23,7 +24,7 @@ sigma = 1e-4
 data = twofold.TimingData(times, np.full(300, sigma), rest=rest + sigma * random.standard_normal(300))
 
 unknowns = ["phase", "f0", "f1", "wobble", "precession_phase", "precession_rate"]
-# The start is the fit of a start that is wrong by some standard deviations, as one that was searched for.
+# The start is a fit from parameters that are wrong by some standard deviations, as after a search.
 start = model.moved(f0=2e-12, wobble=1e-3, precession_phase=0.03)
 fit = twofold.fit_timing(start, data, unknowns)
 sigmas = dict(zip(unknowns, fit.sigmas, strict=True))

@@ -1,4 +1,5 @@
-"""A star's wave as SFTs of lalpulsar, found by PyFstat: both harmonics, at the right frequency, with the right power, and not beside it. Needs lalsuite and pyfstat, no network."""
+"""A star's wave as SFTs of lalpulsar, found by PyFstat: both harmonics at the right frequency with the right power, and not off it. Needs lalsuite
+and pyfstat, no network."""
 
 import logging
 import os
@@ -56,7 +57,7 @@ def response(gps: np.ndarray, psi: float) -> np.ndarray:
 
 
 def at_barycentre(gps: np.ndarray) -> np.ndarray:
-    """How much later a wave is at the barycentre (s)."""
+    """Delay of a wave at the barycentre (s)."""
     ephemerides = lalpulsar.InitBarycenter("earth00-40-DE405.dat.gz", "sun00-40-DE405.dat.gz")
     earth, place, found = lalpulsar.EarthState(), lalpulsar.BarycenterInput(), lalpulsar.EmissionTime()
     place.site = lal.CachedDetectors[lal.LHO_4K_DETECTOR]
@@ -72,7 +73,7 @@ def at_barycentre(gps: np.ndarray) -> np.ndarray:
     return np.array(delays)
 
 
-# The strain in the detector: both simulators together against the wave of the pulsar, whose axes are north and east (psi = pi/2).
+# The strain in the detector: the sum of both simulators compared with the wave of the pulsar, whose axes are north and east (psi = pi/2).
 simulators = {harmonic: simulator(harmonic) for harmonic in ("once", "twice")}
 rate, seconds = 256, 16
 both = sum(np.array(one.get_strain(rate, tmin=40000, tmax=40000 + seconds)[1], dtype=float) for one in simulators.values())
@@ -81,7 +82,8 @@ plus, cross = pulsar.wave(since + (gps - REFERENCE) + at_barycentre(gps))
 direct = response(gps, np.pi / 2)
 expected = direct[:, 0] * plus + direct[:, 1] * cross
 strain_error = abs(both - expected).max() / abs(expected).max()
-# LAL interpolates between tables some hundred seconds apart: antenna patterns, at twice the rate of the Earth, are good to (2 x 7.3e-5 x 864)^2 / 8 = 2e-3.
+# LAL interpolates between tables some hundred seconds apart: antenna patterns, at twice the rate of the Earth, are accurate to (2 x 7.3e-5 x 864)^2 /
+# 8 = 2e-3.
 must("strain in the detector beside LAL's response", strain_error, 3e-3)
 figures = [f"strain as by LAL's response to {strain_error:.1e}"]
 
@@ -107,7 +109,7 @@ for harmonic, turns in (("once", 1), ("twice", 2)):
             return float(search.get_fullycoherent_twoF(F0=frequency + offset, F1=0.0, F2=0.0, Alpha=RIGHT_ASCENSION, Delta=DECLINATION))
 
         found = power(0.0)
-        # The peak of 2F: by a parabola of three points, a quarter of a bin apart.
+        # The peak of 2F, from a parabola through three points a quarter of a bin apart.
         step = 0.25 / DURATION
         below, above = power(-step), power(step)
         peak = step / 2 * (below - above) / (below - 2 * found + above)

@@ -1,6 +1,6 @@
-"""One sweep by processes, MPI ranks and Dask: the same bytes, and how much faster two processes are than one. Needs dask, distributed, mpi4py and mpich, no network.
+"""One sweep by processes, MPI ranks and Dask: the same bytes, and the speed of two processes relative to one. Needs dask, distributed, mpi4py and mpich, no network.
 
-    executors.py              all of it
+    executors.py              everything
     executors.py --ratio      the ratio alone
 """
 
@@ -64,7 +64,7 @@ def same_bytes(sweep: twofold.Sweep, one_core: bytes) -> None:
             "        twofold.Sweep(sys.argv[1]).write(sys.argv[2], executor, scenes_at_once=32)\n"
         )
         mpiexec = Path(sys.prefix, "bin", "mpiexec")
-        # One rank gives out the parts, two compute.
+        # One rank distributes the parts, two compute.
         ranks = [str(mpiexec), "-n", "3", sys.executable, "-m", "mpi4py.futures", str(program), str(text), str(out)]
         workers = subprocess.run(ranks, check=True, timeout=300, capture_output=True, text=True).stdout.split()[-1]
         must_be("MPI", out.read_bytes(), one_core)
@@ -92,7 +92,7 @@ def same_bytes(sweep: twofold.Sweep, one_core: bytes) -> None:
 
 
 def times(sweep: twofold.Sweep, workers: int) -> tuple[float, float]:
-    """Seconds by the clock, and seconds of all processors together."""
+    """Wall-clock seconds, and processor seconds of all processes together."""
     used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
     with ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn")) as executor:
         # Workers import before the clock starts.
@@ -105,7 +105,7 @@ def times(sweep: twofold.Sweep, workers: int) -> tuple[float, float]:
 
 
 def ratio() -> None:
-    """Two processes against one, in turns, so that other load hits both."""
+    """Two processes compared with one, alternately, so that other load affects both."""
     sweep = twofold.Sweep(toml=GRID.format(draws=int(os.environ.get("TWOFOLD_DRAWS", "200"))))
     rounds = int(os.environ.get("TWOFOLD_ROUNDS", "3"))
     taken = [(times(sweep, 1), times(sweep, 2)) for _ in range(rounds)]

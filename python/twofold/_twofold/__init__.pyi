@@ -35,7 +35,7 @@ class Fit:
     @property
     def covariance(self, /) -> NDArray[float64]:
         """
-        Their covariance.
+        The covariance of the unknowns.
         """
     @property
     def degrees(self, /) -> int | None:
@@ -65,7 +65,7 @@ class Fit:
     @property
     def sigmas(self, /) -> NDArray[float64]:
         """
-        Their standard deviations.
+        The standard deviations of the unknowns.
         """
     @property
     def undetermined(self, /) -> list[str]:
@@ -75,7 +75,7 @@ class Fit:
     @property
     def units(self, /) -> dict:
         """
-        The unit of each unknown, of its value and its standard deviation; `1` of a number without one.
+        The unit of each unknown, for its value and its standard deviation; `1` for a number without a unit.
         """
     @property
     def unknowns(self, /) -> list[str]:
@@ -116,7 +116,7 @@ class Motion:
     @property
     def scene(self, /) -> Scene:
         """
-        The scene that moves.
+        The scene of the motion.
         """
     @property
     def span(self, /) -> tuple[float, float]:
@@ -179,10 +179,10 @@ class Pulsar:
 @final
 class Scene:
     """
-    A star, how it starts, the coefficients for Lorentz violation, and what is observed: as in a scene file (docs/scenes.md).
+    A star, its initial motion, the coefficients for Lorentz violation, and what is observed: as in a scene file (docs/scenes.md).
 
     `Scene("tp-1")` is a built-in scene and `Scene("my-star.toml")` that of a file; `Scene(toml=text)` that of a text. Sections are keyword
-    arguments: `Scene("tp-1", star={"spin": 1.2})` changes one number, `Scene("tp-1", pulsar=None)` takes a section away, and a scene can be made of sections alone. Scenes are frozen, compare by their text and can be pickled.
+    arguments: `Scene("tp-1", star={"spin": 1.2})` changes one number, `Scene("tp-1", pulsar=None)` removes a section, and a scene can be made of sections alone. Scenes are frozen, compare by their text and can be pickled.
     """
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
@@ -192,7 +192,7 @@ class Scene:
     @staticmethod
     def _of_text(name: str, toml: str) -> Scene:
         """
-        A scene with the name and text of another, for pickle.
+        A scene from the name and text of another, for pickle.
         """
     @property
     def about(self, /) -> str:
@@ -350,7 +350,7 @@ class Table:
     def __len__(self, /) -> int: ...
     def __new__(cls, /, csv: bytes) -> Table:
         """
-        A table from the bytes that `csv` has.
+        A table from the bytes of `csv`.
         """
     def __reduce__(self, /) -> tuple[Any, tuple[bytes]]: ...
     def __repr__(self, /) -> str: ...
@@ -437,7 +437,7 @@ class TimingData:
     @property
     def sigmas(self, /) -> NDArray[float64]:
         """
-        Their standard deviations (s).
+        Standard deviations of the arrivals (s).
         """
     @property
     def times(self, /) -> NDArray[float64]:
@@ -497,7 +497,7 @@ class TimingModel:
         """
     def phase_rate(self, /, t: ArrayLike, rest: ArrayLike | None = None) -> Any:
         """
-        The rate of the phase at times (Hz): of a phase off by `x` turns the pulse is late by `x` over this rate.
+        The rate of the phase at times (Hz): if the phase is off by `x` turns, the pulse is late by `x` over this rate.
         """
     def width(self, /, t: ArrayLike) -> Any:
         """

@@ -1,6 +1,6 @@
 """
 Formulas of the paper and of the star, each checked by the project's suite (docs/equations.md). Arguments are scalars or arrays, which
-are broadcast as numpy does. An argument outside its domain raises `twofold.Error`.
+are broadcast as in numpy. An argument outside its domain raises `twofold.Error`.
 """
 
 from numpy.typing import ArrayLike

@@ -1,4 +1,4 @@
-//! Motions of every method: states, errors, steps, forecasts, derivatives.
+//! Motions by every method: states, errors, steps, predictions, derivatives.
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::Error;
@@ -18,7 +18,7 @@ use crate::values::table::Table;
 const SPAN: (f64, f64) = (2.0, 31.0);
 const BACK: (f64, f64) = (2.0, -17.0);
 
-/// A component of each vector, and the error estimate, at 31 % of the span. Times in two parts are the same as their sum.
+/// A component of each vector, and the error estimate, at 31 % of the span. A time in two parts equals its sum.
 fn look<M: Motion<f64, State = BodyState<f64>>>(table: &mut Table, name: &str, motion: &M) {
     let (from, to) = motion.span();
     let t = from + 0.31 * (to - from);
@@ -33,7 +33,7 @@ fn look<M: Motion<f64, State = BodyState<f64>>>(table: &mut Table, name: &str, m
     table.row(name, format_args!("{components:?}, error {:.2e}", motion.error_estimate(t)));
 }
 
-/// Tensors with and without symmetry, and motions that are slow, steady, at rest, near a pole or turn the other way.
+/// Tensors with and without symmetry, and motions that are slow, steady, at rest, near a pole or in the opposite sense.
 fn problems() -> Vec<(String, Result<Problem<f64>, Error>)> {
     let moving = |angles: EulerAngles<f64>, alpha, beta, gamma| {
         BodyState::from_angles(&STAR, &angles, &EulerRates { alpha, beta, gamma })
@@ -163,7 +163,7 @@ fn samples() {
     table.check("samples");
 }
 
-/// With so many times that steps of a splitting would be cut short, series of three orders side by side: each motion is that of its own.
+/// With so many times that the steps of a splitting would be cut short, series of three orders run side by side: each motion is the same as alone.
 #[test]
 fn dense_samples_of_many_motions_are_those_of_each_alone() {
     let dense: Vec<Vec<f64>> =
@@ -177,7 +177,7 @@ fn dense_samples_of_many_motions_are_those_of_each_alone() {
             SampledProblem { problem: problem.expect("a problem"), start: 0.5, times: &dense[k], tolerance }
         })
         .collect();
-    // Backwards; too long for its steps; and refused.
+    // Backwards, too long for its steps, and refused.
     motions[6] = SampledProblem { start: 5.0, times: &back, ..motions[6] };
     motions[9] = SampledProblem { times: &[1.0, 1e12], tolerance: 1e-15, ..motions[9] };
     motions[11].tolerance = 1.0;
@@ -194,7 +194,7 @@ fn dense_samples_of_many_motions_are_those_of_each_alone() {
     }
 }
 
-/// The size of the state's derivatives by each parameter. Their components are held by `gradient-both-ways` and `gradient-reference`.
+/// The size of the state's derivatives by each parameter. `gradient-both-ways` and `gradient-reference` test their components.
 #[test]
 fn gradients() {
     let mut table = Table::default();

@@ -38,9 +38,9 @@ fn clocks() {
             let clock = PhasedMotion::averaged(&problem).and_then(|motion| PulsarClock::new(motion, beam, observer));
             table.found(&name, clock, |table, clock| {
                 table.row(&name, format_args!("period {:?}, truncation {:?}", clock.period(), clock.truncation(40.0)));
-                // In this order: the next pulse is looked for from the one before.
+                // In this order: the search for the next pulse starts from the previous one.
                 for t in [[12.0, 0.3], [5e3, 0.25], [-250.0, 0.0], [30.0, 0.0]] {
-                    // To one double, whose last digits are roundings.
+                    // Midpoints as one double, whose last digits are rounding.
                     let pulse = clock.pulse_near(t).map(|pulse| pulse.map(|pulse| (pulse.midpoint[0], pulse)));
                     table.found("  pulse", pulse, |table, pulse| match pulse {
                         Some((midpoint, pulse)) => {

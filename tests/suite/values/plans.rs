@@ -1,4 +1,4 @@
-//! Plans: method, prediction, what is left out, and what motions count.
+//! Plans: method, prediction, omitted methods, and counted work.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ use twofold::propagation::{Motion, largest_torque};
 use crate::values::scene::{STAR, general, problem, tensor};
 use crate::values::table::Table;
 
-/// A table of plans, with the reasons for what is left out at its end.
+/// A table of plans, with the reasons for omissions at its end.
 #[derive(Default)]
 struct Plans {
     table: Table,
@@ -18,7 +18,7 @@ struct Plans {
 }
 
 impl Plans {
-    /// What is computed, in a sentence; and predictions of the methods that were considered.
+    /// The plan in a sentence, and predictions of the methods considered.
     fn add(&mut self, name: &str, request: &Request, s: &Matrix3<f64>, with_candidates: impl FnOnce(&Plan) -> bool) {
         self.table.found(name, problem(*s).plan(request), |table, plan| {
             let (state, method) = (plan.state.name(), plan.method.map_or("no method", Method::name));
@@ -34,7 +34,7 @@ impl Plans {
                 let name = format!("  {}", candidate.method.name());
                 table.found(&name, candidate.prediction.clone(), |table, found| {
                     let admitted = if plan.admits(&found) { "admitted" } else { "not admitted" };
-                    // Part of the rounding is that of the state given.
+                    // Part of the rounding is that of the given state.
                     let (truncation, rounding) = (found.truncation, found.rounding.log2().round());
                     let text = format!("{admitted}, truncation {truncation:?}, rounding 2 to the {rounding}");
                     let (order, bytes, cost, work) =
@@ -69,7 +69,7 @@ fn requests() {
     plans.check("plans_of_outputs");
 }
 
-/// Other spans, tolerances and derivatives; and methods asked for by name, which are taken whatever their error, or refused.
+/// Other spans, tolerances and derivatives; and methods requested by name, which are used whatever their error, or refused.
 #[test]
 fn long_and_forced() {
     let mut plans = Plans::default();

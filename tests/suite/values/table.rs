@@ -1,12 +1,12 @@
-//! Rows of what was found, compared with what was reviewed.
+//! Rows of results, compared with reviewed ones.
 
 use std::fmt::{Debug, Write};
 
 use twofold::Error;
 
-/// Longest line.
+/// Maximum length of a line.
 const WIDTH: usize = 116;
-/// Numbers below it are mostly roundings, of which two digits are kept; of those below a rounding of one, none.
+/// Numbers below `SMALL` are mostly rounding and keep two digits; numbers below `NONE` keep none.
 const SMALL: f64 = 1e-12;
 const NONE: f64 = 1e-16;
 
@@ -22,12 +22,12 @@ fn written(x: f64) -> String {
     }
 }
 
-/// Six decimals of a component, which is of order one. What rounds to zero has no sign.
+/// Six decimals of a component, which is of order one. A rounded zero has no sign.
 fn component(x: f64) -> String {
     format!("{:.6}", (x * 1e6).round() / 1e6 + 0.0)
 }
 
-/// A debug text with every number rounded that has a point or an exponent and is in no quotes, those in `[[ ]]` as components of a vector.
+/// A debug text in which every unquoted number with a point or an exponent is rounded, those in `[[ ]]` as components of a vector.
 fn rounded(text: &str) -> String {
     let (mut out, mut rest, mut brackets) = (String::new(), text, Vec::new());
     let mut quoted = false;
@@ -59,7 +59,7 @@ fn rounded(text: &str) -> String {
 pub struct Table(String);
 
 impl Table {
-    /// `name: found`, in as many lines as it takes.
+    /// Writes `name: found`, in as many lines as necessary.
     pub fn row(&mut self, name: &str, found: impl Debug) {
         let text = format!("{}: {}", name.trim_start(), rounded(&format!("{found:?}")));
         let mut line = " ".repeat(name.len() - name.trim_start().len());
@@ -73,7 +73,7 @@ impl Table {
         writeln!(self.0, "{}", line.trim_end()).expect("a string takes all");
     }
 
-    /// Rows of what was found, or why there is nothing, without the number in it, which may be a rounding.
+    /// Writes rows for a result, or the reason why there is none, without the number in it, which may be rounding.
     pub fn found<T>(&mut self, name: &str, found: Result<T, Error>, rows: impl FnOnce(&mut Self, T)) {
         match found {
             Ok(found) => rows(self, found),
@@ -85,12 +85,12 @@ impl Table {
         }
     }
 
-    /// A row of what was found, or why there is nothing.
+    /// Writes a row for a result, or the reason why there is none.
     pub fn result<T: Debug>(&mut self, name: &str, found: Result<T, Error>) {
         self.found(name, found, |table, found| table.row(name, found));
     }
 
-    /// Compares with what was reviewed.
+    /// Compares with the reviewed table.
     pub fn check(self, name: &str) {
         let mut settings = insta::Settings::clone_current();
         settings.set_snapshot_path("../../../golden/values");

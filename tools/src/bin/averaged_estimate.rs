@@ -1,7 +1,7 @@
-//! True error over estimate of the averaged motion: its distribution over random motions.
+//! True error over estimate of the averaged motion: the distribution over random motions.
 //!
-//! `cargo run --release -p twofold-tools --bin averaged_estimate [SCENES] [SEED] [RADIANS]`: 10,000 scenes of seed 1 that turn by up to
-//! 3,000 rad unless said. Scenes whose estimate is below the error are listed.
+//! `cargo run --release -p twofold-tools --bin averaged_estimate [SCENES] [SEED] [RADIANS]`; defaults: 10,000 scenes of seed 1 that
+//! turn by up to 3,000 rad. Scenes with an estimate below the error are listed.
 
 use twofold_tools::{Ratios, argument};
 use twofold_verify::averaged_scenes::AveragedScene;

@@ -5,7 +5,8 @@
 //! cargo run --release -p twofold-tools --bin averaged_reference > verify/data/mean_reference.csv
 //! ```
 //!
-//! Three hours on one core, nearly all for 1e-6, which may be cut off: tenths are written as they come. Stretches as in `long_reference.rs`.
+//! Three hours on one core, mostly for 1e-6; that part can be cut off, since each tenth is written when it is done. Stretches as in
+//! `long_reference.rs`.
 
 use std::io::Write as _;
 
@@ -26,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     writeln!(out, "k,t,n_x,n_y,n_z,l_x,l_y,l_z,e_x,e_y,e_z")?;
     for exponent in 1..=6 {
         let k = 10f64.powi(-exponent);
-        // As the check scales it: in doubles.
+        // Scaled in doubles, as in the check.
         let problem = Problem::new(scene.spheroid, scene.violation() * k, scene.initial())?;
         let mut motion = LongMotion { problem: problem.map(DoubleDouble::from_f64), time: 0.0 };
         for tenth in 1..=10 {

@@ -1,10 +1,10 @@
-//! What the averaged motion costs, and how much less that is than a numerical motion of the same error:
+//! Cost of the averaged motion compared with a numerical motion of the same error:
 //!
 //! ```sh
 //! cargo run --release -p twofold-tools --bin averaged_speed
 //! ```
 //!
-//! Times are the least of many runs, in the work of this thread where the system tells it.
+//! The shortest of many runs, in processor time of this thread if available.
 
 use std::hint::black_box;
 
@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("a state at t = {t:e} t_c: {:.0} ns", each * 1e6);
     }
 
-    // 642 Hz and 15 years, t_c = sqrt(I^xx / C) of 10 ms: some 4e11 turns.
+    // 642 Hz and 15 years with t_c = sqrt(I^xx / C) = 10 ms: about 4e11 turns.
     let spin = 642.0 * core::f64::consts::TAU * 0.01;
     let body = RigidSpheroid::in_units_of_tc(1.001);
     let axis = Vector3::new(0.3, 0.1, (1.0_f64 - 0.1).sqrt());
@@ -61,7 +61,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let sampled = least_time(50, || states(&averaged(&fast, fifteen_years)?, &times));
     println!("10,000 epochs over 15 years at 642 Hz, set-up included: {:.2} ms", sampled * 1e3);
 
-    // s = 1e-6 over 1e7 t_c: 100 states. The averaged motion is the reference: its own error is far below, which checks show.
+    // s = 1e-6 over 1e7 t_c with 100 states. The averaged motion is the reference: checks show that its error is far below the others.
     let problem = problem(1e-6)?;
     let times: Vec<f64> = (1..=100).map(|i| 1e5 * f64::from(i)).collect();
     let last = 1e7;
@@ -76,7 +76,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let report = |name: &str, tolerance: f64, run: &dyn Fn() -> Result<Vec<BodyState<f64>>, Error>| match run() {
         Ok(found) => {
             let time = least_time(2, run);
-            // n and e_x.
+            // Errors of n and e_x.
             let off =
                 found.iter().zip(&right).map(|(a, b)| largest_difference(a, b, f64::INFINITY)).fold(0.0, f64::max);
             println!(

@@ -1,4 +1,4 @@
-//! Our side of `scripts/peers`: runs one method on one scene for each line of standard input. The protocol is that of
+//! Our side of `scripts/peers`: runs one method on one scene for each line of standard input, with the protocol of
 //! `tools/peers/README.md`.
 
 use std::io::{self, BufRead as _, Write as _};

@@ -1,4 +1,5 @@
-//! What arrival times over decades cost: `cargo run --release -p twofold-tools --bin clock_cost`. The least of 20 rounds for 10,000 epochs of 15 years.
+//! Cost of arrival times over decades: `cargo run --release -p twofold-tools --bin clock_cost`. The shortest of 20 rounds for 10,000 epochs in 15
+//! years.
 
 use std::hint::black_box;
 
@@ -7,7 +8,7 @@ use twofold_scene::scene_file::{PULSARS, Scene};
 use twofold_tools::least_time;
 
 const EPOCHS: u32 = 10_000;
-/// Least time of 20 rounds (ms).
+/// Shortest time of 20 rounds (ms).
 fn least(work: impl FnMut()) -> f64 {
     least_time(20, work) * 1e3
 }

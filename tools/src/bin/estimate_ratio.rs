@@ -1,7 +1,7 @@
-//! Estimated over true error of random motions: its distribution, by class.
+//! Estimated over true error of random motions: the distribution, by class.
 //!
-//! `cargo run --release -p twofold-tools --bin estimate_ratio [SCENES] [SEED] [FIRST]`: 10,000 scenes of seed 1 unless
-//! said. Scenes below one, above 100,000 and the lowest are listed with their numbers; `1 SEED NUMBER` runs one again.
+//! `cargo run --release -p twofold-tools --bin estimate_ratio [SCENES] [SEED] [FIRST]`; default: 10,000 scenes of seed
+//! 1. Scenes below one, above 100,000 and the lowest are listed with their numbers; `1 SEED NUMBER` runs one again.
 
 use rayon::prelude::*;
 use twofold::plan::Method;

@@ -1,7 +1,7 @@
-//! Error estimates of every method beside true errors, in random scenes that the method is made for.
+//! Error estimates of every method compared with true errors, in random scenes for which the method is intended.
 //!
-//! `cargo run --release -p twofold-tools --bin estimates_by_method [SCENES] [SEED] [METHOD...]`: 10,000 scenes of seed 1 for each method
-//! unless said. An estimate below the true error is listed with the number of its scene and makes the exit status 1.
+//! `cargo run --release -p twofold-tools --bin estimates_by_method [SCENES] [SEED] [METHOD...]`; default: 10,000 scenes of seed 1 for
+//! each method. An estimate below the true error is listed with the number of its scene and sets the exit status to 1.
 
 use std::process::ExitCode;
 
@@ -10,7 +10,7 @@ use twofold::plan::Method;
 use twofold_tools::{Ratios, argument, estimate_over_error};
 use twofold_verify::error_scenes::ErrorScene;
 
-/// Ratio of the estimate to the true error, or why there is none.
+/// Ratio of the estimate to the true error, or the reason why there is none.
 enum Seen {
     Ratio(f64),
     Refused(String),
@@ -32,7 +32,7 @@ fn main() -> ExitCode {
     if all_above { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-/// A line of the table; whether no estimate was below.
+/// Prints a line; returns whether no estimate was too small.
 fn judge(method: Method, scenes: u64, seed: u64) -> bool {
     let rows: Vec<_> = (0..scenes).into_par_iter().map(|number| (number, look(method, seed, number))).collect();
     let (mut ratios, mut refusals, mut none) = (Vec::new(), Vec::new(), 0);

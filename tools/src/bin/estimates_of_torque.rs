@@ -1,7 +1,7 @@
-//! What stretched time states to leave out, beside what it leaves out, in random stars that slow down.
+//! Stated truncation error of stretched time compared with the true one, for random stars that slow down.
 //!
-//! `cargo run --release -p twofold-tools --bin estimates_of_torque [STARS] [SEED]`: 100,000 stars of seed 1 unless said. The true delay is the law itself, integrated by Gauss' formula. A star whose
-//! delay is further off than stated is listed with its number and makes the exit status 1.
+//! `cargo run --release -p twofold-tools --bin estimates_of_torque [STARS] [SEED]`; default: 100,000 stars of seed 1. The true delay is the law
+//! itself, integrated by Gauss' formula. A star with a delay error above the stated one is listed with its number and sets the exit status to 1.
 
 use std::process::ExitCode;
 

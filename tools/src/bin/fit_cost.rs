@@ -1,11 +1,11 @@
-//! Measures what the methods of a plan cost and prints the constants of `src/plan/cost.rs`:
+//! Measures the cost of the methods of a plan and prints the constants of `src/plan/cost.rs`:
 //!
 //! ```sh
 //! cargo run -p twofold-tools --bin fit_cost
 //! ```
 //!
-//! Each time is the least of many runs. The cost of a step is fitted over the orders that tolerances from 1e-2 to 1e-16 give,
-//! that of an evaluation over the same orders, by least squares of relative errors.
+//! Each time is the shortest of many runs. The cost of a step is fitted by least squares of relative errors over the orders
+//! for tolerances from 1e-2 to 1e-16, that of an evaluation over the same orders.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -23,7 +23,7 @@ use twofold::propagation::Motion;
 use twofold_tools::least_time;
 use twofold_verify::reference::reference_motion;
 
-/// The least time of many runs, in ns.
+/// The shortest time of many runs, in ns.
 fn time<T>(mut run: impl FnMut() -> T) -> f64 {
     let once = 1e9 * least_time(3, &mut run);
     let runs = ((1e6 / once) as u32).clamp(1, 100_000);
@@ -32,12 +32,12 @@ fn time<T>(mut run: impl FnMut() -> T) -> f64 {
 
 const SPAN: (f64, f64) = (0.0, 200.0);
 
-/// The time of a state of a motion, in ns, by its axis.
+/// The time of a state of a motion, evaluated by its axis, in ns.
 fn time_of_state(axis_at: impl Fn(f64) -> Result<f64, Error>) -> f64 {
     time(|| (0..1000).map(|i| axis_at(0.2 * f64::from(i)).unwrap_or(0.0)).sum::<f64>()) / 1e3
 }
 
-/// A motion, the time of making it and that of a state of it, in ns.
+/// A motion, the time to compute it and the time of one of its states, in ns.
 fn measured<X: RotationState<f64>>(
     problem: &Problem<f64, X>,
     method: Method,
@@ -49,12 +49,12 @@ fn measured<X: RotationState<f64>>(
     Ok((motion, time(make), each))
 }
 
-/// What a problem's motions follow.
+/// The vectors that a problem's motions carry.
 fn state_of<X: RotationState<f64>>() -> State {
     if X::VECTORS == 3 { State::Orientation } else { State::AxisAndMomentum }
 }
 
-/// The least-squares solution that makes relative errors small.
+/// The least-squares solution for relative errors.
 fn fit(rows: &[(Vec<f64>, f64)]) -> Vec<f64> {
     let (n, m) = (rows.len(), rows[0].0.len());
     let a = DMatrix::from_fn(n, m, |i, j| rows[i].0[j] / rows[i].1);
@@ -134,7 +134,7 @@ fn closed(problem: &Problem<f64>, method: Method) -> Result<(), Error> {
     Ok(())
 }
 
-/// All lines of m.n, h_+ and h_x above 1e-12 of the strongest, named.
+/// All named lines of m.n, h_+ and h_x above 1e-12 of the strongest.
 fn lines(problem: &Problem<f64>) -> Result<(), Error> {
     let (beam, observer) = (Beam::new(0.5, 0.0, 0.6), Observer::at(0.8, 0.0));
     let wave = |state: &BodyState<f64>| {
@@ -161,7 +161,7 @@ fn lines(problem: &Problem<f64>) -> Result<(), Error> {
     Ok(())
 }
 
-/// Derivatives on the torus by ten parameters: set-up with one state after 1e6 t_c, and each state more.
+/// Derivatives on the torus by ten parameters: set-up with one state after 1e6 t_c, and each further state.
 fn torus_gradient(problem: &Problem<f64>) -> Result<(), Error> {
     let (spheroid, initial) = (problem.spheroid(), problem.initial());
     let start = Parameters::new(*spheroid, *problem.coefficients(), initial.angles()?, initial.rates(spheroid)?);

@@ -4,8 +4,8 @@
 //! cargo run --release -p twofold-tools --bin instructions -- KERNEL REPEATS
 //! ```
 //!
-//! Without a kernel it lists them. Reading the scene and starting the program count too; the script takes the difference of two
-//! numbers of repeats.
+//! Without a kernel it lists them. Reading the scene and starting the program count, too; the script takes the difference of
+//! two numbers of repeats.
 
 use std::hint::black_box;
 
@@ -21,7 +21,7 @@ const TOLERANCE: f64 = 1e-12;
 
 type Kernel = fn(&BenchScene, &TaylorMotion<f64>, usize);
 
-/// Names, and what is done once per repeat.
+/// Names, and the work of one repeat.
 const KERNELS: [(&str, Kernel); 6] = [
     ("taylor-axis", |scene, _, _| {
         drop(black_box(scene.problem.reduced().taylor((0.0, DURATION), TOLERANCE)));
@@ -49,7 +49,7 @@ fn main() {
     let scene = BenchScene::named("tp-II");
     let Some(name) = args.next() else {
         KERNELS.iter().for_each(|(name, _)| println!("{name}"));
-        // Every other method than ours is a baseline, every other of ours a kernel.
+        // Without numeris, which is only a baseline, and Taylor, whose kernels are above.
         let others = METHODS.iter().filter(|method| !method.name.starts_with("numeris") && method.name != "Taylor");
         others.for_each(|method| println!("{}/{}", method.name, method.carries));
         return;

@@ -4,9 +4,9 @@
 //! cargo run --release -p twofold-tools --bin long_reference > tools/bench/data/long.csv
 //! ```
 //!
-//! Half an hour on one core; less with `RUSTFLAGS="-C target-feature=+fma"`. The motion is made of stretches of 25,000 t_c,
-//! restarted from the end of the one before: over one stretch the tolerance 1e-16 asks for a truncation below 2e-25 per t_c, which a
-//! phase that grows for 1e7 t_c makes 1e-11 at most.
+//! Half an hour on one core; less with `RUSTFLAGS="-C target-feature=+fma"`. The motion consists of stretches of 25,000 t_c, each
+//! restarted from the end of the one before: over one stretch the tolerance 1e-16 needs a truncation below 2e-25 per t_c, which a
+//! phase growing for 1e7 t_c turns into 1e-11 at most.
 
 use std::io::Write as _;
 
@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = BenchScene::named("tp-II");
     let problem = scene.problem.reduced().map(DoubleDouble::from_f64);
     let mut start = *problem.initial();
-    // A unit vector to 32 digits: what rounding leaves of its length to 16 moves the phase by 2e-11 at the end.
+    // A unit vector to 32 digits: with 16 digits the rounding of its length would change the phase by 2e-11 at the end.
     start.axis /= length(&start.axis);
     let mut motion = LongMotion { problem: problem.starting_from(start)?, time: 0.0 };
     let mut out = std::io::stdout().lock();

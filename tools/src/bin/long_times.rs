@@ -2,8 +2,8 @@
 //!
 //! `cargo run --release -p twofold-tools --bin long_times [LONGEST, default 1e7 t_c]`: some minutes.
 //!
-//! Numerical methods and averaged motion along tp-II against the reference of tools/bench/data/long.csv; closed forms against themselves in
-//! double-double numbers, along motions that they are made for.
+//! Numerical methods and averaged motion along tp-II are compared with the reference of tools/bench/data/long.csv, closed forms with
+//! themselves in double-double numbers, along motions for which they are intended.
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::{BodyState, Problem};
@@ -60,7 +60,7 @@ fn main() -> Result<(), Failure> {
     };
     let torus = TorusMotion::new(&problem, (0.0, longest), 1e-15)?;
     let by_torus: ErrorAt = Box::new(move |t| beside_reference(torus.axis_state(t)?.axis, t));
-    // tp-II's body with another tensor, and at rest but for a spin along the third principal axis.
+    // tp-II's body with another tensor, and at rest except for a spin along the third principal axis.
     let symmetric = Matrix3::from_diagonal(&Vector3::new(0.013, 0.013, -0.04));
     let tilted = Problem::new(spheroid, symmetric, initial)?;
     let free = Problem::new(spheroid, Matrix3::zeros(), initial)?;
@@ -106,7 +106,7 @@ fn written(exponent: Option<Slope>) -> String {
     exponent.map_or("-".into(), |slope| format!("{:.2} +- {:.2}", slope.value, slope.error))
 }
 
-/// The error of n and e_x of a closed form in doubles, against itself in double-double numbers.
+/// The error of n and e_x of a closed form in doubles, compared with itself in double-double numbers.
 fn difference<'a>(
     motion: impl Motion<f64, State = BodyState<f64>> + 'a,
     exact: impl Motion<DoubleDouble, State = BodyState<DoubleDouble>> + 'a,

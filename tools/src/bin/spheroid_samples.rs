@@ -1,4 +1,4 @@
-//! Prints A_0, A_1, A_3 and C of random spheroids, for `verify/oracles/mpmath/spheroid_ulps.py` to judge in multiprecision:
+//! Prints A_0, A_1, A_3 and C of random spheroids, for comparison with multiprecision by `verify/oracles/mpmath/spheroid_ulps.py`:
 //!
 //! ```sh
 //! cargo run --release -p twofold-tools --bin spheroid_samples | python3 verify/oracles/mpmath/spheroid_ulps.py

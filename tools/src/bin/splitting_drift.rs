@@ -1,4 +1,4 @@
-//! Conservation over very many steps of tp-II: `|n| - 1`, drift of L.n and of the energy, with the slope of the last by time.
+//! Conservation over very many steps of tp-II: `|n| - 1`, drift of L.n and of the energy, with the slope of the energy in time.
 //!
 //!     cargo run --release -p twofold-tools --bin splitting_drift [STEPS, default 1e9]
 
@@ -23,7 +23,7 @@ fn main() {
     let (mut axis, mut spin, mut points) = (0.0_f64, 0.0_f64, Vec::new());
     let mut random = Random::with_seed(1);
     for row in 1..=ROWS {
-        // At random times: equal distances would see the oscillation of the energy, of period 177 t_c, as a slow one.
+        // The times are random: equal distances would alias the oscillation of the energy, of period 177 t_c, into a slow one.
         let offset = random.word() % 10_000;
         motion.advance(offset);
         let state = motion.state();

@@ -2,8 +2,8 @@
 //!
 //!     cargo run --release -p twofold-tools --bin splitting_estimate [SCENES, default 3000] [SEED, default 777]
 //!
-//! Half of the scenes leave the choice of scheme to the tolerance, the others go through all schemes. True errors by the Taylor
-//! motion at tolerance 1e-15.
+//! Half of the scenes leave the choice of scheme to the tolerance, the others go through all schemes. True errors come from the
+//! Taylor motion at tolerance 1e-15.
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::{AxisState, Problem, RigidSpheroid};
@@ -36,7 +36,7 @@ fn main() {
             let step = turn_per_stage * scheme.stages() as f64 / momentum.norm().max(0.3);
             problem.splitting_by(scheme, span, step)
         };
-        // A forced step of many radians can overflow, which is an error and not an estimate.
+        // An imposed step of many radians can overflow, which is an error and not an estimate.
         let Ok(motion) = motion else {
             refused += 1;
             continue;

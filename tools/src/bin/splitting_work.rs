@@ -2,7 +2,7 @@
 //!
 //!     cargo run --release -p twofold-tools --bin splitting_work
 //!
-//! The end state is that of verify/oracles/mpmath/axis_end_state.py, 32 digits. Times are the least of 15 runs of everything in turn.
+//! The end state is that of verify/oracles/mpmath/axis_end_state.py, 32 digits. Times are the shortest of 15 rounds over all methods.
 
 use nalgebra::Vector3;
 use twofold::dynamics::{AxisState, Problem, RotationState};

@@ -1,5 +1,5 @@
-//! Writes what the kernels give at random rational points, for `python3 verify/oracles/symbolic compare`: the points as exact fractions, each value
-//! as the shortest decimal that stands for its double, and the sum of the magnitudes of its terms.
+//! Writes the kernel values at random rational points, for `python3 verify/oracles/symbolic compare`: the points as exact fractions, each value as
+//! the shortest decimal that identifies its double, and the sum of the magnitudes of its terms.
 //!
 //! ```text
 //! cargo run -p twofold-tools --bin symbolic_points -- FILE [POINTS] [SEED]
@@ -32,7 +32,7 @@ fn main() -> Result<(), String> {
     }
     let mut closed: BTreeMap<&str, Vec<Value>> = BTreeMap::new();
     for kernel in closed_kernels() {
-        // A refusal is written as such: it fails the comparison.
+        // A refusal is written as its message, which fails the comparison.
         let rows = points.iter().map(|point| match (kernel.values)(&layout.coded(point)) {
             Ok(values) => json!(values),
             Err(error) => json!(error.to_string()),

@@ -1,5 +1,5 @@
-//! Growth of the error of the energy along Taylor series at the tolerance 1e-16: tp-II and random scenes, over the sum of the magnitudes of its
-//! terms, with the exponents of growth.
+//! Growth of the energy error along Taylor series at the tolerance 1e-16, for tp-II and random scenes, relative to the sum of the magnitudes of
+//! its terms, with the exponents of growth.
 //!
 //!     cargo run --release -p twofold-tools --bin taylor_drift [SCENES, default 20] [SEED, default 1] [LONGEST, default 1e6 t_c]
 
@@ -13,7 +13,7 @@ use twofold_tools::argument;
 use twofold_verify::double_double::DoubleDouble;
 use twofold_verify::error_scenes::ErrorScene;
 
-/// States in each decade of time.
+/// States per decade of time.
 const STATES: i32 = 100;
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;

@@ -1,8 +1,9 @@
-//! Which random motions the series on the torus refuses, and why, by how near the middle axis `L` starts.
+//! Random motions that the series on the torus refuses, and why, by the angle of the initial `L` to the middle axis.
 //!
-//! `cargo run --release -p twofold-tools --bin torus_refusals [SCENES] [SEED]`: 20,000 scenes of seed 1 of each of two draws unless said, at the tolerance 1e-12. The first draw is
-//! uniform over the domain: eigenvalues, directions on spheres, decades of strengths and of rates, one start in twenty from rest. The second is that of `estimates_by_method`, of
-//! which four in ten start beside the middle axis, down to 1e-12 rad, and as many have two nearly equal eigenvalues.
+//! `cargo run --release -p twofold-tools --bin torus_refusals [SCENES] [SEED]`; default: 20,000 scenes of seed 1 from each of two draws, at the
+//! tolerance 1e-12. The first draw is uniform over the domain: eigenvalues, directions on spheres, decades of strengths and of rates, one start in
+//! twenty from rest. The second is that of `estimates_by_method`, in which four in ten start beside the middle axis, down to 1e-12 rad, and as many
+//! have two nearly equal eigenvalues.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -27,7 +28,7 @@ fn main() {
     told("with many near the edges", (0..scenes).map(|number| ErrorScene::draw(seed, number).problem));
 }
 
-/// A motion with the lengths and times of a body of the inertia one and `C = 1`, which are any.
+/// A motion of a body with inertia one and `|C| = 1`; other units would change nothing.
 fn uniform(random: &mut Random) -> Problem<f64> {
     let spheroid = RigidSpheroid {
         inertia_xx: 1.0,
@@ -46,7 +47,7 @@ fn uniform(random: &mut Random) -> Problem<f64> {
     Problem::new(spheroid, (tensor + tensor.transpose()) / 2.0, initial).expect("parts of the domain")
 }
 
-/// Angle between the first `L` and the axis of the middle eigenvalue; from rest a right angle.
+/// Angle between the initial `L` and the axis of the middle eigenvalue; a right angle for a star at rest.
 fn from_middle_axis(problem: &Problem<f64>) -> f64 {
     let frame = principal_frame(problem.coefficients()).expect("a symmetric tensor").principal_from_given;
     let values = (frame * problem.coefficients() * frame.transpose()).diagonal();
@@ -60,7 +61,7 @@ fn from_middle_axis(problem: &Problem<f64>) -> f64 {
     middle.cross(&momentum).norm().atan2(middle.dot(&momentum).abs())
 }
 
-/// A table of refusals by decades of the angle.
+/// Prints a table of refusals by decades of the angle.
 fn told(name: &str, problems: impl Iterator<Item = Problem<f64>>) {
     let mut decades: BTreeMap<i32, (usize, BTreeMap<&str, usize>)> = BTreeMap::new();
     let (mut all, mut refused, mut longest) = (0, 0, [0.0_f64; 2]);

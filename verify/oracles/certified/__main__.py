@@ -2,8 +2,8 @@
 
     python3 verify/oracles/certified [--only JOB ...] [--jobs N] [--pieces FOLDER] [--out verify/data/certified.csv]
 
-Writes for each golden number that is enclosed its table, label and the ends of the enclosure, rounded outwards. `cargo test --test golden`
-asks that each lies within what rounds to the printed digits. Needs SymPy 1.14 and python-flint 0.9 (Arb).
+Writes table, label and the ends of the enclosure, rounded outwards, for each golden number that is enclosed. `cargo test golden`
+requires that each enclosure lies within the interval that rounds to the printed digits. Needs SymPy 1.14 and python-flint 0.9 (Arb).
 """
 
 import argparse
@@ -23,18 +23,18 @@ OUT = "verify/data/certified.csv"
 
 
 def end(x, rounding):
-    """A ball's end as a decimal, rounded outwards."""
+    """An end of a ball as a decimal, rounded outwards."""
     exact = x.lower() if rounding == ROUND_FLOOR else x.upper()
     mantissa, exponent = exact.mid().man_exp() if not exact.is_zero() else (0, 0)
     mantissa, exponent = int(mantissa), int(exponent)
     wide = Context(prec=5000)
     value = wide.multiply(Decimal(mantissa), wide.power(Decimal(2), exponent))
-    # The power of two may itself be rounded in the last of 5000 digits: nothing beside the 17 that are kept.
+    # The power of two may itself be rounded in the last of 5000 digits, which is far below the 17 digits kept.
     return Context(prec=DIGITS, rounding=rounding).plus(value)
 
 
 def task(argument):
-    """One job: enclosures, with the time that they took. Modules are imported where they are used: SymPy takes seconds to derive what each needs."""
+    """One job: enclosures, with the time spent. Modules are imported locally, because SymPy takes seconds to derive their formulas."""
     started = time.time()
     kind, value = argument
     ctx.dps = 50
@@ -44,7 +44,7 @@ def task(argument):
     return argument, rows, time.time() - started
 
 
-# Module, function, and its arguments by what the job is of.
+# Module, function, and its arguments, by the kind of job.
 KINDS = {
     "formulas": ("formulas", "all_formulas", lambda _: ()),
     "corrected": ("corrected", "corrected", lambda _: ()),
@@ -104,7 +104,7 @@ def before(path):
 
 
 def jobs():
-    """All of them: a kind, and which."""
+    """All jobs, each as a kind and its argument."""
     import motions
 
     names = ("tp-I", "tp-II", "sp-I", "sp-II")

@@ -1,13 +1,13 @@
-"""The corrected solution that starts as an example does: its constants, Eq. (34) solved for them.
+"""The corrected solution with the initial values of an example: its constants from Eq. (34).
 
 All examples have alpha_0 = phi = pi/2, so that they start with alpha = pi/2 and beta' = 0. For the constants of the corrected solution
 write p = A cos phi, q = A sin phi. Its beta' = 0 gives p, and with it alpha = pi/2 becomes an equation for alpha_0 alone,
 
     f(alpha_0) = alpha_0 - pi/2 + K(beta_0) sin 2 alpha_0 = 0,      |2 K| < 1 for every beta_0 (shown over (0, pi) in balls),
 
-which grows, so that alpha_0 = pi/2, p = 0 is its only solution. alpha' gives q, and beta one equation F(beta_0) = 0. Its root is enclosed
-by Newton's operator in balls, m - F(m) / F'(B): if that lies within B there is one root in B, and it is there. That no other root has a
-smaller |A|, by which the solution is chosen among several, is shown over (0, pi): each piece has no root, or a larger |A|, or is within B.
+which increases, so that alpha_0 = pi/2, p = 0 is its only solution. alpha' gives q, and beta gives one equation F(beta_0) = 0. Its root is
+enclosed by Newton's operator in balls, m - F(m) / F'(B): if that lies within B, B contains exactly one root. Over (0, pi) no other root
+has a smaller |A|, by which the solution is chosen: each piece has no root, or a larger |A|, or is within B.
 """
 
 from fractions import Fraction
@@ -32,7 +32,7 @@ def equations():
     assert simplify(solution.rates()[0].coeff(perturbation.amplitude) + solution.ratio * sin(perturbation.x)) == 0
     f = BETA + at_start(solution.angles(nu)[1]).subs(perturbation.amplitude, q) - START[0]
     two_k = solution.r_alpha / nu - 2 * solution.ratio * solution.r_beta / nu
-    # Without tan, so that what has no pole at pi/2 divides by no cosine.
+    # Without tan: expressions regular at pi/2 divide by no cosine.
     plain = lambda e: expand_trig(together(e)).replace(tan, lambda a: sin(a) / cos(a))
     return [*(cancel(plain(e)) for e in (q * cos(BETA) ** 2, f)), plain(diff(f, BETA)), cancel(plain(two_k))]
 
@@ -54,7 +54,7 @@ class Root:
         self.q = self.at(self.beta)[0] / self.beta.cos() ** 2
 
     def _newton(self, start):
-        """A ball with one root, and the root."""
+        """A ball with exactly one root, and the root."""
         middle = start.mid()
         for _ in range(60):
             _, f, slope, _ = self.at(middle)
@@ -67,7 +67,7 @@ class Root:
         return box, ball
 
     def is_least(self, low=Fraction(0), high=Fraction(4)):
-        """Whether no root in [low, high] outside the ball has an |A| as small."""
+        """Whether [low, high] has no root outside the ball with an |A| as small."""
         ends = [arb(fmpq(x.numerator, x.denominator)) for x in (low, high)]
         piece = ends[0].union(ends[1])
         if self.box.contains(piece):

@@ -5,16 +5,16 @@ p = (lX^2, lY^2, lZ^2) and s = (r, -r, 1)/2
 
     v^2 = 4 (|s l|^2 - h^2) = 4 sum over pairs of (s_i - s_j)^2 p_i p_j,      h = l.(s l).
 
-A direction to the observer sees a component that is uniform in [-v, v]: P(eta > x) is the mean of 1 / max(1, v x), and eta of the root
-mean square is sqrt(3 / <v^2>). Azimuths are those of a quarter turn, the others being the same.
+A direction to the observer sees a component that is uniform in [-v, v]: P(eta > x) is the mean of 1 / max(1, v x), and eta for the
+root mean square is sqrt(3 / <v^2>). By symmetry the azimuths of a quarter turn suffice.
 
-Along the motion h is conserved. With the components 1 and 3 that h lies between (1: s_1 >= s_2 >= s_3, or the reverse where h > s_2),
+Along the motion h is conserved. With s_1 >= s_2 >= s_3, or the reverse order where h > s_2,
 l_2 = sqrt((h - s_3) / (s_2 - s_3)) sn, and from p_1 + p_2 + p_3 = 1 and h
 
     v^2 = 4 (h - s_3) [(s_1 - h) - (s_1 - s_2) sn^2],     1 - m = (s_1 - s_3)(s_2 - h) / ((s_2 - s_3)(s_1 - h)),
 
-the mean of sn^2 being (1 - E / K) / m. Azimuths where h = s_2 (the separatrix) are singular as one over a
-logarithm; there the azimuth is at the distance e^-u, in which the mean is smooth, and beyond u = 40 it lies between 0 and
+with the mean of sn^2 being (1 - E / K) / m. At azimuths with h = s_2 (the separatrix) the singularity is one over a
+logarithm; there the azimuth is at the distance e^-u, and the mean is smooth in u. Beyond u = 40 it lies between 0 and
 (s_max - s_min)^2, as v^2 always does (four times the variance of the s_i with the weights p_i).
 """
 
@@ -32,7 +32,7 @@ U = 40
 
 
 def squared_speed(r, x2, y2, z2):
-    """v^2 by the squares of the components."""
+    """v^2 from the squares of the components."""
     return 4 * r**2 * x2 * y2 + (1 - r) ** 2 * x2 * z2 + (1 + r) ** 2 * y2 * z2
 
 
@@ -49,7 +49,7 @@ def seen(squared, x, analytic):
 
 
 def quarter(u):
-    """An azimuth by its part of a quarter turn."""
+    """An azimuth from its fraction of a quarter turn."""
     return u * arb.pi() / 2
 
 
@@ -66,7 +66,7 @@ def start(r, alpha_0, beta_0):
 
 
 def check_start():
-    """`start` against the solution that the equations give."""
+    """Compares `start` with the solution of the equations."""
     y, beta = perturbation.y, symbols("beta")
     alpha_1, beta_1 = (e.subs(perturbation.amplitude, 0) for e in SOLUTIONS["single"].angles())
     s = symbols("s_x s_y s_z")
@@ -75,24 +75,24 @@ def check_start():
 
 
 def of_constant(r, beta_0):
-    """v^2 for a random constant alpha_0, as a function of its part of a quarter turn."""
+    """v^2 for a random constant alpha_0, as a function of its fraction of a quarter turn."""
     r, beta_0 = arb(r), acb(beta_0)
     return lambda u: at_angles(r, *start(r, quarter(u), beta_0))
 
 
 def mean_sn2(k, analytic=False):
-    """<sn^2> = (1 - E / K) / m by the complementary modulus k, 1 - m = k^2, with a real part above zero.
+    """<sn^2> = (1 - E / K) / m from the complementary modulus k, 1 - m = k^2, with a real part above zero.
 
     By the arithmetic-geometric mean a, b of 1 and k, E / K = 1 - sum of 2^(n-1) c_n^2 with c_0^2 = m, c_1 = (1 - k)/2 and
-    c_(n+1) = (a_n - b_n)/2 = c_n^2 / (4 a_(n+1)). All a, b stay in the cone between 1 and k, so that their roots have one branch. What is
-    left out: a^2 - b^2 = c^2, so that with |c| < |a|/16 the next a differs by less than 1/500 of itself, each later term is below
-    1/1000 of the one before, and all of them together are below the last one taken.
+    c_(n+1) = (a_n - b_n)/2 = c_n^2 / (4 a_(n+1)). All a, b stay in the cone between 1 and k, so that their roots have one branch. The
+    remainder: a^2 - b^2 = c^2, so that for |c| < |a|/16 the next a has a relative change below 1/500, each later term is below 1/1000 of
+    the one before, and their sum is below the last term included.
     """
     if not k.real > 0:
         return acb("nan")
     a, b = (1 + k) / 2, k.sqrt(analytic)
     c, weight = (1 - k) / 2, 1
-    # Of c_1^2 / m a factor cancels.
+    # A factor cancels in c_1^2 / m.
     ratio = (1 - k) / (4 * (1 + k))
     total = arb(1) / 2 + ratio
     for _ in range(40):
@@ -119,7 +119,7 @@ def along(values, squares, from_middle, analytic):
 
 
 def along_motion(r, beta, right_angle=False):
-    """eta for the root mean square over azimuths at the inclination and over all later times, for r < 0, where s^ZZ > s^YY > s^XX."""
+    """eta for the root mean square over azimuths at the inclination and over all later times, for r < 0, that is s^ZZ > s^YY > s^XX."""
     r = arb(r)
     s_x, s_y, s_z = r / 2, -r / 2, arb(1) / 2
     across, up = (arb(1), arb(0)) if right_angle else (beta.sin() ** 2, beta.cos() ** 2)
@@ -127,7 +127,7 @@ def along_motion(r, beta, right_angle=False):
     c = (1 + r) * up / (-2 * r * across)
 
     def function(alpha, difference, beyond, analytic):
-        """<v^2> where sin^2 alpha - c is given; `beyond` the edge h is below s_2."""
+        """<v^2> for a given sin^2 alpha - c; `beyond` the edge h is below s_2."""
         x2 = alpha.sin() ** 2 * across
         squares = [x2, across - x2, acb(up)]
         from_middle = -r * across * difference
@@ -142,7 +142,7 @@ def along_motion(r, beta, right_angle=False):
         def integrand(u, analytic):
             small = size * (-u).exp()
             alpha = edge - small
-            # sin^2 alpha - sin^2 edge, without its cancellation.
+            # sin^2 alpha - sin^2 edge without cancellation.
             difference = (-small).sin() * (alpha + edge).sin()
             return function(alpha, difference, beyond, analytic) * small
 
@@ -181,7 +181,7 @@ def eta():
 
 
 def figure():
-    """Those of the figure: on its grid of inclinations."""
+    """The lines of the figure, on its grid of inclinations."""
     ctx.dps = 30
     table = "figure_bound_factor"
     grid = [fraction("0.05") + (fraction("1.565") - fraction("0.05")) * i / 120 for i in range(121)]
@@ -197,11 +197,11 @@ def figure():
             b = arb(beta)
             slowness = average(lambda u, analytic: 1 / at_angles(r, quarter(u), acb(b)).sqrt(analytic), arb("1e-20"))
             x = slowness / (1 - arb(fraction(probability)))
-            # v^2 is a concave function of sin^2 alpha, least at its ends: where v x >= 1 at both, the mean is that of 1 / (v x).
+            # v^2 is a concave function of sin^2 alpha, smallest at its ends: if v x >= 1 at both, the mean is that of 1 / (v x).
             if b.sin() * b.cos() * (1 - abs(r)) * x > 1:
                 found[beta] = x
             else:
-                # No eta is below one over the largest speed.
+                # No eta is below the inverse of the largest speed.
                 bounds.append(1 / (b.sin() * (r**2 * b.sin() ** 2 + (1 + abs(r)) ** 2 * b.cos() ** 2).sqrt()))
         smallest = least(found.values())
         assert all(bound > smallest for bound in bounds)

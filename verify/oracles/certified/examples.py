@@ -27,7 +27,7 @@ FUNCTIONS = {
 
 
 def enclose(expressions, values):
-    """Enclosures of SymPy expressions, from balls by the names of the symbols."""
+    """Enclosures of SymPy expressions, from balls for the symbols by name."""
     expressions = [e.replace(tan, lambda a: sin(a) / cos(a)) for e in (x + 0 * symbols("c") for x in expressions)]
     names = sorted({s.name for e in expressions for s in e.free_symbols})
     by_name = {s.name: s for e in expressions for s in e.free_symbols}
@@ -54,7 +54,7 @@ SOLUTIONS = {
 
 
 class Example:
-    """An example by its constants of integration; alpha_0 = phi = pi/2."""
+    """An example from its constants of integration; alpha_0 = phi = pi/2."""
 
     def __init__(self, kind, beta_0, amplitude, s=COEFFICIENTS):
         self.kind, self.s = kind, s
@@ -81,7 +81,7 @@ class Example:
         half_pi = arb.pi() / 2
         x, y = self.nu * t + half_pi, self.rate * t + half_pi
         if self.function is None:
-            # The coefficients of the four sines and cosines, once.
+            # The coefficients of the four sines and cosines are computed once.
             sx, cx, s2, c2 = symbols("sx cx s2 c2")
             big_x, big_y = perturbation.x, perturbation.y
             swap = {sin(big_x): sx, cos(big_x): cx, sin(2 * big_y): s2, cos(2 * big_y): c2}

@@ -1,4 +1,4 @@
-"""Golden numbers that are formulas of given numbers: captions, constants, pulsars, stars, expansions, geometry, eta where it is closed."""
+"""Golden numbers that are formulas of given numbers: captions, constants, pulsars, stars, expansions, geometry, closed forms of eta."""
 
 from flint import arb, fmpq
 from sympy import cos, series, sin, sqrt, symbols
@@ -59,7 +59,7 @@ def inertia_over_c(oblateness):
 
 
 def pulsars():
-    """Eqs. (41), (42) with the table's numbers."""
+    """Eqs. (41), (42) with the numbers of the table."""
     rows = {
         "PSR B1937+21, main pulse": ("1.6e-3", "8.3", "-0.048", 100, 75),
         "PSR B1937+21, interpulse": ("1.6e-3", "10", "0.053", 100, 105),
@@ -110,7 +110,7 @@ def stars():
 
 
 def geometry():
-    """Axes drawn in the figures of the Euler angles and of the cone."""
+    """Axes in the figures of the Euler angles and of the cone."""
     values = {"alpha": arb(1), "beta": arb(fraction("0.8")), "gamma": arb(fraction("0.9"))}
     for table, along in (("figure_euler_angles", "X Y Z"), ("figure_euler_angles_yzx", "Y Z X")):
         for i, axis in enumerate("xyz"):
@@ -125,7 +125,7 @@ def geometry():
 
 
 def eta():
-    """Where eta is closed: 1 / cos b, the root mean square at an inclination, and all of it for s^XX = s^YY."""
+    """Closed forms of eta: 1 / cos b, the root mean square at an inclination, and everything for s^XX = s^YY."""
     b, r = symbols("b r")
     # Root mean square over directions (1/3) and azimuths of 2 (s l) x l, with 2 s^ZZ - s^XX - s^YY = 1, s^XX - s^YY = r.
     at_inclination = sqrt(3 / (sin(b) ** 2 * ((1 + r**2) * cos(b) ** 2 + r**2 / 2 * sin(b) ** 2)))
@@ -150,7 +150,7 @@ def eta():
 def least(balls):
     """Enclosure of the least of some numbers."""
     balls = list(balls)
-    # min of arb is rigorous.
+    # The min of arb is rigorous.
     result = balls[0]
     for ball in balls[1:]:
         result = result.min(ball)

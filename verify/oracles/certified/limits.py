@@ -1,10 +1,10 @@
-"""Limits at 95 % of the two pulsars: by the error of the change of width, by unknown directions, and by both with the rounding of the
-other numbers.
+"""Limits at 95 % for the two pulsars: from the error of the change of width, from unknown directions, and from both with the rounding
+of the other numbers.
 
-The bound over eta, b = |4 sin(lambda) (d lambda / d W) Delta W / (Omega Delta t)|, is taken as normal: by the error of Delta W, and by that of each
-other number to first order (a printed number is uniform within its last digit: that over sqrt(12)). What |b| eta does not exceed with
-95 % has P(1 / eta < |b| / L) = 5 %, where 1 / eta = sin(lambda) (1 - mu^2) sin(t) / 2, mu in [0, 1] and t in [0, pi/2] uniform (unknown_axes).
-Of these the second probability is an elliptic integral, and the mean over b is left.
+The bound over eta, b = |4 sin(lambda) (d lambda / d W) Delta W / (Omega Delta t)|, is taken as normal, with the error of Delta W and that of each
+other number to first order (a printed number is uniform within its last digit: this digit over sqrt(12)). The limit L on |b| eta at 95 % has
+P(1 / eta < |b| / L) = 5 %, where 1 / eta = sin(lambda) (1 - mu^2) sin(t) / 2, with mu in [0, 1] and t in [0, pi/2] uniform (unknown_axes). This
+probability is an elliptic integral, and the mean over b remains.
 """
 
 from flint import acb, arb, ctx
@@ -55,8 +55,8 @@ def beyond(mean, spread, size):
 
 
 def above_all(mean, spread, sine):
-    """P(|b| eta > L): the mean over the sizes of b of P(1 / eta < |b| / L), which grows with b. Sizes below `low`, where that has a logarithm,
-    add no more than their own probability times that at `low`, those above `high` no more than their own."""
+    """P(|b| eta > L): the mean over the sizes of b of P(1 / eta < |b| / L), which increases with b. Sizes below `low`, where it has a
+    logarithm, add at most their own probability times its value at `low`, those above `high` at most their own probability."""
     low, high = (spread / 1000).mid(), (mean + 8 * spread).mid()
     scale = spread * (2 * arb.pi()).sqrt()
 
@@ -70,7 +70,7 @@ def above_all(mean, spread, sine):
             w = rate(size)
             wide = (w.real.rad() + w.imag.rad()) * 3 > abs(w.real.mid())
             if wide or not w.real > 0:
-                # A probability, on the real line.
+                # It is a probability for real arguments.
                 return acb("nan") if analytic else density(size) * arb(0).union(arb(1))
             return density(size) * below_rate(w)
 
@@ -100,7 +100,7 @@ def limits():
 
 
 def normal_quantile(above, probability, mean, spread):
-    """The size that is exceeded with one minus the probability, by halving."""
+    """The size that is exceeded with one minus the probability, by bisection."""
     rest = 1 - arb(probability)
     low, high = arb(mean.mid()), (mean + 4 * spread).mid()
     for _ in range(60):

@@ -1,15 +1,15 @@
-"""Rigorous motion of a spheroid: enclosures of n, L, e_x at any time, in ball arithmetic of as many digits as the span asks for.
+"""Rigorous motion of a spheroid: enclosures of n, L, e_x at any time, in ball arithmetic with as many digits as the span needs.
 
 Equations, in the principal frame of s (all of them quadratic):
 
     n' = L x n / I,    L' = -2 C n x (s n),    e' = (L - k n) x e / I,    k = (I^zz - I^xx) Omega^z, constant
 
-A step starts from a point without error, a distance d away from the motion. Its Taylor coefficients come in balls. What the polynomial of
-degree p leaves out is bounded by a majorant: the norms of all coefficients are below those of y' = c y^2, y(0) = y_0, which are
+A step starts from a point without error, at a distance d from the motion. Its Taylor coefficients come as balls. The remainder of the
+polynomial of degree p is bounded by a majorant: the norms of all coefficients are below those of y' = c y^2, y(0) = y_0, which are
 y_0 (c y_0)^j, with L in units of mu >= |L|, if c >= (mu + |k|) / I and c >= 2 C S / mu; S is half the spread of s (a multiple of the
-identity in s has no effect). So what is left out after the time h is at most y_0 r^(p+1) / (1 - r), r = c y_0 h.
+identity in s has no effect). Thus the remainder after the time h is at most y_0 r^(p+1) / (1 - r), r = c y_0 h.
 
-The distance to the motion grows by its logarithmic norm: two motions differ by a = |dn|, b = |dL| with
+The distance to the motion grows by the logarithmic norm: two motions differ by a = |dn|, b = |dL| with
 
     a' <= b |n| / I,    b' <= 2 C S a (|n| + |n~|)
 
@@ -36,7 +36,7 @@ def dot(a, b):
 
 
 def length(v):
-    """Euclidean length; a sum of squares is not negative, whatever its ball holds."""
+    """Euclidean length; a sum of squares is not negative, even where its ball is."""
     return dot(v, v).nonnegative_part().sqrt()
 
 
@@ -46,7 +46,7 @@ def upper(x):
 
 
 class Motion:
-    """Follows a motion from its initial balls through rising times."""
+    """Follows a motion from its initial balls through increasing times."""
 
     def __init__(self, body, s, state, digits):
         """`body` = (I^xx, I^zz, C) and `s` = eigenvalues, exact fractions; `state` = (n, L, e), balls."""
@@ -58,12 +58,12 @@ class Motion:
         n, momentum, e = state
         k = (self.i_zz - self.i_xx) * dot(momentum, n) / self.i_zz
         self.k, self.k_error = k.mid(), upper(abs(k - k.mid()))
-        # |L|^2 changes by 2 I C times the change of n.(s n) at most.
+        # |L|^2 changes by at most 2 I C times the change of n.(s n).
         self.mu = upper((dot(momentum, momentum) + 4 * self.i_xx * self.c * half_spread).sqrt()) * SLACK
         self.growth = upper((4 * self.c * half_spread / self.i_xx * SLACK**2).sqrt())
         rate = (self.mu + abs(self.k)) / self.i_xx
         self.majorant = upper(rate.max(2 * self.c * half_spread / self.mu) * SLACK**2)
-        # r = 1/8 with some 10^-digits left out by the polynomial.
+        # r = 1/8, with a remainder of the polynomial of about 10^-digits.
         self.exact_step = fmpq(int((2**20 / (8 * self.majorant)).lower().floor().unique_fmpz()), 2**20)
         self.step = arb(self.exact_step)
         self.order = int(digits / 0.903) + 2
@@ -72,7 +72,7 @@ class Motion:
         self._restart([*n, *momentum, *e])
 
     def _restart(self, balls):
-        """The next point: midpoints; radii go to the distance."""
+        """The next point: midpoints; the radii are added to the distance."""
         point = [x.mid() for x in balls]
         off = [upper(abs(x - y)) for x, y in zip(balls, point)]
         a, b, e = (upper(length(off[i : i + 3])) for i in (0, 3, 6))
@@ -111,7 +111,7 @@ class Motion:
         return x
 
     def _verify(self, x, gaps):
-        """Inserted in the equations the polynomials leave nothing below their degree: a check of the recurrence by other products."""
+        """The polynomials satisfy the equations below their degree: a check of the recurrence by other products."""
         n, momentum, e = x[0:3], x[3:6], x[6:9]
         turning = [a - self.k * b for a, b in zip(momentum, n)]
         left_over = [self.i_xx * v.derivative() for v in x]
@@ -139,7 +139,7 @@ class Motion:
         return d, upper(self.e_error + abs(h) * rate * SLACK)
 
     def at(self, t):
-        """Enclosures of n, L, e at the time t (a fraction or a ball), not before the last one asked for."""
+        """Enclosures of n, L, e_x at the time t (a fraction or a ball), not before the last requested one."""
         while True:
             h = t - arb(self.time)
             if h <= self.step:

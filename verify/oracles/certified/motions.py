@@ -1,4 +1,4 @@
-"""Golden numbers that come from motions: the examples to 500 t_c, and errors of perturbation solutions."""
+"""Golden numbers from motions: the examples to 500 t_c, and errors of perturbation solutions."""
 
 from flint import arb, ctx, fmpq
 
@@ -13,7 +13,7 @@ VIEW = {"theta_o": "0.8", "phi_o": "0", "chi": "0.5", "delta": "0"}
 
 
 def digits_for(s, span):
-    """What the growth of errors over the span takes, and 26 more."""
+    """Digits needed for the growth of errors over the span, plus 26."""
     half_spread = float((max(s) - min(s)).p) / float((max(s) - min(s)).q) / 2
     return int((4 * half_spread) ** 0.5 * float(span) / 2.302) + 26
 
@@ -26,8 +26,8 @@ def times(end, count):
 class Angles:
     """alpha and beta of an axis along a motion, alpha without jumps.
 
-    The rate of alpha is at most |L| / (I sin b), with |L| / I < 2 in all of these motions, and sin b changes by less than 2 in the unit of
-    time: from one look to the next, `gap` later, alpha moves by less than 2 gap / (sin b - 2 gap), checked to be below 3, so that the branch is decided.
+    The rate of alpha is at most |L| / (I sin b), with |L| / I < 2 in all of these motions, and sin b changes by less than 2 per unit of time: between
+    two samples, `gap` apart, alpha moves by less than 2 gap / (sin b - 2 gap), checked to be below 3, so that the branch is unique.
     """
 
     def __init__(self, alpha, gap):
@@ -64,7 +64,7 @@ def view():
 
 
 def of_example(name, to=200):
-    """The golden numbers of one example that its first 200 t_c give; with `to` = 500 those that take longer alone."""
+    """The golden numbers of one example within its first 200 t_c; with `to` = 500 only those that need longer."""
     digits = digits_for(COEFFICIENTS, to)
     ctx.dps = digits + 15
     example = examples()[name]
@@ -99,7 +99,7 @@ def of_example(name, to=200):
                 if not (twofold and 0 < t < span):
                     found[figure, f"angles: alpha [rad] {at}"] = alpha
                 found[figure, f"angles: beta [rad] {at}"] = beta
-                # Those that the golden table has.
+                # Those in the golden table.
                 by_solution = {"alpha": printed[0], "beta": printed[1]} if t > 0 else {}
                 if twofold and t < span:
                     by_solution.pop("alpha", None)
@@ -130,7 +130,7 @@ def of_example(name, to=200):
         found["figure_beam_alignment", f"{name}: m.n [1] largest"] = largest(alignment.values())
         for k, polarization in enumerate(("h_+", "h_x")):
             label = f"{name}: {polarization} [G I^xx / (c^4 t_c^2 r)]"
-            # At the start h_x vanishes, and the table is without it.
+            # At the start h_x vanishes and is not in the table.
             for t in (0, 50, 100)[k:]:
                 found["figure_waves", f"{label} at t = {t}.000"] = wave_values[fmpq(t)][k]
             found["figure_waves", f"{label} largest"] = largest(v[k] for v in wave_values.values())
@@ -140,7 +140,7 @@ def of_example(name, to=200):
 
 
 def sphere_numbers(first, name, components, values):
-    """Of the figure of the sphere."""
+    """Numbers of the figure of the sphere."""
     table = "figure_momentum_sphere"
     return {
         (table, f"{first} least"): least(components),

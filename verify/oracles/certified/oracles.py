@@ -1,4 +1,4 @@
-"""The digits of oracle tables in verify/data against balls: stars by closed forms of Eqs. (74), (75), reference motions by enclosures."""
+"""The digits of oracle tables in verify/data compared with balls: stars by closed forms of Eqs. (74), (75), reference motions by enclosures."""
 
 import csv
 from pathlib import Path
@@ -23,7 +23,7 @@ def rows(name):
 
 
 def deviation(ball, text):
-    """How far the enclosure may be from the decimal, over one unit of the decimal's last digit."""
+    """Largest possible distance of the enclosure from the decimal, in units of the decimal's last digit."""
     mantissa = text.lower().split("e")
     exponent = int(mantissa[1]) if len(mantissa) > 1 else 0
     decimals = len(mantissa[0].split(".")[1]) if "." in mantissa[0] else 0
@@ -32,7 +32,7 @@ def deviation(ball, text):
 
 
 def stars():
-    """A_0, A_1, A_3, C with two derivatives in x = e^2, a1 = rho = 1; 300 digits against the cancellation near the sphere."""
+    """A_0, A_1, A_3, C with two derivatives in x = e^2, a1 = rho = 1; 300 extra digits for the cancellation near the sphere."""
     ctx.dps = 400
     x = symbols("x")
     q = sqrt(1 - x)

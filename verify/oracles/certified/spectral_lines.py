@@ -1,20 +1,21 @@
 """Frequencies and amplitudes of the lines of m.n, h_+ and h_x of tp-I and tp-II, as functions of the angles of the torus.
 
-With theta_i = 2 pi tau_i t and the closed ways of `torus`, n and L have the period 2 pi in both angles. A vector u that the flows carry
-along has turned about n by psi_i after the way i, and
+With theta_i = 2 pi tau_i t and the closed paths of `torus`, n and L have the period 2 pi in both angles. A vector u carried by the flows
+has turned about n by psi_i after the path i, and
 
     V = (u + i n x u) exp(i (theta_1 psi_1 + theta_2 psi_2) / (2 pi)),      e_x = Re V exp(-i gamma' t),
 
-has those periods too if psi_i are the changes of gamma, which differ from the turns by whole ones. So with coefficients f_jk over the torus
-the line of n has the amplitude 2 |f_jk| and the frequency j w_1 + k w_2, that of e_x |V_jk| and j w_1 + k w_2 - gamma'.
+has the same periods if psi_i are the changes of gamma, which differ from these angles by full turns. So with coefficients f_jk over the
+torus the line of n has the amplitude 2 |f_jk| and the frequency j w_1 + k w_2, that of e_x |V_jk| and j w_1 + k w_2 - gamma'.
 
-Coefficients are sums over a grid. What such a sum adds are the coefficients whose indices differ by whole numbers of points, and they are
-small: the flow of (t, k) from any state of the torus converges in the complex time as long as its majorant c is below one, n and u are
-then at most 1 / (1 - c), L mu / (1 - c). With (t, k) = (eta_1 P_1 + eta_2 P_2) / (2 pi), time i, the functions of the angles are so bounded
-for all |Im theta_i| <= a_i (c is convex in eta: the corners are enough), and |f_jk| <= M exp(-a_1 |j| - a_2 |k|).
+Coefficients are sums over a grid. Such a sum also contains the coefficients whose indices differ by multiples of the numbers of points.
+They are small: the flow of (t, k) from any state of the torus converges at complex times as long as its majorant c is below one, and then n
+and u are at most 1 / (1 - c) and L at most mu / (1 - c). With (t, k) = (eta_1 P_1 + eta_2 P_2) / (2 pi), time i, the functions of the
+angles are bounded in this way for all |Im theta_i| <= a_i (c is convex in eta: the corners suffice), and
+|f_jk| <= M exp(-a_1 |j| - a_2 |k|).
 
-alpha' goes round once with theta_1 (`Way.turns`). l' is the azimuth of L averaged over theta_1: it goes round with theta_2 in the sense of
-that coefficient of L_X + i L_Y that is larger than all others together.
+alpha' circulates once with theta_1 (`Way.turns`). l' is the azimuth of L averaged over theta_1: it circulates with theta_2 in the sense of
+that coefficient of L_X + i L_Y that is larger than the sum of all others.
 """
 
 from flint import acb, arb, ctx
@@ -24,16 +25,16 @@ from motion import cross, dot
 from motions import inertia_acceleration, view
 from torus import Flow, Torus, upper
 
-# Of the closed ways, and of the states of the grid.
+# Digits for the closed paths, and for the states of the grid.
 DIGITS, OF_GRID = 40, 22
-# Starting values of Newton's method for the closed ways (t, k), found in doubles: the nutation, and once round the slow precession.
+# Starting values of Newton's method for the closed paths (t, k), found in doubles: the nutation, and one turn of the slow precession.
 WAYS = {
     "tp-I": [("4.1000062", "-0.7085652"), ("2.94743", "38.3096")],
     "tp-II": [("4.4282708", "-1.1832550"), ("3.02197", "46.5329")],
 }
-# Lines that the tables have, the strongest first: of m.n, and of each polarization.
+# Number of lines in the tables, the strongest first: for m.n, and for each polarization.
 SHOWN = {"tp-I": {"m.n": 5, "h_+": 4, "h_x": 4}, "tp-II": {"m.n": 9, "h_+": 8, "h_x": 8}}
-# Those of the figures of spectra: table, the names of columns, and which lines of which example.
+# Figures of spectra: table, names of columns, and the lines of each example.
 FREQUENCY, AMPLITUDE = "frequency [rad/t_c]", "amplitude [1]"
 STRAIN = "amplitude [G I^xx / (c^4 t_c^2 r)]"
 FIGURES = [
@@ -44,13 +45,13 @@ FIGURES = [
     ("figure_wave_spectra", "tp-I", "h_x", "cross-", (STRAIN,), (1, 2, 3)),
     ("figure_wave_spectra", "tp-II", "h_+", "plus-", (FREQUENCY, STRAIN), (1, 2, 8)),
 ]
-# Widths of the strip, and least points of the grid, in the two angles.
+# Widths of the strip, and smallest numbers of grid points, in the two angles.
 STRIP = arb("0.4"), arb("0.4")
 POINTS = 88, 88
 
 
 def name_of(multiples):
-    """As the golden table writes a combination."""
+    """A combination as written in the golden table."""
     out = ""
     for k, symbol in zip(multiples, ("alpha'", "gamma'", "l'")):
         if k:
@@ -66,7 +67,7 @@ class Grid:
         self.torus = torus
         first, second = torus.ways
         self.observer, self.plus, self.crossed, self.chi = view()
-        # Steps are those of the ways' midpoints: by so much the state and u may still move.
+        # Steps are those of the midpoints of the paths: state and u may be off by this rest.
         self.rest = arb(0)
         for way in torus.ways:
             dt, dk = (abs(a - b).upper() for a, b in ((way.t, way.exact[0]), (way.k, way.exact[1])))
@@ -111,12 +112,12 @@ class Grid:
         second = 2 * star.c * spread * n**3 + momentum * rate
         gammas = [abs(way.gamma) for way in self.torus.ways]
         growth = ((STRIP[0] * gammas[0] + STRIP[1] * gammas[1]) / (2 * arb.pi())).exp()
-        # In both tensors two products of unit vectors.
+        # Both tensors have two products of unit vectors.
         wave = abs(star.i_zz - star.i_xx) * 2 * (2 * second * n + 2 * rate**2)
         return {"n": n, "V": (n + n**2) * growth, "h_+": wave, "h_x": wave, "L": 2 * momentum}
 
     def coefficients(self, signal, only=None):
-        """Balls of f_jk by (j, k), of all with |j|, |k| below half of the points, or with one j only."""
+        """Balls of f_jk by (j, k), for all |j|, |k| below half of the points, or for one j only."""
         n_1, n_2 = self.points
         bound = self.bounds()[signal]
         powers = lambda number: [acb(arb(-2 * i) / number).exp_pi_i() for i in range(number)]
@@ -140,18 +141,18 @@ class Grid:
         return [number // 2 for number in self.points]
 
     def beyond(self, signal):
-        """No coefficient with |j| or |k| of half of the points or more is larger."""
+        """An upper bound of all coefficients with |j| or |k| of half of the points or more."""
         return self.bounds()[signal] * max((-a * half).exp() for a, half in zip(STRIP, self.half()))
 
     @staticmethod
     def _sum(a, j, number):
-        """Sum of exp(-a |j + p number|) over whole p, |j| <= number / 2, from above."""
+        """An upper bound of the sum of exp(-a |j + p number|) over integers p, |j| <= number / 2."""
         own = (-a * abs(j)).exp()
         others = ((-a * (number - abs(j))).exp() + (-a * (number + abs(j))).exp()) / (1 - (-a * number).exp())
         return own + others
 
     def sense(self):
-        """How often the azimuth of the averaged L goes round with theta_2."""
+        """Number of turns of the azimuth of the averaged L with theta_2."""
         sizes = {k: abs(value) for (_, k), value in self.coefficients("L", only=0).items()}
         beyond = self.beyond("L") * 2 / (1 - (-STRIP[1]).exp())
         largest = max(sizes, key=lambda k: sizes[k].mid())
@@ -173,7 +174,7 @@ class Lines:
         self.rates = self.torus.alpha_rate(), self.torus.gamma_rate(), self.sense * self.torus.second_rate()
 
     def of(self, signal):
-        """Amplitudes of all lines of m.n = cos(chi) n.o + sin(chi) e_x.o, or of h_+ or h_x, by their multiples, and what all others are below."""
+        """Amplitudes of all lines of m.n = cos(chi) n.o + sin(chi) e_x.o, or of h_+ or h_x, by their multiples, and an upper bound of all others."""
         chi = self.grid.chi
         parts = [("n", 2 * chi.cos(), 0), ("V", chi.sin(), -1)] if signal == "m.n" else [(signal, arb(2), 0)]
         found, beyond = {}, arb(0)

@@ -1,25 +1,25 @@
-"""The invariant torus of a motion by closed ways, and with it mean rates over infinite time.
+"""The invariant torus of a motion from closed paths, which give mean rates over infinite time.
 
 H and K = L.(s L) - 2 C I n.(adj(s) n) commute, so that n and L lie on a torus on which the flows of H and K are translations. A function
 F = t H + k K has the flow
 
     n' = (p L) x n,    L' = (p L) x L + (q n) x n,    u' = (p L) x u,    p = t / I + 2 k s,    q = 2 C t s - 4 C I k adj(s)
 
-(p, q diagonal), u any vector carried along. A pair (t, k) whose flow leads back after the time one is a closed way. With two of them, and
-(1, 0) = tau_1 (t_1, k_1) + tau_2 (t_2, k_2), an angle of the state that changes by A_i along the way i has the mean rate
-tau_1 A_1 + tau_2 A_2 for ever: what is left is a function on the torus, and bounded. The star turns about n by Omega^z - L.n / I more than u.
+(p, q diagonal), u any vector carried along. A pair (t, k) whose flow returns after the time one is a closed path. With two of them, and
+(1, 0) = tau_1 (t_1, k_1) + tau_2 (t_2, k_2), an angle of the state that changes by A_i along the path i has the mean rate
+tau_1 A_1 + tau_2 A_2 for ever: the remainder is a bounded function on the torus. The star turns about n by Omega^z - L.n / I more than u.
 
-No estimate is left in it:
+The result is rigorous:
 
 - the flow is a Taylor series as in `motion`, with the majorant y' = c y^2: |n|, |u| are one, |L| <= mu as H is conserved, so that
   c >= |p| mu for n, u and c >= P mu + Q / mu for L / mu; |p| is the largest, P and Q half the spread of p and q (a multiple of the identity
   in either has no effect on L);
-- two motions part by a = |dn|, b = |dL| with a' <= |p| b and b' <= 2 P mu b + 2 Q a, so by e^(g t), g = max(|p| w, 2 P mu + 2 Q / w), in
-  max(a, b / w); |du|' <= |p| b;
-- a way closes: its end y is in a small box D about the start x, and has the same n.n, L.n, H, K. For (dt, dk) from Newton's operator on
+- two motions differ by a = |dn|, b = |dL| with a' <= |p| b and b' <= 2 P mu b + 2 Q a, so that max(a, b / w) grows at most as e^(g t),
+  g = max(|p| w, 2 P mu + 2 Q / w); |du|' <= |p| b;
+- a path closes: its end y is in a small box D about the start x, and has the same n.n, L.n, H, K. For (dt, dk) from Newton's operator on
   two components of (n, L), whose rates by H and K have no vanishing determinant in D, the flow leads from y to a point with the
-  components of x, within D. The two components and the four integrals have no vanishing Jacobian in D, so they are one to one there, and
-  that point is x;
+  components of x, within D. The two components and the four integrals have no vanishing Jacobian in D, so that they are one to one
+  there, and that point is x;
 - angles are followed without jumps: alpha and gamma change at no more than 2 |p L| / sin^2 b.
 """
 
@@ -29,7 +29,7 @@ from flint import arb, arb_mat, arb_poly, ctx
 
 from motion import CYCLIC, SLACK, cross, dot, length, upper
 
-# Places in a step at which angles are followed.
+# Places per step at which angles are followed.
 LOOKS = 16
 
 
@@ -106,7 +106,7 @@ class Flow:
         return x
 
     def verify(self, x):
-        """Inserted in the equations the polynomials leave nothing below their degree: a check of the recurrence by other products."""
+        """The polynomials satisfy the equations below their degree: a check of the recurrence by other products."""
         n, momentum, u = x[0:3], x[3:6], x[6:9]
         turning = [a * b for a, b in zip(momentum, self.p)]
         torque = cross([a * b for a, b in zip(n, self.q)], n)
@@ -116,7 +116,7 @@ class Flow:
             assert all(value.contains(0) for value in left), "the series does not solve the equations"
 
     def steps(self, looks=1, at_least=1):
-        """States at equal parts of the time one, and how many there are: steps as the majorant asks for, each with some looks."""
+        """States at equal parts of the time one, and their number: steps required by the majorant, each with some samples."""
         number = max(int(float(upper(8 * self.majorant * SLACK).mid())) + 1, at_least)
         h = arb(1) / number
         balls = [x for vector in self.state for x in vector]
@@ -153,7 +153,7 @@ def euler(n, u):
 
 
 class Way:
-    """A closed way from a state, near (t, k)."""
+    """A closed path from a state, near (t, k)."""
 
     def __init__(self, star, state, t, k, digits):
         self.star, self.digits = star, digits
@@ -170,7 +170,7 @@ class Way:
         assert radius is not None, "not closed"
         self.t, self.k = t + dt, k + dk
         self.exact = t, k
-        # By the rest of the way angles change by no more than this.
+        # Over the remaining part of the path, angles change by no more than this.
         turning = self.star.tensors(abs(dt), abs(dk))[0]
         sine2 = state[0][0] ** 2 + state[0][1] ** 2
         rest = upper(2 * self.star.mu * sum(abs(x) for x in turning) / sine2 * 2)
@@ -201,7 +201,7 @@ class Way:
         return [*n, *momentum]
 
     def _closing(self, end):
-        """Newton's (dt, dk) from the end to the start, and the size of the box in which it is proved (none if it is not)."""
+        """Newton's (dt, dk) from the end to the start, and the size of the box in which it is proved (None if it is not)."""
         off = [a - b for a, b in zip(self.start, end)]
         size = upper(length(off))
         rates = [self.star.rates(arb(a), arb(b), self.start[:3], self.start[3:]) for a, b in ((1, 0), (0, 1))]
@@ -214,7 +214,7 @@ class Way:
         rates = [self.star.rates(arb(a), arb(b), inside[:3], inside[3:]) for a, b in ((1, 0), (0, 1))]
         d = determinant(rates, i, j)
         if d.contains(0) or not box < arb("1e-3"):
-            # Not near enough: a plain step of least squares.
+            # If the end is not near enough: a step of least squares.
             rates = [self.star.rates(arb(a), arb(b), end[:3], end[3:]) for a, b in ((1, 0), (0, 1))]
             hh, hk, kk = dot(rates[0], rates[0]), dot(rates[0], rates[1]), dot(rates[1], rates[1])
             right = dot(rates[0], off), dot(rates[1], off)
@@ -231,7 +231,7 @@ class Way:
 
 
 class Torus:
-    """Two closed ways and what goes round with them."""
+    """Two closed paths and the angles that circulate with them."""
 
     def __init__(self, body, s, state, guesses, digits):
         ctx.dps = digits + 15
@@ -245,7 +245,7 @@ class Torus:
         self.spin_rest = dot(state[1], state[0]) * (1 / self.star.i_zz - 1 / self.star.i_xx)
 
     def rate(self, changes):
-        """Mean rate of an angle by its changes along the ways."""
+        """Mean rate of an angle from its changes along the paths."""
         return sum((tau * change for tau, change in zip(self.tau, changes)), arb(0))
 
     def alpha_rate(self):
@@ -255,5 +255,5 @@ class Torus:
         return self.rate([way.gamma for way in self.ways]) + self.spin_rest
 
     def second_rate(self):
-        """Of the second angle of the torus."""
+        """Rate of the second angle of the torus."""
         return 2 * arb.pi() * self.tau[1]

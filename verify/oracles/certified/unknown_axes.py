@@ -1,7 +1,7 @@
-"""The factor eta where nothing is known of the axes: every direction of the spin axis l is as likely, and of the observer too, or the
+"""The factor eta for unknown axes: every direction of the spin axis l is equally likely, and that of the observer, too, or the
 observer is at a known angle lambda to l, at any azimuth.
 
-For r = 0, v = |lZ| sqrt(1 - lZ^2). Isotropic observers: with z_1, z_2 the places where v x = 1, artanh sqrt(1 - z^2) being an integral of
+For r = 0, v = |lZ| sqrt(1 - lZ^2). Isotropic observers: with z_1, z_2 the roots of v x = 1, and artanh sqrt(1 - z^2) an integral of
 1 / (z sqrt(1 - z^2)),
 
     P(eta > x) = z_1 + 1 - z_2 + (artanh z_2 - artanh z_1) / x,      z_1^2 + z_2^2 = 1.
@@ -16,9 +16,9 @@ For r != 0 and an azimuth alpha of l, with lZ = sin(theta), a = r^2 sin^2 2 alph
 
     q = (v x)^2 = x^2 cos^2 theta (a cos^2 theta + b sin^2 theta),      q - 1 = x^2 (b - a) (sin^2 theta - Z_1) (Z_2 - sin^2 theta),
 
-the share of directions is one below theta_1, if Z_1 > 0, and above theta_2, and between them 1 / sqrt(q), or, at the angle lambda with
-x sin(lambda) for x, 1 - (2 / pi) atan sqrt(q - 1). The integral over theta is an analytic function of alpha but where Z_1 = 0, that is
-x |r| sin 2 alpha = 1: there the azimuths are cut.
+the share of directions is one below theta_1, if Z_1 > 0, and above theta_2. Between them it is 1 / sqrt(q) or, at the angle lambda
+with x sin(lambda) for x, 1 - (2 / pi) atan sqrt(q - 1). The integral over theta is an analytic function of alpha except at Z_1 = 0,
+that is x |r| sin 2 alpha = 1: the range of azimuths is divided there.
 """
 
 from flint import acb, arb, ctx, fmpq
@@ -68,7 +68,7 @@ def at_azimuth(r, edge, size, u, x, on_cone, tolerance, limit, analytic):
     if edge is None:
         rest = 1 / x**2 - a
     else:
-        # sin^2 of twice the edge and of twice alpha; without u^2.
+        # sin^2 of twice the edge minus that of twice alpha, over u^2.
         rest = r**2 * -2 * size * sinc(2 * size * u**2) * (2 * (alpha + edge)).sin()
     z_1 = rest / ((b - a) * (1 - small))
     begin = z_1.sqrt(analytic) if cut else acb(0)
@@ -76,7 +76,7 @@ def at_azimuth(r, edge, size, u, x, on_cone, tolerance, limit, analytic):
         z_1, begin = z_1 * u**2, begin * u
     end = (1 - small).sqrt(analytic)
     tangents = begin / (1 - z_1).sqrt(analytic) if cut else acb(0), end / small.sqrt(analytic)
-    # Off the cuts of atan, which are imaginary.
+    # Away from the cuts of atan, which are imaginary.
     if not (tangents[1].real > 0 and abs(tangents[0].imag) < 1):
         return acb("nan")
     theta_1, theta_2 = (tangent.atan() for tangent in tangents)
@@ -88,7 +88,7 @@ def at_azimuth(r, edge, size, u, x, on_cone, tolerance, limit, analytic):
 
     def seen_at_angle(u, flag):
         flag = flag or analytic
-        # Towards both ends as a square, so that sqrt(q - 1) is smooth there.
+        # The variable is a square at both ends, so that sqrt(q - 1) is smooth there.
         s, c = (u * arb.pi() / 2).sin(), (u * arb.pi() / 2).cos()
         theta = theta_1 + width * s**2
         from_end = c * (width * sinc(width * c**2) * (theta_2 + theta).sin()).sqrt(flag)
@@ -111,7 +111,7 @@ def above_asymmetric(r, on_cone=False, tolerance=arb("1e-8"), limit=3000):
 
     def above(x):
         def over(ratio, edge, size):
-            """Integral over azimuths from the edge on, as a square, or from zero."""
+            """Integral over azimuths from the edge on, with a squared variable, or from zero."""
 
             def integrand(u, analytic):
                 share = at_azimuth(ratio, edge, size, u, x, on_cone, tolerance, limit, analytic)
@@ -119,7 +119,7 @@ def above_asymmetric(r, on_cone=False, tolerance=arb("1e-8"), limit=3000):
 
             return acb.integral(integrand, 0, 1, rel_tol=tolerance, abs_tol=tolerance).real
 
-        # Half of the quarter turn; the other half is that of -r.
+        # One half of the quarter turn; the other half is that of -r.
         half, total = arb.pi() / 4, arb(0)
         for ratio in (r, -r):
             if x * abs(r) < 1:
@@ -133,7 +133,7 @@ def above_asymmetric(r, on_cone=False, tolerance=arb("1e-8"), limit=3000):
 
 
 def unknown_axes(ratio):
-    """The lines of the table of eta for unknown axes, for r = 0, -1/11 or -1/3 (a stroke for the fraction's)."""
+    """The lines of the table of eta for unknown axes, for r = 0, -1/11 or -1/3 (`ratio` as a text)."""
     probability = fraction("0.95")
     if ratio == "0":
         for angle in (95, 100):
@@ -149,7 +149,7 @@ def unknown_axes(ratio):
     yield "eta", f"r = {r}, axis unknown: median", quantile(above_asymmetric(r), fraction("0.5"), median, arb("1.5e-5"))
     above = above_asymmetric(r, False, arb("1e-9"), 20000)
     yield "eta", f"r = {r}, axis unknown: 95 %", quantile(above, probability, high, arb("4e-6"))
-    # Of eta sin(lambda).
+    # Quantile of eta sin(lambda).
     found = quantile(above_asymmetric(r, True), probability, seen_high, arb("2.5e-5"))
     for angle in (95, 100):
         sine = DEGREE(angle).sin()

@@ -3,18 +3,18 @@
     python3 verify/oracles/mpmath/bench_states.py
 
 writes tools/bench/data/scenes.csv, the exact initial values, and tools/bench/data/states.csv, n, L and e_x at t = 10, 100
-and 1000 t_c in 30 digits. Every number of a scene is a double written out in full, so that a program that reads it has the
+and 1000 t_c in 30 digits. Every number of a scene is a double with all its digits, so that a program that reads it has the
 same scene to the last bit. The equations are (I^xx = C = 1)
 
     dn/dt = L x n,   dL/dt = -2 n x (s n),   d e_x/dt = Omega x e_x,   Omega = L - (1 - 1/I^zz) (L.n) n
 
-n and e_x are doubles, so that |n| = 1 and n.e_x = 0 hold to 1e-16 only; the equations are integrated as they stand, with
-what |n| is. Scenes:
+n and e_x are doubles, so that |n| = 1 and n.e_x = 0 hold only to 1e-16; the equations are integrated with this |n|.
+Scenes:
 
     tp-I, tp-II, sp-I, sp-II   the initial states of the paper's examples, rounded to doubles
     nearly-free                tp-II with s times 2.5e-5: s ~ 1e-6
-    nearly-separatrix          tp-II turned as a whole, so that L is 1e-4 rad from the middle eigenvector (Y) of s, towards X and Z
-                               alike: the averaged motion of L/|L| starts that near to the saddle of l.(s l)
+    nearly-separatrix          tp-II rotated so that L is 1e-4 rad from the middle eigenvector (Y) of s, equally towards X and Z:
+                               the averaged motion of L/|L| starts at that distance from the saddle of l.(s l)
     strongly-violated          s = (0.3, 0.1, -0.4), otherwise the initial state of tp-II
 
 It refuses to write unless the integrals (energy, L.n, K, n.n, e_x.e_x, n.e_x) are constant to 1e-40, and unless a second run with

@@ -62,7 +62,7 @@ def carlson_rows():
             spread = [0.0, 1.0, 4.0, 8.0][case % 4]
             args = [log_uniform(-spread, spread) * random.uniform(0.5, 1.5) for _ in variables]
             if name.endswith("pair"):
-                # The angle of the pair up to 2.6 rad: well off the negative axis, where it is singular.
+                # The angle of the pair is up to 2.6 rad, well off the negative axis, where the integrals are singular.
                 size, angle = abs(args[1]), random.uniform(0.0, 2.6)
                 args[1], args[2] = float(size * mp.cos(angle)), float(size * mp.sin(angle))
             index = case % len(variables)

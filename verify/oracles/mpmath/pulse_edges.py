@@ -7,8 +7,8 @@ rho = 0.6, seen from theta_o = 0.8, phi_o = 0, with the time at which m.n is lar
 
     dn/dt = L x n,   dL/dt = -2 n x (s n),   d e_x/dt = Omega x e_x,   Omega = L - epsilon Omega^z n      (I^xx = C = 1)
 
-An edge is a root of m.n - cos rho of the series, by Newton's method; the largest m.n a root of its rate. Within each step the sign of m.n - cos rho is taken at 40
-times, and at each extremum between two of them, so that a short pulse is not passed over. The script refuses to write unless
+An edge is a root of m.n - cos rho of the series, by Newton's method; the largest m.n is a root of its rate. Within each step the sign of
+m.n - cos rho is taken at 40 times and at each extremum between two of them, so that no short pulse is missed. The script refuses to write unless
 energy, spin and the third integral are constant and n, e_x orthonormal to 1e-32, and unless the states agree with
 verify/data/reference_states.csv, which another program computed, to its 22 digits.
 """

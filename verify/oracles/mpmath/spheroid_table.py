@@ -1,4 +1,4 @@
-"""Makes the table of potential coefficients of uniform spheroids, `verify/data/spheroid.csv`.
+"""Computes the table of potential coefficients of uniform spheroids, `verify/data/spheroid.csv`.
 
 Closed forms of Eqs. (74), (75) and their first and second derivatives with respect to x = e^2, evaluated with mpmath at
 200 digits (the closed forms cancel like x^-3, with derivatives x^-5, and x goes down to 1e-24) and written with 34.

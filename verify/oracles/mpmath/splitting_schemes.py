@@ -9,10 +9,10 @@ of sum_m tau^m A_m, so that
     one factor s:    sum_i b_i tau_i^2k = 1 / ((2k+1) 4^k),                                               order 2k+2
     two factors s:   [A_m, A_n]:  sum_(i<j) b_i b_j (tau_i^m tau_j^n - tau_i^n tau_j^m) + 2 (n-m) sum_i c_i tau_i^(m+n-1)
                                   = the same integral over -1/2 < tau_1 < tau_2 < 1/2,   m + n = 1, 3, 5, order m+n+3
-    three factors:   one condition in degree five, since {V,{V,{T,V}}} = 0. That of the harmonic oscillator, whose half trace is
-                     cos sqrt(z), is it once the others hold: coefficient of z^3 equal to -1/720.
+    three factors:   one condition in degree five, since {V,{V,{T,V}}} = 0. If the others hold, that of the harmonic oscillator
+                     suffices, whose half trace is cos sqrt(z): coefficient of z^3 equal to -1/720.
 
-The solutions were found by least squares from random starts and are polished here by Newton's method in 60 digits.
+The solutions come from least squares with random starts and are refined here by Newton's method in 60 digits.
 """
 
 import mpmath as mp
@@ -31,7 +31,7 @@ def ordered_integral(m, n):
 
 
 def conditions(rotations, kicks, gradients, kicks_first, one, two, three):
-    """Residuals: `one` conditions with one factor s, the pairs (m, n) of `two`, and that with three if asked."""
+    """Residuals: `one` conditions with one factor s, the pairs (m, n) of `two`, and the condition with three factors if requested."""
     times, now = [], -HALF
     for index in range(len(kicks)):
         if not (kicks_first and index == 0):
@@ -91,7 +91,7 @@ def eight_six_four(a1, a2, b1, b2, c2, c3):
 
 
 def eight_six_six(a1, b1, b2, b3, c2, c3, c4):
-    """Six rotations, kicks at both ends, the outer ones without gradient; a2 = 0.403 makes the next error nearly least."""
+    """Six rotations, kicks at both ends, the outer ones without gradient; a2 = 0.403 nearly minimises the next error."""
     a2 = mp.mpf("0.403")
     return (
         mirrored([a1, a2, HALF - a1 - a2], False),

@@ -1,9 +1,9 @@
-"""Recomputes what the command `twofold` writes for the scenes beside it.
+"""Recomputes the output of the command `twofold` for the scenes in this folder.
 
-    python verify/oracles/second_program            compare with the answers that are kept
-    python verify/oracles/second_program --update   write them anew
+    python verify/oracles/second_program            compare with the stored answers
+    python verify/oracles/second_program --update   rewrite them
     python verify/oracles/second_program NAME ...   only these files of answers
-    python verify/oracles/second_program --data     write the data of the fits anew
+    python verify/oracles/second_program --data     rewrite the data of the fits
 """
 
 import functools
@@ -20,7 +20,7 @@ import keys
 from scene import Scene
 
 HERE = pathlib.Path(__file__).parent
-# Epochs that options of `timing` give, as modified Julian dates: other dates, and steps in days from the first to the last of the scene.
+# Epochs for the options of `timing`, as modified Julian dates: other dates, and steps in days from the first to the last of the scene.
 EPOCHS = {
     "keys-dates": [
         (["--from", "53790.25", "--to", "53850.5", "--epochs", "7"], [53790.25 + k * 60.25 / 6 for k in range(7)]),
@@ -33,7 +33,7 @@ SPECTRA = json.loads((HERE / "spectra.json").read_text())
 
 
 def answered(file, name, changed):
-    """All commands of one scene, with keys changed, with their outputs."""
+    """All commands of one scene, with changed keys, and their outputs."""
     unchanged = Scene.read(HERE / "scenes" / f"{name}.toml")
     scene = unchanged.changed(changed)
     done = []
@@ -47,7 +47,7 @@ def answered(file, name, changed):
     if scene.epoch is None or name in keys.CASES:
         answer(["run", "{scene}", *columns], lambda s, n: commands.run(s, n, chosen))
         if "perturbation" in commands.groups(scene):
-            # Without any motion.
+            # This needs no motion.
             answer(["run", "{scene}", "--columns", "perturbation"], lambda s, n: commands.run(s, n, ["perturbation"]))
         if scene.pulsar is not None:
             answer(["pulses", "{scene}", *second], lambda s, n: commands.pulse_list(s, n, bool(second)))
@@ -64,7 +64,7 @@ def answered(file, name, changed):
             arguments = ["timing", "{scene}", "--out", "{out}", *strain, *options]
             answer(arguments, lambda s, n, dates=tuple(dates): commands.timing_files(s, n, name, 1, rate, 1.0, dates), error)
     for options in SPECTRA.get(file, []):
-        # The span is that of the series here; the command needs none.
+        # The span is that of the series here; the command needs no span.
         flags = [f"--{option}={options[option]}" for option in ("least", "most")]
         arguments = ["spectrum", "{scene}", f"--of={options['column']}", *flags]
         answer(arguments, lambda s, n, o=options: commands.spectrum(s, n, **o))
@@ -72,14 +72,14 @@ def answered(file, name, changed):
 
 
 def tasks():
-    """What is answered: by the name of its file the scene, the keys that are changed, and how the commands are answered."""
+    """The files of answers: by file name the scene, the changed keys, and the function that answers the commands."""
     found = {}
     for path in sorted((HERE / "scenes").glob("*.toml")):
         found[path.stem] = (path.stem, {})
     for scene, cases in keys.CASES.items():
         found.update({f"{scene}.{key}": (scene, {key: value}) for key, value in cases.items()})
     found = {file: (*task, functools.partial(answered, file, *task)) for file, task in found.items()}
-    # Those of many scenes and of data name their files themselves.
+    # Commands for many scenes and for data name their files themselves.
     return found | {file: (None, {}, answer) for file, answer in further.tasks().items()}
 
 

@@ -1,10 +1,10 @@
 """The answers of the second program as data: tables with a tolerance for each column.
 
 Every table is computed three times: from the scene; from the scene with other numerics (segments, points, spans of spectra); and from the
-scene with every number moved by 1e-7 of itself, up or down. A column's tolerance is ten times
+scene with every number changed by a relative 1e-7, up or down. A column's tolerance is ten times
 
     the difference by numerics  +  the change of the column / 1e-7  x  the error that the command states for its motion:
-                                   the tolerance asked and 2.2e-16 for each radian of rotation
+                                   the requested tolerance and 2.2e-16 for each radian of rotation
 
 so that it is what an error of that size in the scene's numbers does to the column, and nothing is chosen by hand. Four roundings of the
 column's largest number come on top. The delay by a cause of residuals is a difference of times: ten times that error over the rate of rotation too.
@@ -25,7 +25,7 @@ FACTOR = 10.0
 
 
 def moved(scene):
-    """The scene with every number of the sections that make the motion and its observer moved by 1e-7 of itself, up or down."""
+    """The scene with every number that determines the motion and its observer changed by a relative 1e-7, up or down."""
     signs = random.Random(1)
 
     def nudge(value):
@@ -45,7 +45,7 @@ def moved(scene):
 
 
 def state_error(scene):
-    """What the command states of its motion: the tolerance asked and the rounding of the rotation over the span."""
+    """The error that the command states for its motion: the requested tolerance and the rounding of the rotation over the span."""
     motion = Motion(scene, scene.start, scene.start)
     return scene.tolerance + 2.2e-16 * motion.turning * abs(scene.end - scene.start)
 
@@ -67,7 +67,7 @@ def timing_error(scene):
 
 
 def tables(compute, scene, error=None):
-    """`compute(scene, numerics)` gives {output: (separator, rows)}; so does this, with the tolerances of the columns."""
+    """`compute(scene, numerics)` gives {output: (separator, rows)}; this adds the tolerances of the columns."""
     error = state_error(scene) if error is None else error
     nominal, other, shifted = compute(scene, FINE), compute(scene, OTHER), compute(moved(scene), FINE)
     outputs = {}
@@ -101,21 +101,21 @@ def _tolerances(rows, other, shifted, error):
 
 
 def _plain(rows):
-    """Numbers that count, texts, and doubles as such; nothing for an empty field."""
+    """Plain numbers, texts and doubles; an empty text for None."""
     plain = {str: str, int: int, float: float, np.float64: float, np.int64: int, type(None): lambda _: ""}
     return [[plain[type(cell)](cell) for cell in row] for row in rows]
 
 
 def write(path, answer):
-    """One file of answers: a scene, what is changed in it, commands with their outputs."""
+    """One file of answers: a scene, its changed keys, commands with their outputs."""
     text = json.dumps(answer, indent=1)
-    # A row of a table, and a list of numbers, on a line.
+    # A row of a table or a list of numbers is put on one line.
     text = re.sub(r"\[\s+([^\[\]{}]*?)\s+\]", lambda found: "[" + re.sub(r"\s*\n\s*", " ", found[1]) + "]", text)
     path.write_text(text + "\n")
 
 
 def differences(kept, anew):
-    """Sentences about what in `anew` is not in `kept` to its tolerances: both as read from files."""
+    """Sentences about differences of `anew` from `kept` above the tolerances; both as read from files."""
     if [c["arguments"] for c in kept["commands"]] != [c["arguments"] for c in anew["commands"]]:
         return ["other commands"]
     found = []

@@ -1,4 +1,4 @@
-"""What `twofold bounds --json` prints: Eqs. (41) to (43) of the paper, linear errors, and limits at 95 % over directions.
+"""The output of `twofold bounds --json`: Eqs. (41) to (43) of the paper, linear errors, and limits at 95 % over directions.
 
 Directions: `eta = 1 / (v sin(lambda) |cos psi|)`, where `psi` is uniform and `v = sin b |cos b|` for a tensor symmetric about an axis at the
 angle `b` to the spin axis: given as `beta_0`, or isotropic.
@@ -22,11 +22,11 @@ ROUND_INERTIA_OVER_C = 1e-5  # s^2
 
 
 class _Number(str):
-    """A number as it stands in the file, with its digits."""
+    """A number as written in the file, with its digits."""
 
 
 def _with_uncertainty(written) -> tuple[float, float, bool]:
-    """Value, standard uncertainty and whether that is given: one half of the last digit over sqrt(3) where it is not."""
+    """Value, standard uncertainty, and whether it is given: otherwise it is half of the last digit over sqrt(3)."""
     if isinstance(written, list):
         return float(written[0]), float(written[1]), True
     exponent = Decimal(str(written)).as_tuple().exponent
@@ -34,9 +34,9 @@ def _with_uncertainty(written) -> tuple[float, float, bool]:
 
 
 def read(path: str, move: float = 0.0) -> list[dict]:
-    """The pulses of a table: texts, and of each number value, standard uncertainty and whether that is given.
+    """The pulses of a table: texts, and for each number its value, standard uncertainty and whether that is given.
 
-    Values are moved by the part `move` of themselves, up and down in turn.
+    Values are changed by the fraction `move`, alternately up and down.
     """
     with open(path, "rb") as file:
         table = tomllib.load(file, parse_float=_Number)
@@ -54,7 +54,8 @@ def read(path: str, move: float = 0.0) -> list[dict]:
 
 
 def figures(x: dict) -> dict:
-    """What follows from the numbers of one pulse, by its key in the output, bounds with the sign of the change; of any number type."""
+    """The quantities that follow from the numbers of one pulse, by their keys in the output, bounds with the sign of the change; for any number
+    type."""
     degree = mpmath.pi / 180
     width, lambda_, chi = (x[key] * degree for key in ("width", "lambda", "chi"))
     spin = 2 * mpmath.pi * x["spin_frequency"] if "spin_frequency" in x else 2 * mpmath.pi / x["spin_period"]
@@ -75,7 +76,7 @@ def figures(x: dict) -> dict:
 
 
 def _with_errors(numbers: dict) -> dict:
-    """Of each figure its value and its standard uncertainties: from the change of width, and from all other numbers."""
+    """For each figure its value and its standard uncertainties: from the change of width, and from all other numbers."""
     with mpmath.workdps(50):
         centre = {key: mpmath.mpf(value) for key, (value, *_) in numbers.items()}
         values = figures(centre)
@@ -94,7 +95,7 @@ def _with_errors(numbers: dict) -> dict:
 
 
 def _size_quantile(mean: float, deviation: float) -> float:
-    """What the size of a normal number does not exceed with the probability `CONFIDENCE`."""
+    """The size that a normal number does not exceed with the probability `CONFIDENCE`."""
     if deviation == 0:
         return abs(mean)
     m = abs(mean) / deviation
@@ -117,12 +118,13 @@ def _slow_part(a: np.ndarray) -> np.ndarray:
 
 
 def _slow_part_at(inclination: float, a: np.ndarray) -> np.ndarray:
-    """The same for an axis at this angle (rad)."""
+    """The same for an axis at the inclination (rad)."""
     return 2 / np.pi * np.arcsin(np.minimum(1.0, a / abs(math.sin(inclination) * math.cos(inclination))))
 
 
 def _limit(mean: float, deviation: float, slow, sine: float, corner: float) -> float:
-    """What `|x| eta` does not exceed with the probability `CONFIDENCE`: `x` normal, `P(v |cos psi| < a) = slow(a)`, one from `corner` on."""
+    """The size that `|x| eta` does not exceed with the probability `CONFIDENCE`: `x` normal, `P(v |cos psi| < a) = slow(a)`, which is one from
+    `corner` on."""
     if mean == 0 and deviation == 0:
         return 0.0
 
@@ -135,7 +137,7 @@ def _limit(mean: float, deviation: float, slow, sine: float, corner: float) -> f
         if last <= first:
             return 1.0
         points = np.array([first, *sorted(x for x in (m - 4, m, m + 4, last / 8) if first < x < last), last])
-        # At both ends of every piece the variable begins with a square: a logarithm and a root are smooth in it.
+        # At both ends of every piece the variable starts quadratically: a logarithm and a root are smooth in it.
         u, size = (1 + NODES) / 2, np.diff(points)[:, None]
         x = points[:-1, None] + size * u * u * (3 - 2 * u)
         density = (np.exp(-0.5 * (x - m) ** 2) + np.exp(-0.5 * (x + m) ** 2)) / math.sqrt(2 * math.pi)
@@ -148,7 +150,7 @@ def _limit(mean: float, deviation: float, slow, sine: float, corner: float) -> f
 
 
 def _limits(numbers: dict, figure: tuple[float, float, float]) -> dict:
-    """Over `eta` by the change of width and by other numbers; of `eta`; all together with and without the error of the change."""
+    """Limits over `eta` from the change of width and from other numbers; on `eta`; and in total with and without the error of the change."""
     value, by_change, by_inputs = figure
     sine = math.sin(math.radians(numbers["lambda"][0]))
     relative = 0.0
@@ -213,7 +215,7 @@ def rows_of_pulse(numbers: dict, paper: bool) -> tuple[list, dict]:
 
 
 def table(path: str, paper: bool, move: float = 0.0) -> dict:
-    """Every number of the JSON output: a list of rows for each pulse, and what is recommended."""
+    """Every number of the JSON output: a list of rows for each pulse, and the recommended limit."""
     pulses, best = [], None
     for pulse in read(path, move):
         rows, limits = rows_of_pulse(pulse["numbers"], paper)

@@ -9,7 +9,7 @@ G_OVER_C4 = 6.67430e-11 / 299792458.0**4
 
 
 def motion_over_times(scene, numerics=FINE):
-    """The motion over all times of the output, and a little more for derivatives."""
+    """The motion over all times of the output, with a margin for derivatives."""
     first, last = min(scene.times.min(), scene.start), max(scene.times.max(), scene.start)
     margin = 2.0 / Motion(scene, scene.start, scene.start, numerics).turning
     return Motion(scene, first - margin, last + margin, numerics)
@@ -35,7 +35,7 @@ def euler_angles(motion, times):
 
 
 def euler_rates(motion, times):
-    """Rates of the angles, Eq. (22) solved for them."""
+    """Rates of the angles from Eq. (22)."""
     y = motion.states(times)
     axes, (p, q, r) = y[:, :9].reshape(-1, 3, 3), motion.angular_velocity_in_body(y, motion.scene.bulge).T
     sin = np.hypot(axes[:, 2, 0], axes[:, 2, 1])
@@ -90,7 +90,7 @@ def _of_rotation(motion, times):
     observer, y = motion.scene.observer, motion.states(times)
     rate = motion.free_rates(y)
     step = 1e-3 / motion.turning
-    # Along a line the equations are polynomials of third degree: exact.
+    # Along a line the equations are polynomials of third degree: the differences are exact.
     near = {k: motion.free_rates(y + k * step * rate) for k in (-2, -1, 1, 2)}
     second = (8 * (near[1] - near[-1]) - (near[2] - near[-2])) / (12 * step)
     n, n_1, n_2 = (values[:, 6:9] for values in (y, rate, second))

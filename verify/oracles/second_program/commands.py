@@ -1,4 +1,4 @@
-"""Which commands are answered for a scene, and by what."""
+"""The commands for a scene, and the functions that answer them."""
 
 import functools
 import json
@@ -47,7 +47,7 @@ STRAIN_SAMPLES = 24
 
 
 def strain_rate(scene):
-    """Samples in a second of the strain files: a few in a turn."""
+    """Samples per second of the strain files: a few per turn."""
     return float(f"{Motion(scene, scene.start, scene.start).turning / 1.7:.3g}")
 
 

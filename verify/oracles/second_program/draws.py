@@ -1,8 +1,8 @@
-"""The random draws of a sweep: ChaCha with 8 rounds, entered at the place of a scene, and three distributions.
+"""The random draws of a sweep: ChaCha with 8 rounds, started at the position of a scene, and three distributions.
 
-The keystream is that of RFC 8439, section 2.3, with 8 rounds for 20, and a counter and a nonce of 64 bits each, as in Bernstein's
-own ChaCha. The normal distribution is drawn by the ziggurat of Marsaglia and Tsang (J. Stat. Software 5, 8, 2000) with 256
-layers. How `twofold sweep` uses both is said in docs/sweep.md.
+The keystream is that of RFC 8439, section 2.3, with 8 rounds instead of 20, and a counter and a nonce of 64 bits each, as in
+Bernstein's own ChaCha. The normal distribution is drawn by the ziggurat of Marsaglia and Tsang (J. Stat. Software 5, 8, 2000)
+with 256 layers. docs/sweep.md describes how `twofold sweep` uses both.
 """
 
 import functools
@@ -39,7 +39,7 @@ def chacha_block(key: bytes, counter: int, nonce: int, rounds: int = 8) -> list[
 
 
 def words(seed: int, place: int, scene: int) -> Iterator[int]:
-    """Numbers of 64 bits from the place of a draw on: two words of the keystream each, the lower one first."""
+    """Numbers of 64 bits from the position of a draw on: two words of the keystream each, the lower one first."""
     key = struct.pack("<Q24x", seed)
     block = scene * WORDS_PER_DRAW // 16
     while True:
@@ -50,12 +50,12 @@ def words(seed: int, place: int, scene: int) -> Iterator[int]:
 
 
 def _unit(bits: int) -> float:
-    """A number in [0, 1): the upper 53 bits."""
+    """A number in [0, 1) from the upper 53 bits."""
     return (bits >> 11) * 2.0**-53
 
 
 def _open_unit(bits: int) -> float:
-    """A number in (0, 1): the upper 52 bits and a half."""
+    """A number in (0, 1) from the upper 52 bits plus a half."""
     return ((bits >> 12) + 0.5) * 2.0**-52
 
 
@@ -63,8 +63,8 @@ def _open_unit(bits: int) -> float:
 def ziggurat() -> tuple[list[float], list[float]]:
     """Edges of the layers from the base to the top, and the density `exp(-x^2/2)` at each.
 
-    All layers have the same area, the base with the tail beyond `TAIL`; its edge is that of a rectangle of that area. The two
-    constants are the published ones: the last digits of the edges follow from those of the area.
+    All layers have the same area, the base with the tail beyond `TAIL`; its edge is that of a rectangle of the same area. The
+    two constants are the published ones: the last digits of the edges follow from those of the area.
     """
     with mpmath.workdps(40):
         def density(x):
@@ -97,7 +97,7 @@ def _standard_normal(bits: Iterator[int]) -> float:
 
 
 def draw(law: dict, seed: int, place: int, scene: int) -> float:
-    """The number of a scene, for the `random` of a sweep file; `place` counts the random parameters of the file from 0."""
+    """The number of a scene for the `random` of a sweep file; `place` counts the random parameters of the file from 0."""
     bits = words(seed, place, scene)
     if law["distribution"] == "normal":
         return law["mean"] + law["deviation"] * _standard_normal(bits)

@@ -1,6 +1,6 @@
 """Answers for the commands of many scenes and of data: `sweep`, `fisher`, `fit`, `forecast`, `bounds` and `limits`.
 
-Here tolerances have a row for each row of a table, since the rows are of different unknowns. Files are named from `{here}`, this folder.
+Here each row of a table has its own tolerances, since the rows are of different unknowns. Files are named from `{here}`, this folder.
 """
 
 import functools
@@ -21,11 +21,11 @@ HERE = pathlib.Path(__file__).parent
 MEASUREMENTS = json.loads((HERE / "measurements.json").read_text())
 LIMITS = json.loads((HERE / "limits.json").read_text())
 ROUNDING = 2.2e-16
-# What the command states of the integrals that it takes over directions and over the angle to the line of sight.
+# Error that the command states for its integrals over directions and over the angle to the line of sight.
 QUADRATURE = 1e-9
-# Where the command ends a fit, in standard deviations, and the digits of a forecast.
+# Accuracy of a fit in standard deviations, and the digits of a forecast.
 FIT_ENDS, FORECAST_DIGITS = 0.01, 0.5e-6
-# What it states of the derivatives of its timing model.
+# Stated error of the derivatives of the timing model.
 TIMING_DERIVATIVES = 1e-13
 DRAWS = 16
 
@@ -40,9 +40,9 @@ def _rounded(tolerance):
 
 
 def noisy(slopes, other, stated):
-    """Derivatives with errors: those seen by other numerics, and those that the command states of its own, a part of the largest of each column.
+    """Derivatives with errors: the differences with other numerics, and the errors that the command states, relative to the largest of each column.
 
-    A difference by chance is small now and then: errors are drawn with the largest of each column as their standard deviation.
+    A difference can be small by chance: errors are drawn with the largest of each column as their standard deviation.
     """
     random = np.random.Generator(np.random.PCG64(1))
     size = np.abs(other - slopes).max(axis=0) + stated * np.abs(slopes).max(axis=0)
@@ -50,7 +50,8 @@ def noisy(slopes, other, stated):
 
 
 def _cells(rows, others, one=1.0, roundings=50):
-    """Tolerances of cells: `FACTOR` times the root mean square of the changes in `others`, and rounding in units of the number or, of a value, of `one`."""
+    """Tolerances of cells: `FACTOR` times the root mean square of the changes in `others`, and rounding in units of the number or, for a value, of
+    `one`."""
     found = []
     for line, row in enumerate(rows):
         tolerances = []
@@ -67,12 +68,12 @@ def _cells(rows, others, one=1.0, roundings=50):
 
 
 def stated(scene):
-    """What the command states of derivatives of a motion: twenty times the error of a state."""
+    """Error that the command states for derivatives of a motion: twenty times the error of a state."""
     return 20 * state_error(scene)
 
 
 def _ended_off(tolerances, rows, ended):
-    """Tolerances with what the place where a fit may end changes."""
+    """Tolerances plus the change between the places at which a fit may end."""
     return [
         [t + abs(y - x) if isinstance(x, float) else t for t, x, y in zip(line, row, row_2, strict=True)]
         for line, row, row_2 in zip(tolerances, rows, ended, strict=True)
@@ -89,7 +90,7 @@ def of_sweep(name):
     momentum = max(np.linalg.norm(s.omega) * max(s.inertia_xx, s.inertia_zz) for s in scenes)
     inertia, tensor = min(s.inertia_xx for s in scenes), max(np.abs(s.tensor).max() for s in scenes)
     cgs, spin = scenes[0].cgs, max(abs(s.spin) for s in scenes)
-    # What is zero in an exact motion: the error of the state in units of what it is of.
+    # Quantities that vanish in an exact motion: the error of the state in their units.
     sizes = {
         "error_estimate": 1.0, "e_z_length_error": 1.0, "E_error": momentum**2 / inertia * cgs, "Omega_z_error": spin,
         "K_error": momentum**2 * tensor * cgs**2,
@@ -162,7 +163,7 @@ def _fit(case, scene, arguments):
     return {"arguments": [*arguments[:2], *data, *arguments[2:]], "outputs": outputs}
 
 
-# The rows of the paper's table that follow from its others: Delta lambda, the bound over eta, and that with eta = 10.
+# The rows of the paper's table that follow from the others: Delta lambda, the bound over eta, and that with eta = 10.
 PRINTED = [("-19", "~1e-14", "~1e-13"), ("-5.2", "~1e-15", "~1e-14"), ("1.6", "~1e-16", "~1e-15")]
 OVER_ETA = ("bound_over_eta_stated", "bound_over_eta_round", "bound_over_eta_own", "limit_over_eta_by_change")
 WITH_ETA = ("bound_eta_ten_stated", "bound_eta_ten_own", "limit_eta_ten_by_change", "limit_without_error", "limit")
@@ -174,7 +175,7 @@ def _printed(pulse, key):
 
 
 def of_bounds(name):
-    """`twofold bounds --json`: rows of a place in the object and what is there."""
+    """`twofold bounds --json`: rows with a place in the object and its content."""
     paper = name == "paper"
     path = HERE.parents[2] / "scene" / "pulsars" / "paper.toml" if paper else HERE / "bounds" / f"{name}.toml"
     table, shifted = bounds.table(path, paper), bounds.table(path, paper, MOVE)
@@ -242,13 +243,13 @@ def of_limits(name):
             limits.wobble_limits(model, data, unknowns, periods, move)
             for model, move in ((best, limits.MOVES[0]), (best, limits.MOVES[1]), (off, limits.MOVES[0]))
         )
-        # The table of the fit is not written then.
+        # The table of the fit is not written in this case.
         return [{"arguments": arguments, "outputs": outputs | {"table.csv": _table(rows, _cells(rows, others, 0.0, 4))}}]
     ended = limits.table(off, unknowns, inference.covariance(limits.jacobian(off, data, unknowns, limits.MOVES[0])))
     rows, *others = (
         limits.table(best, unknowns, inference.covariance(j)) for j in (slopes, *noisy(slopes, other, TIMING_DERIVATIVES))
     )
-    # Values are from 1e-25 to 2: no unit is common to them.
+    # Values range from 1e-25 to 2: they have no common unit.
     tolerances = _ended_off(_cells(rows, others, 0.0, 4), rows, ended)
     outputs["table.csv"] = _table(rows, tolerances)
     if "inclination_rate" in unknowns:
@@ -257,7 +258,7 @@ def of_limits(name):
 
 
 def tasks():
-    """What is answered, by the name of its file of answers."""
+    """The functions that compute the answers, by file name."""
     found = {f"sweep-{path.stem}": functools.partial(of_sweep, path.stem) for path in sorted(HERE.glob("sweeps/*.toml"))}
     for number, case in enumerate(MEASUREMENTS):
         found[f"{case['command']}-{case['scene']}"] = functools.partial(of_measurement, number)

@@ -1,4 +1,4 @@
-"""What `twofold fisher`, `fit` and `forecast` write: derivatives of the data by differences, sigma and correlations by their singular values."""
+"""The output of `twofold fisher`, `fit` and `forecast`: derivatives of the data by differences, sigma and correlations from their singular values."""
 
 import csv
 import dataclasses
@@ -19,7 +19,7 @@ KINDS = ("arrivals", "closest_approaches", "widths", "periods", "h_plus", "h_cro
 # Sixth order: central differences over one, two and three steps, extrapolated.
 OFFSETS = np.array([-3, -2, -1, 1, 2, 3])
 WEIGHTS = np.array([-1, 9, -45, 45, -9, 1]) / 60
-# What of its own scale a datum moves in one step.
+# Change of a datum in one step, relative to its scale.
 MOVE = 1e-3
 # Singular values of columns of unit length below this are zero: differences are good to about 1e-10.
 LEAST = 1e-7
@@ -27,7 +27,7 @@ LEAST = 1e-7
 
 @dataclasses.dataclass
 class Pulse:
-    """A whole pulse, in t_c from the start: about when it begins, ends and comes nearest, and its turn."""
+    """A complete pulse, in t_c from the start: approximate times of beginning, end and closest approach, and its turn."""
 
     turn: int
     start: float
@@ -37,14 +37,14 @@ class Pulse:
 
 @dataclasses.dataclass
 class Measurement:
-    """What is measured: pairs of a kind and its standard deviation (times in t_c), pulses, and times of samples."""
+    """A measurement: pairs of a kind and its standard deviation (times in t_c), pulses, and times of samples."""
 
     noise: list
     pulses: list
     samples: np.ndarray
 
     def data(self, signals):
-        """All data in units of their errors, a row for each model."""
+        """All data in units of their errors, one row per model."""
         start = signals.edges([pulse.start for pulse in self.pulses])
         end = signals.edges([pulse.end for pulse in self.pulses])
         middle = (start + end) / 2
@@ -57,7 +57,7 @@ class Measurement:
         return np.concatenate([found[kind] / sigma for kind, sigma in self.noise], axis=1)
 
     def scales(self, model, numerics):
-        """What counts as one for each datum: a radian of rotation, or the largest strain; in units of the errors."""
+        """The scale of each datum: a radian of rotation, or the largest strain; in units of the errors."""
         signals = Signals([model], numerics)
         largest = np.abs(signals.strain(self.samples)).max() if len(self.samples) else 1.0
         scales = {kind: signals.turn / (2 * np.pi) if kind in TIMES else largest for kind in KINDS}
@@ -82,7 +82,7 @@ def noise(observe, time_unit):
 
 
 def whole_pulses(scene, numerics):
-    """Every whole pulse of the first beam in the span of the scene, in t_c from the start."""
+    """Every complete pulse of the first beam in the span of the scene, in t_c from the start."""
     found = []
     for row in pulses(motion_over_times(scene, numerics))[1:]:
         if row[0] == 1 and row[6] == "":
@@ -92,13 +92,13 @@ def whole_pulses(scene, numerics):
 
 
 def alone(found):
-    """Those that are the only ones of their turn."""
+    """The pulses that are alone in their turn."""
     turns = [pulse.turn for pulse in found]
     return [pulse for pulse in found if turns.count(pulse.turn) == 1]
 
 
 def measurement(scene, observe, numerics):
-    """What `--observe` asks for of a scene: all pulses, and the strain at its samples."""
+    """The data that `--observe` selects for a scene: all pulses, and the strain at its samples."""
     kinds = noise(observe, scene.time_unit)
     sees_pulses = any(kind in TIMES for kind, _ in kinds)
     sees_strain = any(kind not in TIMES for kind, _ in kinds)
@@ -107,7 +107,7 @@ def measurement(scene, observe, numerics):
 
 
 def parameters(names, kinds):
-    """Unknowns that are asked for, or those that such data determine."""
+    """The requested unknowns, or those that such data determine."""
     if names == "all":
         return UNKNOWNS
     if names:
@@ -116,7 +116,7 @@ def parameters(names, kinds):
 
 
 def jacobian(model, unknowns, measured, numerics):
-    """Derivatives of the data in units of their errors, by differences of signals computed anew; also the data themselves."""
+    """Derivatives of the data in units of their errors, by differences of recomputed signals; also the data themselves."""
     scales = measured.scales(model, numerics)
     tiny = 1e-6
     data = measured.data(Signals([model, *(model.moved({u: tiny}) for u in unknowns)], numerics))
@@ -129,13 +129,13 @@ def jacobian(model, unknowns, measured, numerics):
     neighbours = [model.moved({u: k * step}) for u, step in zip(unknowns, steps) for k in OFFSETS]
     data = measured.data(Signals([model, *neighbours], numerics))
     moved = data[1:].reshape(len(unknowns), len(OFFSETS), -1)
-    # What no datum sees has no column, rather than one of rounding.
+    # An unknown without effect gets a column of zeros, not of rounding.
     weight = np.array(seen) / np.array(steps)
     return (np.einsum("k,uki->ui", WEIGHTS, moved) * weight[:, None]).T, data[0]
 
 
 def covariance(jacobian):
-    """(J^T J)^-1 with not a number for the unknowns that are not determined; by singular values of columns of unit length."""
+    """(J^T J)^-1 with NaN for undetermined unknowns, from the singular values of columns of unit length."""
     lengths = np.linalg.norm(jacobian, axis=0)
     lengths[lengths == 0] = 1.0
     _, values, rows = np.linalg.svd(jacobian / lengths, full_matrices=True)
@@ -164,14 +164,14 @@ def table(model, scene, unknowns, covariance):
 
 
 def fisher(scene, numerics, observe, names=None):
-    """The model of a scene, its unknowns, and the derivatives of what `twofold fisher` observes."""
+    """The model of a scene, its unknowns, and the derivatives of the observables of `twofold fisher`."""
     measured, model = measurement(scene, observe, numerics), Model.of(scene)
     unknowns = parameters(names, measured.noise)
     return model, unknowns, jacobian(model, unknowns, measured, numerics)[0]
 
 
 def epochs(end, count, turn, found):
-    """The epochs of a forecast over the time `end`, and the places in `found`, all whole pulses, of those that belong to them."""
+    """The epochs of a forecast over the time `end`, and the indices in `found`, all complete pulses, of the corresponding pulses."""
     times = np.arange(count) * max(end - 2.2 * turn, 0.0) / max(count - 1, 1)
     chosen = []
     for time in times:
@@ -188,14 +188,14 @@ def _spanning(scene, span):
 
 
 def forecast(scene, numerics, observe, target, names, spans, counts):
-    """The header of `twofold forecast --out`; of each row span, epochs and number of different data; and the derivatives that its sigma is of."""
+    """The header of `twofold forecast --out`; for each row span, epochs and number of different data; and the derivatives behind its sigma."""
     scene = _spanning(scene, max(spans))
     kinds, model, unit = noise(observe, scene.time_unit), Model.of(scene), scene.time_unit
     unknowns = parameters(names, kinds)
     found = whole_pulses(scene, numerics) if any(kind in TIMES for kind, _ in kinds) else []
     turn = Signals([dataclasses.replace(model, end=0.0)], numerics).turn
     asked = {(span, count): epochs(span / unit, count, turn, found) for span in spans for count in counts}
-    # One Jacobian of all pulses and of all epochs; each forecast takes its rows.
+    # One Jacobian for all pulses and all epochs; each forecast takes its rows.
     sees_strain = any(kind not in TIMES for kind, _ in kinds)
     samples = np.concatenate([times for times, _ in asked.values()]) if sees_strain else np.array([])
     slopes, _ = jacobian(model, unknowns, Measurement(kinds, found, samples), numerics)
@@ -211,7 +211,7 @@ def forecast(scene, numerics, observe, target, names, spans, counts):
 
 
 def sigma_of(scene, slopes, unknowns, target):
-    """The standard deviation of an unknown in the unit of the output; none where there are fewer data than unknowns."""
+    """The standard deviation of an unknown in the unit of the output; None if there are fewer data than unknowns."""
     if len(slopes) < len(unknowns):
         return None
     place = unknowns.index(target)
@@ -219,7 +219,7 @@ def sigma_of(scene, slopes, unknowns, target):
 
 
 def read_data(path, scene):
-    """Of a table of pulses or of strains: times of samples, pulses, and the values of each kind, times in t_c. Periods are not read."""
+    """From a table of pulses or of strains: times of samples, pulses, and the values of each kind, times in t_c. Periods are not read."""
     with open(path, newline="") as file:
         rows = list(csv.DictReader(file))
     unit = scene.unit
@@ -251,9 +251,9 @@ def read_data(path, scene):
 
 
 def simulated(scene, observe, names, seed):
-    """Tables of a measurement of a star beside the scene: pulses and strains with normal errors, as `twofold fit` reads them.
+    """Tables of a measurement of a star close to the scene: pulses and strains with normal errors, as `twofold fit` reads them.
 
-    The star is moved by a draw of twice the standard deviations with their correlations.
+    The star differs by a draw of twice the standard deviations with their correlations.
     """
     random = np.random.Generator(np.random.PCG64(seed))
     measured, start = measurement(scene, observe, FINE), Model.of(scene)
@@ -289,7 +289,7 @@ def simulated(scene, observe, names, seed):
 
 
 def fit(scene, numerics, observe, names, files):
-    """The model at the least chi^2, what is measured, the unknowns, the derivatives, chi^2 and the number of data."""
+    """The model at the least chi^2, the measurement, the unknowns, the derivatives, chi^2 and the number of data."""
     kinds = noise(observe, scene.time_unit)
     samples, found, values = np.array([]), [], {}
     for path in files:
@@ -299,7 +299,7 @@ def fit(scene, numerics, observe, names, files):
     unknowns = parameters(names, kinds)
     data = np.concatenate([values[kind] / sigma for kind, sigma in kinds])
     best, slopes = Model.of(scene), None
-    # Gauss and Newton's steps, with the derivatives of the start and then of where these lead to.
+    # Gauss-Newton steps, with the derivatives at the start and then at the improved point.
     for _ in range(2):
         slopes, _ = jacobian(best, unknowns, measured, numerics)
         for _ in range(20):

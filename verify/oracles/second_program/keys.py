@@ -1,7 +1,7 @@
-"""Every key of a scene file, changed once: what the commands write for the changed scene.
+"""Every key of a scene file, changed once: the output of the commands for the changed scene.
 
-A change must show: some number of some output leaves its tolerance by a factor of a thousand, or a text changes. Keys that leave the numbers as they
-are say so in `SILENT`.
+A change must show: some number of some output differs by a thousand times its tolerance, or a text changes. Keys that leave the numbers unchanged
+are listed in `SILENT`.
 """
 
 import json
@@ -76,12 +76,12 @@ CASES = {
     },
 }
 
-# The same numbers by another method, or with more or less of an error.
+# They give the same numbers by another method, or with another error.
 SILENT = {"output.tolerance", "output.method"}
 
 
 def shows(folder, file, scene):
-    """Whether the answers of a changed scene are others than those of the scene."""
+    """Whether the answers for a changed scene differ from those for the scene."""
 
     def outputs(name):
         commands = json.loads((folder / f"{name}.json").read_text())["commands"]

@@ -1,4 +1,4 @@
-"""What `twofold limits` writes: fits to arrival times and widths over decades, limits on a wobble by its period, the limit on s.
+"""The output of `twofold limits`: fits to arrival times and widths over decades, limits on a wobble by its period, the limit on s.
 
 A star in free precession under a torque along L: its magnetic axis as a vector, the torque by the mean and the harmonics of sin^2 of that axis'
 angle to L, sampled over a precession; phases in 80 bits; derivatives by differences; the posterior of a wobble summed over its phase and amplitude.
@@ -26,7 +26,7 @@ UNITS = {
     "phase": "1", "f0": "Hz", "f1": "Hz/s", "f2": "Hz/s^2", "wobble": "rad", "damping": "1/s", "chi": "rad", "precession_phase": "rad",
     "precession_rate": "rad/s", "torque_share": "1", "inclination": "rad", "inclination_rate": "rad/s", "rho": "rad",
 }  # fmt: skip
-# What a step of a difference moves the datum that it moves most: of a turn, of a width, of the error of a prior.
+# Change per difference step of the datum that changes most: of a turn, of a width, of the error of a prior.
 MOVES = (1e-3, 6e-4)
 SAMPLES = 8
 # Polynomials of time through this many of Chebyshev's points, over 7.6 years from the epoch either way: beyond all data.
@@ -52,7 +52,7 @@ class Data:
 
 
 def read_scene(path):
-    """The parameters of a scene in which nothing moves L, and its epoch."""
+    """The parameters of a scene in which L is constant, and its epoch."""
     with open(path, "rb") as file:
         document = tomllib.load(file)
     star, initial, observer, pulsar = (document[key] for key in ("star", "initial", "observer", "pulsar"))
@@ -139,7 +139,7 @@ class Star:
         return self.braking * (first + once), self.braking * (second + twice)
 
     def stretched(self, t):
-        """tau and d tau / d t, of the index 3: dt/dtau = 1 + braking tau + torque."""
+        """tau and d tau / d t, for the index 3: dt/dtau = 1 + braking tau + torque."""
         start = self._torque(np.zeros(1, LONG))[1][0]
         tau = t.copy()
         for _ in range(30):
@@ -160,7 +160,7 @@ class Star:
         return v["phase"] + v["f0"] * tau - _at(self.gained, tau) / TURN + (ahead - np.round(ahead)) + other
 
     def phase_rate(self, t, step=LONG(100)):
-        """Turns in a second, by differences."""
+        """Turns per second, by differences."""
         return sum(weight * self.phase(t + k * step) for k, weight in zip(OFFSETS, WEIGHTS)) / step
 
     def width(self, t):
@@ -178,7 +178,7 @@ def moved(values, changes):
 
 
 def _predicted(values, data, rate):
-    """What is measured, in units of its errors; an arrival by its turns, of which `rate` pass in a second."""
+    """The measured quantities in units of their errors; an arrival by its turns, at `rate` turns per second."""
     star, parts = Star(values), []
     if len(data.times):
         parts.append(-(star.phase(data.times) - data.numbers) / rate / data.sigmas)
@@ -193,19 +193,19 @@ def _rate(values, data):
 
 
 def differences(values, data):
-    """Model less data, in units of their errors."""
+    """Model minus data, in units of their errors."""
     measured = [np.zeros(len(data.times)), data.widths / data.width_sigmas, [mean / sigma for mean, sigma in data.priors.values()]]
     return (_predicted(values, data, _rate(values, data)) - np.concatenate(measured)).astype(float)
 
 
 def jacobian(values, data, unknowns, move):
-    """Derivatives of the differences, by differences of sixth order. The rate by which turns become times is held."""
+    """Derivatives of the differences, by differences of sixth order. The rate that converts turns into times is kept."""
     rate = _rate(values, data)
 
     def at(changes):
         return _predicted(moved(values, changes), data, rate)
 
-    # In a step an arrival moves by a part of a turn, a width by a part of itself.
+    # In a step an arrival changes by a fraction of a turn, a width by a fraction of itself.
     size = np.concatenate([1 / rate / data.sigmas, data.widths / data.width_sigmas, [1 / sigma for _, sigma in data.priors.values()]])
     columns = []
     for unknown in unknowns:
@@ -218,7 +218,7 @@ def jacobian(values, data, unknowns, move):
 
 
 def numbered(values, data):
-    """Numbers of the pulses as the start counts them: the first of the data is the nearest."""
+    """Numbers of the pulses as counted from the start: the first of the data is the nearest."""
     if not len(data.times):
         return data
     nearest = int(np.round(Star(values).phase(data.times[:1])[0]))
@@ -249,7 +249,7 @@ def table(values, unknowns, spread):
 
 
 def wobble_limits(values, data, unknowns, periods, move):
-    """For each period the best wobble, the gain of chi^2 and the limit, for a wobble so small that residuals are linear in it."""
+    """For each period the best wobble, the gain of chi^2 and the limit, for a wobble in which the residuals are linear."""
     residuals = differences(values, data)
     slopes = jacobian(values, data, unknowns, move)
     basis, _ = np.linalg.qr(slopes / np.linalg.norm(slopes, axis=0))
@@ -271,7 +271,7 @@ def wobble_limits(values, data, unknowns, periods, move):
 
 
 def _limit(columns, best):
-    """The quantile of the wobble, flat in amplitude and phase, of a posterior of given curvature about `best`."""
+    """The quantile of the wobble, with a flat prior in amplitude and phase, for a posterior of given curvature about `best`."""
     curvature = columns.T @ columns
     phases = 2 * np.pi * np.arange(4000) / 4000
     directions = np.array([np.cos(phases), np.sin(phases)])
@@ -292,7 +292,7 @@ def _limit(columns, best):
 
 
 def limit_on_s(values, spread, unknowns):
-    """The limit on |2 s^ZZ - s^XX - s^YY| by the rate of the inclination: 4 sin(lambda) lambda' / Omega times eta."""
+    """The limit on |2 s^ZZ - s^XX - s^YY| from the rate of the inclination: 4 sin(lambda) lambda' / Omega times eta."""
     place = unknowns.index("inclination_rate")
     sine = math.sin(values["inclination"])
     factor = 4 * sine / float(TURN * values["f0"])
@@ -317,7 +317,7 @@ def draw(values, data, random):
 
 
 def read_tim(path, epoch):
-    """Times since the epoch, numbers and errors (s) of a .tim with pulse numbers."""
+    """Times since the epoch, numbers and errors (s) from a .tim with pulse numbers."""
     rows = [line.split() for line in open(path) if not line.startswith(("FORMAT", "C ", "#"))]
     times = np.array([_seconds(Fraction(row[2]) - epoch) for row in rows], LONG)
     numbers = np.array([int(row[row.index("-pn") + 1]) for row in rows], LONG)
@@ -348,7 +348,7 @@ def read(path, case):
 
 
 def write_data(path, case):
-    """Data of a star beside the scene, as far from it as `moved` says."""
+    """Data of a star that differs from the scene by `moved`."""
     start, epoch = read_scene(path.with_suffix(".toml"))
     values = moved(start, {key: LONG(repr(change)) for key, change in case["moved"].items()})
     random = np.random.Generator(np.random.PCG64(case["seed"]))
@@ -371,6 +371,6 @@ def write_data(path, case):
 
 
 def _decimal(number):
-    """With 20 digits behind the point."""
+    """The number with 20 decimals."""
     digits = round(number * 10**20)
     return f"{digits // 10**20}.{digits % 10**20:020d}"

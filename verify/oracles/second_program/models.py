@@ -1,10 +1,10 @@
-"""A scene as a function of its unknowns, and the signals of many neighbours of it at once.
+"""A scene as a function of its unknowns, and the signals of many neighbouring scenes at once.
 
 Units are t_c and I^xx = C = 1 of the scene; times count from its start. The state is n = e_z, e_x and L in inertial components,
 
     dn/dt = L x n,    dL/dt = -2 C n x (s n),    de_x/dt = Omega x e_x,    Omega = L - eps Omega^z n,
 
-another form of the equations than that of `motion.py`, by the same iteration on Chebyshev polynomials.
+a form of the equations other than that of `motion.py`, solved by the same iteration on Chebyshev polynomials.
 """
 
 import dataclasses
@@ -22,7 +22,7 @@ def _symmetric(*places):
     return pattern
 
 
-# What a change of one of these by one adds to s^IJ: the other five combinations stay.
+# Change of s^IJ for a unit change of one of these; the other five combinations stay constant.
 OF_TENSOR = {
     "s_axial": _symmetric((0, 0, -1 / 6), (1, 1, -1 / 6), (2, 2, 1 / 3)),
     "s_asymmetry": _symmetric((0, 0, 1 / 2), (1, 1, -1 / 2)),
@@ -53,7 +53,7 @@ class Model:
 
     @staticmethod
     def of(scene):
-        """The model that a scene is; angles and rates of its start in the frame of the file."""
+        """The model of a scene; angles and rates of its start in the frame of the file."""
         unit, pulsar, strain = scene.time_unit, scene.pulsar or {}, 1.0
         observer = scene.document.get("observer", {})
         if "distance" in observer:
@@ -73,7 +73,7 @@ class Model:
         return Model({key: float(value) for key, value in numbers.items()}, scene.tensor, end, strain)
 
     def value(self, unknown):
-        """The number that an unknown has."""
+        """The value of an unknown."""
         if unknown not in OF_TENSOR:
             return self.numbers[unknown]
         s = self.tensor * self.numbers["s_scale"]
@@ -83,7 +83,7 @@ class Model:
         return {"s_axial": 2 * z - x - y, "s_asymmetry": x - y, "s_trace": x + y + z}[unknown]
 
     def moved(self, changes):
-        """The model with unknowns changed by the numbers of `changes`, all others kept."""
+        """The model with unknowns changed by the numbers of `changes`."""
         numbers, tensor = dict(self.numbers), self.tensor
         for unknown, change in changes.items():
             if unknown in OF_TENSOR:
@@ -101,7 +101,7 @@ def _cross(a, b, into):
 
 
 class Signals:
-    """The motions of many models over one span, dense in time, and what an observer sees."""
+    """The motions of many models over one span, dense in time, and the observed signals."""
 
     def __init__(self, models, numerics):
         self.models = models
@@ -118,13 +118,13 @@ class Signals:
         body = np.column_stack([p, q, self.spin * (1 + self.eps)])
         momentum = np.einsum("bi,bij->bj", body, axes)
         state = np.concatenate([axes[:, 2], axes[:, 0], momentum], axis=1)
-        # The time of a rotation at the rate |L| / I^xx.
+        # The period of a rotation at the rate |L| / I^xx.
         self.turn = 2 * np.pi / np.linalg.norm(momentum[0])
         self.rate = np.linalg.norm(momentum[0]) + abs(self.eps[0] * self.spin[0]) + 2 * abs(self.tensor[0]).max()
         self._follow(state, models[0].end, numerics)
 
     def _rates(self, y):
-        """Rates of states of which the nine numbers come first: of n, e_x and L."""
+        """Rates of states; the first axis has the nine numbers of n, e_x and L."""
         n, x, momentum = y[:3], y[3:6], y[6:]
         spin = self.eps / (1 + self.eps) * np.sum(momentum * n, axis=0)
         rates = np.empty_like(y)
@@ -177,7 +177,7 @@ class Signals:
         return [np.einsum("bei,bi->be", v, self.direction) for v in (m, rate, second)]
 
     def edges(self, near):
-        """Times at which the line of sight is on the edge of the beam, of each model those next to the times `near`."""
+        """Times at which the line of sight is on the edge of the beam, for each model those closest to the times `near`."""
 
         def off(times):
             value, rate, _ = self.beam(times)
@@ -202,7 +202,7 @@ class Signals:
         raise ArithmeticError("a pulse is not found in a neighbour of the scene")
 
     def strain(self, times):
-        """h_+ and h_x at the same times of each model, Eq. (71): -d2 I^IJ/dt2 with I^IJ = delta^IJ + eps n^I n^J, twice."""
+        """h_+ and h_x at the same times for each model, Eq. (71): twice -d2 I^IJ/dt2 with I^IJ = delta^IJ + eps n^I n^J."""
         times = np.tile(np.asarray(times, float), (len(self.models), 1))
         y = self.states(times)
         n, momentum = y[..., :3], y[..., 6:]

@@ -31,7 +31,7 @@ class Grid:
 
 
 class Numerics:
-    """How finely the program computes: the rotation (rad) of a segment and its points."""
+    """Resolution of the program: the rotation (rad) of a segment and its points."""
 
     def __init__(self, rotation, points):
         self.rotation, self.grid = rotation, Grid(points)
@@ -109,7 +109,7 @@ class Motion:
         return pieces
 
     def states(self, times):
-        """States at times, a row for each."""
+        """States at times, one row each."""
         times = np.atleast_1d(np.asarray(times, float))
         place = (times - self.origin) / self.step
         piece = np.clip(np.floor(place).astype(int), 0, len(self.coefficients) - 1)
@@ -159,7 +159,7 @@ class Motion:
         return at
 
     def derivative(self, f, times, order):
-        """The derivative of f(times), an array with a row for each time, by a polynomial through Chebyshev's points about each time."""
+        """The derivative of f(times), an array with one row per time, by a polynomial through Chebyshev's points about each time."""
         points, width = 22, 0.8 * self.numerics.rotation / self.turning
         grid = Grid(points)
         polynomials = np.polynomial.chebyshev
@@ -167,5 +167,5 @@ class Motion:
         weights = np.array(weights) @ grid.to_coefficients / width**order
         values = np.asarray(f((np.asarray(times)[:, None] + width * grid.x).ravel()))
         values = values.reshape(len(times), points, *values.shape[1:])
-        # The mean is taken off: of a derivative only what varies counts.
+        # The mean is subtracted: only variations contribute to a derivative.
         return np.tensordot(values - values.mean(axis=1, keepdims=True), weights, axes=(1, 0))

@@ -1,4 +1,4 @@
-"""The rows of `twofold pulses`: stretches of time with m.n above cos(rho), by root finding on the dense motion."""
+"""The rows of `twofold pulses`: intervals of time with m.n above cos(rho), by root finding on the dense motion."""
 
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
@@ -21,7 +21,7 @@ class Beam:
         return self.direction(times) @ self.line_of_sight - np.cos(self.rho)
 
     def azimuth(self, times):
-        """The azimuth of m about L from that of the line of sight, in (-pi, pi], growing with the rotation."""
+        """The azimuth of m about L from that of the line of sight, in (-pi, pi], increasing with the rotation."""
         l = self.motion.momentum(times)
         l /= np.linalg.norm(l, axis=1)[:, None]
         m, o = self.direction(times), self.line_of_sight
@@ -29,7 +29,7 @@ class Beam:
 
 
 def stretches(beam, first, last):
-    """(start, end, cut at start, cut at end) of each stretch inside the beam between two times, first < last."""
+    """(start, end, cut at start, cut at end) of each interval inside the beam between two times, first < last."""
     motion = beam.motion
     dense = np.linspace(first, last, int((last - first) * motion.turning * 30) + 3)
     margin = beam.margin(dense)
@@ -37,7 +37,7 @@ def stretches(beam, first, last):
     def at(t):
         return beam.margin([t])[0]
 
-    # Extrema between neighbours may cross the edge and come back.
+    # Extrema between neighbours may cross the edge twice.
     extra = []
     for k in range(1, len(dense) - 1):
         a, b, c = margin[k - 1 : k + 2]
@@ -62,7 +62,7 @@ def stretches(beam, first, last):
 
 
 def turns(beam, times):
-    """Turn of the magnetic axis about L that is nearest at each time, growing with time; from the phase followed since the start of the motion."""
+    """Nearest turn of the magnetic axis about L at each time, increasing with time; from the phase followed since the start of the motion."""
     scene = beam.motion.scene
     first, last = min([scene.start, *times]), max([scene.start, *times])
     dense = np.unique(np.concatenate([np.linspace(first, last, int((last - first) * beam.motion.turning * 10) + 2), times]))
@@ -85,13 +85,13 @@ def closest_approach(beam, start, end):
 
 
 def width_56(rho, theta, theta_o):
-    """The width in azimuth by Eq. (56), or None where the formula has none."""
+    """The width in azimuth by Eq. (56), or None if the formula gives none."""
     cosine = (np.cos(rho) - np.cos(theta) * np.cos(theta_o)) / (np.sin(theta) * np.sin(theta_o))
     return 2 * np.arccos(cosine) if abs(cosine) <= 1 else None
 
 
 def pulses(motion, second_beam=False):
-    """The table, header first, in the order in which pulses are over on the way from the start of the motion."""
+    """The table, header first, in the order in which pulses end on the way from the start of the motion."""
     scene = motion.scene
     first, last, forward = min(scene.start, scene.end), max(scene.start, scene.end), scene.end > scene.start
     rows = []

@@ -1,4 +1,4 @@
-"""A scene file, as docs/scenes.md describes it, read into numbers.
+"""The numbers of a scene file, as described in docs/scenes.md.
 
 The units of time are those of the file: t_c with I^xx = C = 1, or the second with I in kg m^2 and C in J.
 """
@@ -15,7 +15,7 @@ PATH = re.compile(r"^(?:(\w+)\.)?(\w+)((?:\[\d+\])*)$")
 
 
 class Scene:
-    """What a scene file says. `document` is the TOML; everything else follows from it."""
+    """The content of a scene file. `document` is the TOML; everything else follows from it."""
 
     def __init__(self, document):
         self.document = document
@@ -63,12 +63,13 @@ class Scene:
         self.unit = "s" if self.physical else "t_c"
 
     def _oblateness_and_spin(self, star):
-        """(I^zz - I^xx) / I^xx and Omega^z, which may be given by the period of the precession [d] and the frequency of the pulses [Hz]."""
+        """(I^zz - I^xx) / I^xx and Omega^z, which can be given by the period of the precession [d] and the frequency of the pulses [Hz]."""
         oblateness, spin = star.get("oblateness"), 2 * np.pi * star.get("spin_frequency", 0.0)
         precession = 2 * np.pi / (star["precession_period"] * 86400) if oblateness is None else None
         if "frequency" in star:
             pulses, theta, chi = 2 * np.pi * star["frequency"], self.document["initial"]["wobble"], self.document["pulsar"]["chi"]
-            # Of each turn of the axis about L, (1 + eps) Omega^z / cos theta, the precession eps Omega^z is taken back where the magnetic axis goes round the axis.
+            # From the rate of the axis about L, (1 + eps) Omega^z / cos theta, the precession eps Omega^z is subtracted if the magnetic axis circles
+            # the symmetry axis.
             back = 1.0 if theta < chi < np.pi - theta else 0.0
             if precession is None:
                 spin = pulses / ((1 + oblateness) / np.cos(theta) - back * oblateness)
@@ -78,7 +79,7 @@ class Scene:
         return (precession / abs(spin) if oblateness is None else oblateness), spin
 
     def _coefficients(self, given):
-        """`tensor`, s^IJ in the frame of the file, and `principal`, the rows of whose axes X, Y, Z are in that frame."""
+        """`tensor`, s^IJ in the frame of the file, and `principal`, whose rows are the axes X, Y, Z in that frame."""
         self.principal = np.eye(3)
         if "eigenvalues" in given:
             self.eigenvalues = np.array(given["eigenvalues"], float)
@@ -134,7 +135,7 @@ class Scene:
         )
         self.angles = (alpha, gamma)
         if self.constants is not None and not np.array_equal(self.principal, np.eye(3)):
-            # The constants are those of the principal frame; the motion is turned into the frame of the file.
+            # The constants refer to the principal frame; the motion is rotated into the frame of the file.
             axes = axes @ self.principal
             self.angles = (np.arctan2(axes[2, 0], -axes[2, 1]), np.arctan2(axes[0, 2], axes[1, 2]))
         self.axes, self.omega = axes, omega
@@ -143,7 +144,7 @@ class Scene:
     def _observer(self, given):
         distance = float(given["distance"] * 1000 * PARSEC) if "distance" in given else None
         if "inclination" in given:
-            # At that angle to L, in the plane of L and the direction across it at the azimuth.
+            # At that angle to L, in the plane of L and the normal direction at the azimuth.
             inertia = np.array([self.inertia_xx, self.inertia_xx, self.inertia_zz])
             momentum = (self.omega * inertia) @ self.axes
             l = momentum / np.linalg.norm(momentum)
@@ -160,7 +161,7 @@ class Scene:
         return Observer(float(given["theta_o"]), float(given["phi_o"]), distance)
 
     def _of_wobble(self, given):
-        """L along `momentum`, the axis n at the angle of the wobble to it (to -L for a negative spin), the magnetic axis by its angle about n."""
+        """L along `momentum`, the axis n at the wobble angle to it (to -L for a negative spin), the magnetic axis by its angle about n."""
 
         momentum = np.array(given.get("momentum", [0.0, 0.0, 1.0]), float)
         l = np.sign(self.spin) * momentum / np.linalg.norm(momentum)

@@ -1,4 +1,4 @@
-"""The spectral lines of a column, as `twofold spectrum` writes them: a joint fit of cosines to a long series under a window."""
+"""The spectral lines of a column, as written by `twofold spectrum`: a joint fit of cosines to a long series under a window."""
 
 import itertools
 
@@ -12,7 +12,7 @@ def lines(column, scene, span, least, most, numerics=FINE):
 
     All lines of at least `least` of the largest are fitted together.
     """
-    # The other numerics take another span, so that what lines outside of the fit do to it is seen.
+    # Other numerics use another span, which shows the effect of lines outside the fit.
     span = span if numerics is FINE else 0.87 * span
     margin = 3.0 / Motion(scene, scene.start, scene.start).turning
     motion = Motion(scene, min(scene.start, scene.start + span) - margin, max(scene.start, scene.start + span) + margin, numerics)
@@ -58,7 +58,7 @@ def fit(t, values, window, least):
 
 
 def _newton(t, values, window, frequencies, span):
-    """Amplitudes by least squares under the window, then one Gauss-Newton step of all frequencies, and amplitudes again."""
+    """Amplitudes by least squares under the window, then one Gauss-Newton step for all frequencies, and amplitudes again."""
     solution, design = _amplitudes(t, values, window, frequencies)
     slopes = [(solution[2 * k + 2] * design[2 * k + 1] - solution[2 * k + 1] * design[2 * k + 2]) * (t / span) for k in range(len(frequencies))]
     whole = np.vstack([design, slopes])
@@ -75,13 +75,13 @@ def _amplitudes(t, values, window, frequencies):
 
 
 def _least_squares(design, values, window):
-    """By the normal equations: separated lines under a window are nearly orthogonal."""
+    """Solution of the normal equations: separated lines under a window are nearly orthogonal."""
     weighted = design * window
     return np.linalg.solve(weighted @ design.T, weighted @ values)
 
 
 def fundamental_frequencies(motion, times, window):
-    """Mean rates of alpha, gamma and the azimuth of L, all about the principal axis of s that L goes round, as {name: rate}."""
+    """Mean rates of alpha, gamma and the azimuth of L, all about the principal axis of s that L circles, as {name: rate}."""
     scene = motion.scene
 
     def mean_rate(angle, part=slice(None)):
@@ -92,7 +92,7 @@ def fundamental_frequencies(motion, times, window):
         return float((weight * angle).sum() / (weight * x).sum())
 
     momentum = motion.momentum(times)
-    # L without its fast motion: the average over some four turns.
+    # L without its fast motion: the average over about four turns.
     width = min(len(times) // 10, int(8 * np.pi / (motion.turning * abs(times[1] - times[0]))))
     kernel = np.hanning(width + 2)
     about = [np.convolve(component, kernel / kernel.sum(), "valid") for component in scene.principal @ momentum.T]

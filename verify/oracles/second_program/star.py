@@ -2,7 +2,7 @@
 
 C = (U^xx - U^zz) / 2 with the potential-energy tensor of a uniform ellipsoid (Chandrasekhar),
 U^ii = (4 pi^2 / 15) G rho^2 a1^2 a3 A_i a_i^2 and A_i = a1^2 a3 Int_0^oo du / ((a_i^2 + u) (a1^2 + u) sqrt(a3^2 + u)).
-The two terms nearly cancel, so the integral of their difference is taken, with 40 digits.
+The two terms nearly cancel, so that the integral is that of their difference, with 40 digits.
 """
 
 from mpmath import mp, mpf, quad, inf, pi, sqrt, cbrt

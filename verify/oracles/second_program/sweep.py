@@ -16,7 +16,7 @@ BUILT_IN = pathlib.Path(__file__).parents[3] / "scene/scenes"
 
 
 def read(path):
-    """The sweep file, and the scene that it varies with the times of the sweep."""
+    """The sweep file, and its scene with the times of the sweep."""
     with open(path, "rb") as file:
         sweep = tomllib.load(file)
     scene = sweep["scene"]
@@ -44,7 +44,7 @@ def points(vary):
 
 
 def numbers_of_scenes(sweep):
-    """For each scene, from 0 on, a number for each of the keys that are varied."""
+    """For each scene, from 0 on, a number for each varied key."""
     axes, places, randoms = [], [], 0
     named = {}
     for vary in sweep["vary"]:
@@ -87,7 +87,7 @@ def angle_to_observer(motion):
     for sign in (1, -1):
         best = sign * at
         near = [k for k in range(1, count - 1) if best[k] <= best[k - 1] and best[k] <= best[k + 1]]
-        # Only those that may be the least of all.
+        # Only candidates for the smallest of all.
         near = [k for k in near if best[k] < best.min() + 0.02]
         least = [best[0], best[-1]]
         for k in near:
@@ -102,7 +102,7 @@ def angle_to_observer(motion):
     for _ in range(20):
         times = middle[:, None] + half[:, None] * nodes
         inside = angle(times.ravel()).reshape(times.shape)
-        # Next to the line of sight the angle bends sharply: there panels are halved.
+        # Near the line of sight the angle bends sharply: panels are halved there.
         near = np.minimum(inside, np.pi - inside).min(axis=1) < half * motion.turning
         integral += np.sum(inside[~near] * weights * half[~near, None])
         if not near.any():
@@ -115,9 +115,9 @@ def angle_to_observer(motion):
 
 
 def slow_precession(scene):
-    """The principal axis that L goes round, and the rate about the end at which L is: the averaged motion of first order, at the start.
+    """The principal axis that L circles, and the rate about its end on the side of L, from the averaged motion of first order at the start.
 
-    With l = L/G and c = n.l it is dl/dt = (2 C P2(c) / G) (s l) x l; its period is an integral over the azimuth about the axis.
+    With l = L/G and c = n.l the motion is dl/dt = (2 C P2(c) / G) (s l) x l; its period is an integral over the azimuth about the axis.
     """
     body = scene.omega * np.array([scene.inertia_xx, scene.inertia_xx, scene.inertia_zz])
     momentum = body @ scene.axes
@@ -147,7 +147,7 @@ def row(scene, numerics, groups, summaries):
     for k, time in enumerate(scene.times):
         found += [(_at(name, time), values[k]) for name, values in table]
         if "errors" in groups:
-            # Of an exact motion there is none.
+            # An exact motion has none.
             names = ["error_estimate [1]", "e_z_length_error [1]", f"E_error [{energy_unit}]", f"Omega_z_error [rad/{unit}]"]
             found += [(_at(name, time), 0.0) for name in [*names, f"K_error [({momentum_unit})^2]"]]
     for summary in summaries:

@@ -1,4 +1,4 @@
-"""The files of `twofold timing`, from the motion integrated over all epochs: slow stars, whose turns in years can be followed."""
+"""The files of `twofold timing`, from the motion integrated over all epochs: slow stars, whose turns over years can be followed."""
 
 import copy
 from fractions import Fraction
@@ -82,7 +82,7 @@ def causes(motion, rows):
 
 
 def described(motion, rows):
-    """What the .csv says of each pulse but for its residual: duration, position angle, its rate and swing, L, the wave."""
+    """The entries of the .csv for each pulse without its residual: duration, position angle, its rate and swing, L, the wave."""
     scene = motion.scene
     middle = np.array([(start + end) / 2 for _, start, end in rows])
     psi, psi_rate = position_angle_and_rate(motion, middle)
@@ -112,7 +112,7 @@ def timing_files(scene, epochs, rows, described, strain_rate, h, causes, terms, 
     t = middle - scene.start - float((pepoch - date) * 86400)
     centre = t.mean()
     fit = np.polynomial.Polynomial.fit(t - centre, numbers, terms)
-    # By the rate of the fit at each time.
+    # Divided by the rate of the fit at each time.
     late = (fit(t - centre) - numbers) / fit.deriv()(t - centre)
     phase, *rates = (fit.deriv(d)(-centre) if d else fit(-centre) for d in range(terms + 1))
 
@@ -153,7 +153,7 @@ def timing_files(scene, epochs, rows, described, strain_rate, h, causes, terms, 
 
 
 def _phase(beam, first, last):
-    """The number of the turn of m about L that is nearest at a time, counted from the line of sight and growing with time."""
+    """The number of the turn of m about L that is nearest at a time, counted from the line of sight and increasing with time."""
     dense = np.linspace(first, last, int((last - first) * beam.motion.turning * 12) + 2)
     phase = np.unwrap(beam.azimuth(dense))
     sign = np.sign(phase[-1] - phase[0])

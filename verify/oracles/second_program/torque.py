@@ -1,4 +1,4 @@
-"""The torque along L and the friction of a star with [spin_down], as the equation of motion has them (docs/spin-down.md): no stretched time."""
+"""The torque along L and the friction of a star with [spin_down], as in the equation of motion (docs/spin-down.md), without stretched time."""
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -19,7 +19,7 @@ class Torque:
         self.axis = magnetic_axis(scene.pulsar)
         l = body / self.momentum
         precession = (scene.inertia_zz / scene.inertia_xx - 1) * scene.omega[2]
-        # Turns of the magnetic axis about L: those of n, less those about n where it goes round it.
+        # Turns of the magnetic axis about L: those of n, minus those about n if it circles n.
         wobble = np.arccos(abs(l[2]))
         goes_round = wobble < scene.pulsar["chi"] < np.pi - wobble
         turns = abs(np.sign(l[2]) * self.momentum / scene.inertia_xx - goes_round * precession)
@@ -30,12 +30,13 @@ class Torque:
         self.share = SHARES.get(share, share)
         self.damping = 1 / (given["damping_time"] * 86400) if "damping_time" in given else 0.0
 
-        # L goes round n in the body at the rate W; its azimuth counts from the magnetic axis.
+        # L circles n in the body at the rate W; its azimuth counts from the magnetic axis.
         self.chi, self.side, self.wobble = scene.pulsar["chi"], np.sign(l[2]), wobble
         self.precession = precession
         azimuth = np.arctan2(l[1], l[0]) - scene.pulsar.get("delta", 0.0)
         self.mean = self._harmonics(0.0)[0]
-        # The integral of the varying part, which has no mean, along the azimuth x, by parts: of B cos k x it is B sin k x / k + B' cos k x / k^2 - ...
+        # The integral of the varying part, which has no mean, over the azimuth x, by parts: for B cos k x it is B sin k x / k + B' cos k x / k^2 -
+        # ...
         reach = 0.3 / (self.damping or 1.0)
         time = [-reach, reach]
         order = 14 if self.damping else 0
@@ -66,18 +67,18 @@ class Torque:
         return np.arctan(np.tan(self.wobble) * np.exp(-self.damping * t))
 
     def _turning(self, t):
-        """The rate at which L goes round n, at a time at which L is as long as at the epoch."""
+        """The rate at which L circles n, at a time at which |L| is that at the epoch."""
         return self.precession * np.cos(self._theta(t)) / np.cos(self.wobble)
 
     def _harmonics(self, t):
-        """Mean and the amplitudes of cos x and cos 2 x of the factor at the wobble of a time."""
+        """Mean and amplitudes of cos x and cos 2 x of the factor for the wobble at a time."""
         theta, x = self._theta(t), 2 * np.pi * np.arange(8) / 8
         cosine = np.sin(theta) * np.sin(self.chi) * np.cos(x) + self.side * np.cos(theta) * np.cos(self.chi)
         factor = 1 - self.share * cosine**2
         return factor.mean(), 2 * (factor * np.cos(x)).mean(), 2 * (factor * np.cos(2 * x)).mean()
 
     def start(self):
-        """a at the epoch: the scene states the mean rotation, not that of the moment."""
+        """a at the epoch: the scene states the mean rotation, not the instantaneous one."""
         x, n = self.kappa * self.ahead, self.index
         return np.exp(-x) if n == 2 else (1 + (n - 2) * x) ** (-1 / (n - 2))
 
@@ -89,16 +90,16 @@ class Torque:
         return (grown ** ((n - 2) / (n - 1)) - 1) / ((n - 2) * kappa)
 
     def rate(self, body):
-        """-d ln |L| / dt for rows of L in the body, and the angular velocity in the body that friction adds."""
+        """-d ln |L| / dt for rows of L in the body, and the angular velocity in the body due to friction."""
         size = np.linalg.norm(body, axis=1)
         l, a = body / size[:, None], size / self.momentum
         turning = np.zeros_like(l)
-        # (n x l) (n.l): n comes nearer to L, or to -L.
+        # (n x l) (n.l): n approaches L or -L.
         turning[:, 0], turning[:, 1] = -l[:, 1] * l[:, 2], l[:, 0] * l[:, 2]
         return self.kappa * a ** (self.index - 1) * (1 - self.share * (l @ self.axis) ** 2) / self.mean, self.damping * a[:, None] * turning
 
     def left_out(self, scene, span, sigma):
-        """The angle (rad) that docs/spin-down.md leaves out: the precession of L by C / a^2, the harmonics' change by violation, third orders."""
+        """The angle (rad) that docs/spin-down.md neglects: the precession of L by C / a^2, the change of the harmonics by violation, third orders."""
         kappa, w = abs(self.kappa), abs(self.precession)
         delay = kappa * self.swing * 2 * np.pi * self.frequency
         # Coefficients of the third order in the damping are up to 6.

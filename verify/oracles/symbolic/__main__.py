@@ -1,7 +1,7 @@
 """Derives the equations from the Lagrangian with SymPy, independently of the Rust code, and compares.
 
     python3 verify/oracles/symbolic write [--points 8] [--seed 2021] [--out verify/data/symbolic.json]
-    python3 verify/oracles/symbolic compare KERNELS.json     what `--example symbolic_points` wrote: kernel values at its own points
+    python3 verify/oracles/symbolic compare KERNELS.json     the kernel values of `symbolic_points` at its own points
     python3 verify/oracles/symbolic judge                    the paper's printed formulas against the derivation
 
 Needs SymPy 1.14 (which brings mpmath). Exit code 1 if anything differs.

@@ -19,7 +19,7 @@ def slopes(function):
 
 
 def rates(function):
-    """Of n and of L, by the energy alone."""
+    """Rates of n and L from the energy alone."""
     return [bracket(component, function) for component in [*N, *L]]
 
 

@@ -1,4 +1,4 @@
-"""Kernel values that the Rust side wrote, against the derivation at the same points."""
+"""Kernel values written by the Rust side, compared with the derivation at the same points."""
 
 import json
 import math
@@ -7,13 +7,13 @@ from fractions import Fraction
 import exchange
 import mpmath as mp
 
-# Of 2.2e-16 times the scale; the reasons stand in verify/src/checks/symbolic.rs.
+# In units of 2.2e-16 times the scale; verify/src/checks/symbolic.rs gives the reasons.
 BOUNDS = {"rational": 2.0, "closed": 16.0}
 EPSILON = 2.0**-52
 
 
 def error(value, expected, scale):
-    """In units of EPSILON times the scale, exact to the last step; anything that is no finite number fails."""
+    """The error in units of EPSILON times the scale, exact to the last step; NaN and infinities fail."""
     if not all(isinstance(x, (int, float)) and math.isfinite(x) for x in (value, scale)):
         return math.inf
     difference = abs((Fraction if isinstance(expected, Fraction) else mp.mpf)(value) - expected)
@@ -23,7 +23,7 @@ def error(value, expected, scale):
 
 
 def report(quantities, path):
-    """Prints the worst error of each quantity; the number of quantities that fail."""
+    """Prints the worst error of each quantity; returns the number of quantities that fail."""
     with open(path) as file:
         kernels = json.load(file)
     points = [{name: Fraction(text) for name, text in point.items()} for point in kernels["points"]]
@@ -45,7 +45,7 @@ def report(quantities, path):
 
 
 def worst_of(evaluator, points, rows, kind):
-    """The largest error and where it is."""
+    """The largest error and its place."""
     worst, where = -1.0, "nothing compared"
     if len(rows) != len(points):
         return math.inf, f"{len(rows)} rows for {len(points)} points"

@@ -1,4 +1,4 @@
-"""Angles, their rates, and what follows from three elementary turns: the rotation matrix and the angular velocity. Eqs. (8), (9), (22)."""
+"""Angles, their rates, and the results of three elementary rotations: the rotation matrix and the angular velocity. Eqs. (8), (9), (22)."""
 
 from sympy import Matrix, cos, diff, expand, sin, symbols, trigsimp, zeros
 
@@ -20,7 +20,7 @@ def symmetric(name):
 
 
 def time_derivative(expression):
-    """Along a motion: the chain rule through angles and rates."""
+    """Time derivative along a motion: the chain rule through angles and rates."""
     if isinstance(expression, Matrix):
         return expression.applyfunc(time_derivative)
     slots = list(zip(ANGLES, RATES)) + list(zip(RATES, ACCELERATIONS))
@@ -28,17 +28,17 @@ def time_derivative(expression):
 
 
 def turn_about_third(angle):
-    """Components in axes that are turned about their third one by the angle."""
+    """Components in axes rotated about their third one by the angle."""
     return Matrix([[cos(angle), sin(angle), 0], [-sin(angle), cos(angle), 0], [0, 0, 1]])
 
 
 def turn_about_first(angle):
-    """Components in axes that are turned about their first one by the angle."""
+    """Components in axes rotated about their first one by the angle."""
     return Matrix([[1, 0, 0], [0, cos(angle), sin(angle)], [0, -sin(angle), cos(angle)]])
 
 
 def rotation(a, b, g):
-    """Body components from inertial ones: a turn about Z, one about the line of nodes, one about the symmetry axis."""
+    """Body components from inertial ones: rotations about Z, about the line of nodes, and about the symmetry axis."""
     return (turn_about_third(g) * turn_about_first(b) * turn_about_third(a)).applyfunc(expand)
 
 
@@ -46,7 +46,7 @@ R = rotation(*ANGLES)
 
 
 def cross_matrix(v):
-    """The matrix that makes the product v x w of w."""
+    """The matrix of the product v x w as a function of w."""
     return Matrix([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
 
 

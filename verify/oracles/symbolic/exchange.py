@@ -1,4 +1,4 @@
-"""Points, exact evaluation, and the file that both sides read.
+"""Points, exact evaluation, and the exchange file.
 
 Angles are points of the circle: t = tan(angle / 2), sin = 2 t / (1 + t^2), cos = (1 - t^2) / (1 + t^2), with t rational.
 """
@@ -12,7 +12,7 @@ from sympy.printing.pycode import MpmathPrinter, PythonCodePrinter
 
 mp.mp.dps = 60
 
-# Names of angles and numbers, each with the range of its numerator and its denominator. Dyadic, so that a double holds them exactly.
+# Names of angles and numbers, each with the range of its numerator and its denominator: dyadic, so that doubles represent them exactly.
 ANY = (-24, 24, 8)
 LAYOUT = {
     "angles": {name: ANY for name in "alpha gamma frame_alpha frame_gamma phi_o delta azimuth x y".split()}
@@ -28,7 +28,7 @@ LAYOUT = {
 
 
 def draw(generator):
-    """A point: numbers by name, an angle by its t. Zeros are left out: they would hide a term."""
+    """A point: numbers by name, an angle by its t. Zeros are excluded: they would hide a term."""
     point = {}
     for ranges in LAYOUT.values():
         for name, (low, high, denominator) in ranges.items():
@@ -100,7 +100,7 @@ class Evaluator:
 
 
 def evaluators(quantities):
-    """By name; a name may stand once only."""
+    """Quantities by name; each name must be unique."""
     out = {}
     for quantity in quantities:
         assert quantity.name not in out, quantity.name
@@ -109,7 +109,7 @@ def evaluators(quantities):
 
 
 def document(quantities, count, seed):
-    """What is written: points, and each quantity at each of them."""
+    """The content of the file: points, and each quantity at each of them."""
     drawn = points(count, seed)
     exact, rounded = {}, {}
     for name, evaluator in evaluators(quantities).items():

@@ -47,7 +47,7 @@ def along_motion(expression):
     return expression.subs(pairs)
 
 
-# The rate of gamma and its derivative, from the conjugate momentum of gamma, which is conserved since L has no gamma.
+# The rate of gamma and its derivative, from the conjugate momentum of gamma, which is conserved since the Lagrangian does not depend on gamma.
 GAMMA_RATE = spin - RATES[0] * cos(beta)
 SPIN_OF_RATES = diff(LAGRANGIAN, RATES[2]) / i_zz
 
@@ -58,7 +58,7 @@ def without_gamma(expression):
     return expression.subs(ACCELERATIONS[2], second).subs(RATES[2], GAMMA_RATE)
 
 
-# The form of Eq. (25): left side minus right side.
+# The equations in the form of Eq. (25): left side minus right side.
 EQUATIONS_25 = [without_gamma(EQUATIONS[k]) / i_xx for k in (0, 1)]
 ACCELERATIONS_25 = [without_gamma(ACCELERATION[k]) for k in (0, 1)]
 
@@ -77,7 +77,7 @@ def state_rates():
     return [along_motion(time_derivative(component)) for component in state()]
 
 
-# Vectors n and L as variables of their own.
+# Vectors n and L as independent variables.
 N = Matrix(symbols("n_1:4"))
 L = Matrix(symbols("l_1:4"))
 N_RATE = L.cross(N) / i_xx
@@ -105,12 +105,12 @@ THIRD_INTEGRAL = third_integral()
 
 
 def steady_rates():
-    """alpha' of motion at constant beta where s^XX = s^YY: the second equation of (25), a quadratic."""
+    """alpha' of motion at constant beta for s^XX = s^YY: the second equation of (25), a quadratic."""
     quadratic = EQUATIONS_25[1].subs({ACCELERATIONS[1]: 0, RATES[1]: 0}).subs(s_y, s_x)
     return solve(quadratic, RATES[0])
 
 
 def free_rates():
-    """alpha', gamma' at constant beta without s, the root that is not zero."""
+    """alpha', gamma' at constant beta without s, for the nonzero root."""
     alpha_rate = next(root for root in (r.subs({s_x: 0, s_z: 0}).simplify() for r in steady_rates()) if root != 0)
     return [alpha_rate, GAMMA_RATE.subs(RATES[0], alpha_rate)]

@@ -29,7 +29,7 @@ def in_fast_frame(expression):
 
 
 def average(expression):
-    """Over the fast angle."""
+    """The average over the fast angle."""
     return integrate(expand(expression), (p, 0, 2 * pi)) / (2 * pi)
 
 
@@ -62,7 +62,7 @@ def mean_potential_of_vectors():
 
 
 def polynomial_in_c(expression, c_symbol):
-    """The polynomial x_0 + x_1 c^2 that a function of theta is."""
+    """A function of theta as the polynomial x_0 + x_1 c^2."""
     x = symbols("x_0:2")
     difference = expression.subs(c_symbol, cos(theta)) - x[0] - x[1] * cos(theta) ** 2
     found = solve([difference.subs(theta, value) for value in (pi / 2, pi / 3)], x, dict=True)[0]
@@ -74,7 +74,7 @@ MEAN_1_OF_VECTORS = mean_potential_of_vectors()
 
 
 def generator():
-    """W = (I / G) int (V - <V>) dp without mean, and the same as (x_1 c l + x_2 n).s (l x n) C I / G of the vectors."""
+    """W = (I / G) int (V - <V>) dp without mean, and the same in vector form, (x_1 c l + x_2 n).s (l x n) C I / G."""
     integral = integrate(expand(in_fast_frame(potential(N, S)) - MEAN_1), p)
     direct = i_xx / size * (integral - average(integral))
     g = sqrt(L.dot(L))

@@ -1,4 +1,4 @@
-"""What is seen of a motion: spin axis, bounds, pulses, waves. Eqs. (37)-(56), (59), (68)-(71)."""
+"""Observables of a motion: spin axis, bounds, pulses, waves. Eqs. (37)-(56), (59), (68)-(71)."""
 
 from sympy import Matrix, cos, diff, expand, integrate, pi, sin, solve, symbols
 
@@ -22,7 +22,7 @@ half_width, half_opening, zeta = symbols("half_width half_opening zeta")
 colatitude, azimuth = symbols("colatitude azimuth")
 distance = symbols("distance")
 
-# Direction to the observer; the basis normal to it as unit slopes of it.
+# Direction to the observer, and the basis normal to it as unit vectors along its slopes.
 OBSERVER = Matrix([sin(theta_o) * cos(phi_o), sin(theta_o) * sin(phi_o), cos(theta_o)])
 THETA_HAT = diff(OBSERVER, theta_o)
 PHI_HAT = diff(OBSERVER, phi_o) / sin(theta_o)
@@ -37,12 +37,12 @@ COS_LAMBDA_RATE = time_derivative(COS_LAMBDA)
 AXIS_IN_BODY = Matrix([sin(chi) * cos(delta), sin(chi) * sin(delta), cos(chi)])
 AXIS = R.T * AXIS_IN_BODY
 ALONG_LINE_OF_SIGHT = AXIS.dot(OBSERVER)
-# In axes turned about Z by alpha: Phi - alpha is the azimuth there.
+# In axes rotated about Z by alpha: Phi - alpha is the azimuth there.
 OFFSET_POINT = (turn_about_third(alpha) * AXIS)[:2]
 
 
 def rate_of_azimuth(x, y, derivative):
-    """Of the azimuth of a point that moves."""
+    """Rate of the azimuth of a moving point."""
     return (x * derivative(y) - y * derivative(x)) / (x**2 + y**2)
 
 
@@ -64,7 +64,7 @@ def direction(theta, phi):
     return Matrix([sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta)])
 
 
-# Pulse width, Eqs. (54), (56), and the opening of the cone behind Eq. (42).
+# Pulse width, Eqs. (54), (56), and the opening angle of the cone behind Eq. (42).
 IN_AZIMUTH = direction(colatitude, azimuth).dot(OBSERVER)
 SEPARATION = symbols("separation")
 COSINE_OF_HALF_WIDTH = solve(
@@ -95,7 +95,7 @@ def harmonics():
     rate = g / i_xx
     acceleration = (i_zz - i_xx) * rate**2 * (n * n.T).applyfunc(lambda e: diff(e, p, 2))
     observer = direction(i, 0)
-    # North on the sky is towards l: minus the direction of growing colatitude; the two axes follow one another as theta, phi do.
+    # North on the sky is towards l: minus the direction of increasing colatitude; the two axes have the order of theta, phi.
     north, east = -diff(observer, i), -Matrix([0, 1, 0])
     h = -2 * acceleration
     plus = sum((north * north.T - east * east.T)[k] * h[k] for k in range(9)) / 2

@@ -1,9 +1,9 @@
 """First order about free precession and about a stationary spin: equations and their solutions. Eqs. (27)-(34), (57).
 
 Twofold: alpha = alpha_0 + a t + k alpha1, beta = beta_0 + k beta1, and s of order k. Single: s and the rates are of order k,
-s_x - s_y of order k r and beta1 of order r; what is kept is of the orders k and k r. The phases are x = nu t + phi of the homogeneous and
-y = a t + alpha_0 of the forced part. As in the paper rates are those of the zeroth-order a; angles are their integrals with the shift
-absorbed in a, so that a forced angle is its rate over 2 a.
+s_x - s_y of order k r and beta1 of order r; the orders k and k r are kept. The phases are x = nu t + phi of the homogeneous and y = a t +
+alpha_0 of the forced part. As in the paper, rates are those of the zeroth-order a; angles are their integrals with the shift absorbed in
+a, so that a forced angle is its rate over 2 a.
 """
 
 from sympy import Symbol, cos, diff, expand, expand_trig, sin, solve, symbols
@@ -21,7 +21,7 @@ KINDS = {"twofold": omega / cos(beta), "single": 0}
 
 
 def first_order(kind):
-    """The terms of first order of Eq. (25), divided as Eq. (29) is; `alpha`, `beta` stand for alpha_0 + a t and beta_0."""
+    """The terms of first order of Eq. (25), divided as in Eq. (29); `alpha`, `beta` stand for alpha_0 + a t and beta_0."""
     return about_free_precession() if kind == "twofold" else about_stationary_spin()
 
 
@@ -51,7 +51,7 @@ def about_free_precession():
 
 def about_stationary_spin():
     """The terms of the orders k and k r. The rate of alpha at order k is that of the slow precession with s_x = s_y; accelerations, those
-    of the homogeneous motion, are counted as k r."""
+    of the homogeneous motion, count as k r."""
     alpha_rate1, beta_rate1, alpha_second1, beta_second1 = FIRST_RATES
     r, slow = symbols("r slow")
     mean, half = (s_x + s_y) / 2, (s_x - s_y) / 2
@@ -85,9 +85,9 @@ def as_printed(kind):
 class Solution:
     """alpha1' = shift - A h sin x + r_alpha cos 2y, beta1' = A cos x + r_beta sin 2y, by undetermined coefficients.
 
-    Shift and forced rates are found from the part without and with 2y, h and nu from the homogeneous part. Where a is zero at zeroth
-    order the phase y stands still, so that the forced accelerations drop out; the forced angles divide by the shift, and the
-    homogeneous beta1 is of the order k.
+    Shift and forced rates come from the parts without and with 2y, h and nu from the homogeneous part. If a is zero at zeroth order
+    the phase y is constant, so that the forced accelerations vanish; the forced angles are divided by the shift, and the homogeneous
+    beta1 is of the order k.
     """
 
     def __init__(self, equations, kind):
@@ -97,7 +97,7 @@ class Solution:
         if rate != 0:
             values = {beta1: amplitude / nu * sin(x) - r_beta / (2 * rate) * cos(2 * y)}
         else:
-            # The shift, found first: the part without x, y and beta1.
+            # The shift comes first, from the part without x, y and beta1.
             still = {beta1: 0, FIRST_RATES[1]: 0, FIRST_RATES[2]: 0, FIRST_RATES[3]: 0, s_x: (s_x + s_y) / 2, s_y: (s_x + s_y) / 2}
             absorbed = solve(equations[1].subs(still, simultaneous=True), FIRST_RATES[0])[0]
             values = {beta1: -r_beta / (2 * absorbed) * cos(2 * y)}
@@ -119,13 +119,13 @@ class Solution:
         assert len(found) == 1, found
         self.nu, self.ratio = positive[0][nu].simplify(), positive[0][ratio].simplify()
         self.shift, self.r_alpha, self.r_beta = (found[0][u].simplify() for u in (shift, r_alpha, r_beta))
-        # Eq. (32): the shift absorbed.
+        # Eq. (32) with the shift absorbed.
         self.rate = rate + self.shift
         self.eta_alpha, self.eta_beta = ((u / c_tilde).simplify() for u in (self.r_alpha, self.r_beta))
 
     @staticmethod
     def _coefficients(equations):
-        """Each equation is a polynomial in the sines and cosines of x and y that must vanish identically."""
+        """The residuals of each equation, polynomials in the sines and cosines of x and y that must vanish identically."""
         sx, cx, sy, cy = symbols("sx cx sy cy")
         out = []
         for equation in equations:
@@ -142,7 +142,7 @@ class Solution:
         ]
 
     def angles(self, frequency=None):
-        """Eq. (33): the integrals of the rates, with the absorbed a (and, if it is the frequency nu, there too)."""
+        """Eq. (33): the integrals of the rates, with the absorbed a (also for the frequency nu, if it is that)."""
         nu = frequency or self.nu
         return [
             amplitude * self.ratio / nu * cos(x) + self.r_alpha / (2 * self.rate) * sin(2 * y),

@@ -14,7 +14,7 @@ from mean_motion import BY_H
 
 
 def zero(expression):
-    """Whether it vanishes identically."""
+    """Whether the expression vanishes identically."""
     return simplify(expand_trig(expand(expression))) == 0
 
 
@@ -221,7 +221,7 @@ STATEMENTS = [
 
 
 def judge():
-    """Prints each statement with its verdict; the number that do not hold."""
+    """Prints each statement with its verdict; returns the number of failures."""
     failures = 0
     for statement in STATEMENTS:
         holds = bool(statement())

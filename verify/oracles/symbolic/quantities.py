@@ -1,4 +1,4 @@
-"""What is compared: each name stands for the same components on the Rust side (verify/src/symbolic/kernels.rs)."""
+"""The compared quantities: each name stands for the same components on the Rust side (verify/src/symbolic/kernels.rs)."""
 
 from dataclasses import dataclass
 
@@ -139,14 +139,14 @@ def exact_quantities():
 
 
 def bulge_components():
-    """Energy, angular velocity, rates of n and L, `I Omega`; `n` from the angles of a point, `L` its `w`."""
+    """Energy, angular velocity, rates of n and L, `I Omega`; `n` from the angles of a point, `L` is its `w`."""
     at = dict(zip(list(N) + list(L), list(E_Z) + list(symbols("w_1:4"))))
     components = [bulge.ENERGY, *bulge.TURNING, *bulge.rates(bulge.ENERGY), *bulge.KINEMATIC_MOMENTUM]
     return [component.subs(at, simultaneous=True) for component in components]
 
 
 def spin_down_quantities():
-    """Rotation of a braked star, and a wobble that friction damps."""
+    """Rotation of a braked star, and a wobble damped by friction."""
     late, time = spin_down.delay()
     # The delay is a difference of periodic functions of this size.
     size = spin_down.braking * spin_down.MODULATION * (abs(spin_down.A_1) + abs(spin_down.A_2) / 4) / spin_down.rate**2
@@ -184,7 +184,7 @@ def estimated_inertia_over_c():
 
 
 def fluid_inertia_over_c():
-    """I^zz / C of a star whose flattening is that of its spin: T_rot = I^zz spin^2 / 2 = 2 C."""
+    """I^zz / C of a star with the flattening due to its spin: T_rot = I^zz spin^2 / 2 = 2 C."""
     return 4 / spin**2
 
 
@@ -226,7 +226,7 @@ def cos_polynomial(expression):
 def growth():
     """Growth about the middle axis: dl/dt = <H>_L x l linearised, l = e_Y + small, s_x > s_y > s_z; as a function of G and c = x_1.
 
-    The kernel is asked with the energy at which the first-order averaged motion has this G.
+    The kernel is evaluated at the energy at which the first-order averaged motion has this G.
     """
     size, cosine = mean.size, symbols("x_1")
     p2 = (mean.BY_H).subs(sin(mean.theta) ** 2, 1 - cosine**2)
@@ -237,7 +237,7 @@ def growth():
     across = jacobian.extract([0, 2], [0, 2])
     assert across.trace() == 0
     rate = sqrt(-across.det())
-    # P2 loses digits where it vanishes, and G^2 / (2 I) those that it has less than the parts of the energy.
+    # P2 loses digits near its zero, and G^2 / (2 I) those that it is smaller than the parts of the energy.
     scale = rate / abs(p2) * (abs(p2) + 3 * cosine**2) * (1 + cosine**2 * (1 + i_xx / i_zz))
     return Quantity("growth-at-middle-axis", [rate], exact=False, scale=scale)
 
@@ -252,10 +252,10 @@ def motion_quantities():
     h = seen.harmonics()
     renamed = dict(zip(symbols("p i"), symbols("azimuth zeta"))) | {symbols("wobble"): symbols("colatitude")}
     drift = symbols("x_2")
-    # Eq. (40): Delta cos lambda = a^(1) Delta t with the factors of the directions put to one, solved for the combination.
+    # Eq. (40): Delta cos lambda = a^(1) Delta t with the factors of the directions set to one, solved for the combination.
     combination = symbols("combination")
     bound = solve(c * combination * cos(beta) / (i_zz * spin) * time - drift, combination)[0]
-    # An error of the angle beta makes this of the rate omega / cos beta.
+    # Effect of an error of the angle beta on the rate omega / cos beta.
     rate_scale = i_zz * spin / (i_xx * cos(beta) ** 2)
     return [
         Quantity("steady-precession", steady_rates()[::-1], exact=False),

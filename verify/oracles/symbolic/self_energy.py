@@ -5,7 +5,7 @@ ends of a chord the part with the square root is even in l and drops out, so tha
 
     A_i = (1 / 2 pi) int dOmega (l_i^2 / a_i^2) / sum_j (l_j^2 / a_j^2)
 
-which here is found, not taken over. For a spheroid it is a rational function of mu = cos(theta).
+which is derived here. For a spheroid it is a rational function of mu = cos(theta).
 """
 
 from sympy import (
@@ -32,7 +32,7 @@ mu = Symbol("mu", real=True)
 
 
 def chord_is_linear():
-    """The chord through x along l: (x + r l) on the surface. Its sum over both ends is linear in x, the attraction too."""
+    """The chord through x along l, with (x + r l) on the surface. Its sum over both ends is linear in x, and so is the attraction."""
     x, l, a = (Matrix(symbols(f"{n}_1:4")) for n in "xla")
     r = Symbol("r")
     on_surface = sum((x[i] + r * l[i]) ** 2 / a[i] ** 2 for i in range(3)) - 1
@@ -85,7 +85,7 @@ def energy_of_body(s_body, u):
 
 
 def energy_of_spheroid_in_angles():
-    """Eq. (21): the body's energy with U = diag(U^xx, U^xx, U^zz), without what does not depend on the orientation."""
+    """Eq. (21): the body's energy with U = diag(U^xx, U^xx, U^zz), without the part that does not depend on the orientation."""
     u_xx, u_zz = symbols("u_xx u_zz")
     s_body = R * S_PRINCIPAL * R.T
     energy = energy_of_body(s_body, Matrix.diag(u_xx, u_xx, u_zz))

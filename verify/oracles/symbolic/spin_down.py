@@ -11,7 +11,7 @@ from coordinates import rotation
 
 theta, chi, phase = symbols("colatitude chi azimuth")
 psi = symbols("psi")
-# kappa, w, n, q, gamma and tau by the numbers of a point.
+# kappa, w, n, q, gamma and tau from the numbers of a point.
 braking = symbols("x_1") / 1024
 rate = symbols("size")
 less_two = symbols("x_4")
@@ -25,7 +25,7 @@ def torque():
     """sin^2 of the angle of the magnetic axis to L, which is at the wobble angle from the axis of the body: mean, and coefficients of cos psi and cos 2 psi."""
     magnetic = Matrix([sin(chi), 0, cos(chi)])
     along_l = rotation(psi, theta, 0).T * Matrix([0, 0, 1])
-    # psi is counted from the part of the magnetic axis across n.
+    # psi counts from the component of the magnetic axis normal to n.
     along_l = along_l.subs(psi, psi + pi / 2)
     assert (along_l.subs({psi: 0, theta: pi / 2}) - Matrix([1, 0, 0])).norm() == 0
     square = 1 - magnetic.dot(along_l) ** 2
@@ -41,7 +41,7 @@ MODULATION = share / (1 - share + share * A_0)
 
 
 def periodic_integral(terms):
-    """With respect to tau, of sums of sines and cosines of psi = phase + rate tau, without a constant."""
+    """Integral with respect to tau of sums of sines and cosines of psi = phase + rate tau, without a constant."""
     return integrate(terms, psi) / rate
 
 
@@ -55,14 +55,15 @@ def slowness():
 
 
 def delay():
-    """t - tau at the braking index 3, by the oscillating torque and in all."""
+    """t - tau at the braking index 3, from the oscillating torque and in total."""
     twice = periodic_integral(OSCILLATING)
     late = braking * (twice.subs(AT_TAU) - twice.subs(psi, phase))
     return late, tau + braking * tau**2 / 2 + late
 
 
 def damped():
-    """The wobble that friction damps, d theta / dtau = -gamma sin theta cos theta, and by how much psi, of the rate w cos theta / cos theta_0, is ahead of w tau."""
+    """The wobble damped by friction, d theta / dtau = -gamma sin theta cos theta, and the lead of psi, with the rate w cos theta / cos theta_0, over
+    w tau."""
     wobble = atan(tan(theta) * exp(-damping * s))
     assert (diff(wobble, s) + damping * sin(wobble) * cos(wobble)).simplify() == 0
     # cos theta = 1 / sqrt(1 + tan^2 theta).

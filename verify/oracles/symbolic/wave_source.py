@@ -29,7 +29,7 @@ def wave_tensor():
 
 
 def spheroid_in_angles():
-    """d^2 I^{IJ} / dt^2 of the spheroid straight from the Euler angles, with the equations of motion."""
+    """d^2 I^{IJ} / dt^2 of the spheroid directly from the Euler angles, with the equations of motion."""
     tensor = R.T * Matrix.diag(i_xx, i_xx, i_zz) * R
     return along_motion(time_derivative(time_derivative(tensor)))
 

@@ -17,7 +17,7 @@ checks! {
     Property "axis-motion-of-whole-motion" [25]: against_whole_motion;
     AtMost(1.0) "largest difference / sum of the two error estimates";
     because "the same motion, computed twice with other steps";
-    /// between the steps, too, n and L of the paper's four examples are those of a Runge-Kutta method of another crate with dense output
+    /// also between the steps, n and L of the paper's four examples agree with a Runge-Kutta method of another crate with dense output
     Oracle "axis-motion-second-integrator" [25]: against_second_integrator;
     AtMost(1e-11) "largest difference of a component at 1,000 times up to 100 t_c";
     because "the other method's tolerance 1e-14 per step, added up over some hundred steps and grown with a phase of 150 rad";

@@ -44,7 +44,7 @@ fn pulse_width_change<F: Differentiable>(p: &Point<F>) -> Vec<F> {
 
     let [numerator, denominator] = lambda_change_terms(angle, chi, width);
     let (lambda, moved_width) = moved([numerator, denominator]);
-    // cos(pi - lambda) = -cos lambda: the first term has the other sign.
+    // cos(pi - lambda) = -cos lambda: the first term changes sign.
     let with_reversed_cosine =
         cos_opening_angle(lambda, fixed_chi, moved_width) - lambda.sin_cos().1 * fixed_chi.sin_cos().1 * 2.0;
 
@@ -87,7 +87,7 @@ fn bound_of_known_tensor() -> Result<Measured, String> {
         let alpha_2 = random.within(-1e-3, 1e-3);
         let w = Vector3::from_fn(|_, _| random.within(-1e-3, 1e-3));
         let s = principal_frame(&coefficients_from_preferred_frame(alpha_2, &w))?.coefficients;
-        // The odd eigenvalue is the first or the last; the axis of that one is Z.
+        // The eigenvalue that differs is the first or the last. Its axis becomes Z.
         let about_w = if alpha_2 < 0.0 { s.permuted() } else { s };
         let bound = preferred_frame_bound(about_w.combination(), &w)?;
         Ok((bound / alpha_2.abs() - 1.0).abs() / f64::EPSILON)
@@ -103,7 +103,7 @@ fn printed_changes() -> Result<Measured, String> {
     })
 }
 
-/// Bounds by Eq. (41) over those printed, both over eta: main pulse and interpulse of PSR B1937+21, PSR J1744-1134.
+/// Bounds by Eq. (41) over the printed ones, both over eta: main pulse and interpulse of PSR B1937+21, PSR J1744-1134.
 fn over_printed(bound_over_eta: impl Fn(&Pulsar) -> Result<f64, String>) -> Result<Vec<f64>, String> {
     let ratio = |(pulsar, printed): (Pulsar, PrintedBounds)| {
         let value: f64 = printed.bound.parse().map_err(|_| format!("{} is not a number", printed.bound))?;

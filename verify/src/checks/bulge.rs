@@ -9,11 +9,12 @@ use crate::prelude::*;
 use crate::second_integrator::{regular_motion, regular_states};
 
 checks! {
-    /// the angular velocity with which a bulge turns everything is the slope of its energy by L, and the torque on L that by a rotation of L
+    /// the angular velocity due to a bulge is the slope of its energy by L, and the torque on L the slope under a rotation of L
     Autodiff "bulge-slopes" []: slopes;
     AtMost(1e-15) "largest difference / (|b| |s| |L|), and over |L| of the torque, 200 random tensors and L";
     because "some ten roundings";
-    /// a bulge changes neither |L| nor the angle of n to L: without a rigid deformation (C = 0) the averaged motion is exact, however strong the bulge
+    /// a bulge changes neither |L| nor the angle between n and L: without a rigid deformation (C = 0) the averaged motion is exact, at any strength
+    /// of it
     Oracle "bulge-alone" []: alone;
     AtMost(3e-11) "largest difference of n, e_x and L / |L|, 40 random motions up to 300 rad, strength of the bulge up to 0.19";
     because "the other method's tolerance of 1e-14 in some ten steps a radian grows with the phase, to 300 times 1e-13";
@@ -21,15 +22,15 @@ checks! {
     Oracle "bulge-orders" []: orders;
     AtMost(0.1) "largest |measured slope - order|, k from 1e-1 to 3e-3";
     because "corrections of relative order k";
-    /// the error estimate of the averaged motion is not below its error: a bulge that is up to 1e6 times as strong as the rigid deformation
+    /// the error estimate of the averaged motion is not below its error, also for a bulge up to 1e6 times as strong as the rigid deformation
     Property "bulge-estimate" []: estimate;
     AtMost(1.0) "largest (true error - 3e-11) / estimate, 300 random motions up to 300 rad, both orders";
     because "an estimate below the true error is wrong; 3e-11 is the error of the integration";
-    /// for n on L the averaged L precesses as the paper's bounds have it, with the sum of both C: for a fluid with I / C = 4 / Omega^2
+    /// for n along L the averaged L precesses at the rate behind the paper's bounds, with the sum of both C: for a fluid with I / C = 4 / Omega^2
     Oracle "bulge-bounds" [32, 41]: bounds;
     AtMost(3e-8) "largest relative difference of the rate about the axis of s, C from 0 to 30 times that of the bulge, s_max - s_min = 3e-9";
     because "corrections of the relative strength of the torque, 31/4 of 3e-9, times a number of order one";
-    /// at the edges of the pulses of a star with a bulge the integrated motion has the line of sight on the rim of the beam
+    /// at the pulse edges of a star with a bulge the line of sight lies on the rim of the beam in the integrated motion
     Oracle "bulge-edges" []: edges;
     AtMost(1e-10) "largest |m.n - cos rho|, at least 30 edges in 400 rad, strength of the bulge 0.1";
     because "the other method's tolerance 1e-14 per step grows with the phase, to some 1e-11, and n turns for 400 rad at rates below one";
@@ -51,14 +52,14 @@ fn slopes() -> Result<Measured, String> {
         let turning = bulge_turning(b, &s, &momentum);
         let unit = b.abs() * s.norm() * momentum.norm();
         let by_slopes = Vector3::from(basis.map(|axis| slope(&axis)));
-        // L turned about an axis moves by axis x L; the torque is minus the slope of the energy.
+        // A small rotation changes L by axis x L; the torque is minus the slope of the energy.
         let by_rotation = Vector3::from(basis.map(|axis| slope(&momentum.cross(&axis))));
         let off = [turning - by_slopes, (turning.cross(&momentum) - by_rotation) / momentum.norm()];
         Ok(largest(off.map(|v| largest_component(&v))) / unit)
     })
 }
 
-/// The random scene of a number with part of its strength given to a bulge, of either sign: all, or all but a part down to 1e-6.
+/// Random scene `number` in which a bulge of either sign has all of the strength, or all but a part as small as 1e-6.
 fn with_bulge(number: u64, all: bool) -> Result<AveragedScene, String> {
     let scene = AveragedScene::draw(29, number, 300.0);
     let mut random = Random::with_seed(31 + number);
@@ -71,7 +72,7 @@ fn with_bulge(number: u64, all: bool) -> Result<AveragedScene, String> {
     Ok(AveragedScene { problem, ..scene })
 }
 
-/// How far the averaged motion of an order is off a state.
+/// Difference between the averaged motion of an order and a state.
 fn difference(averaged: &AveragedSolution<f64>, t: f64, exact: &BodyState<f64>) -> f64 {
     largest_difference(&averaged.state(t), exact, exact.momentum.norm())
 }
@@ -127,7 +128,7 @@ fn bounds() -> Result<Measured, String> {
         let problem = Problem::new(body, s, start)?.with_bulge(0.25 / inertia)?;
         let slow = AveragedSolution::new(&problem, AveragingOrder::Second)?.rates().slow;
         let inertia_over_c = twofold::observables::bound::fluid_inertia_over_c(spin) / (1.0 + ratio);
-        // Across the meridian of the axis of s: it is the rate about Z times the sine.
+        // The velocity across the meridian of the axis of s is the rate about Z times the sine.
         let rate = secular_axis_rate(inertia_over_c, spin, &s, &axis).y / axis.x;
         Ok((slow.abs() / rate.abs() - 1.0).abs())
     })

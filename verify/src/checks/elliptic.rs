@@ -50,7 +50,7 @@ struct CarlsonRow {
     expected: Vec<f64>,
 }
 
-/// A relative error in units of 2.2e-16.
+/// The relative error in units of 2.2e-16.
 fn relative(value: f64, expected: f64) -> f64 {
     (value / expected - 1.0).abs() / f64::EPSILON
 }
@@ -70,9 +70,9 @@ fn carlson_table() -> impl Iterator<Item = CarlsonRow> {
     })
 }
 
-/// The function of a row; a conjugate pair enters by its real and imaginary parts.
+/// The function of a row; a conjugate pair is given by its real and imaginary parts.
 fn carlson<S: Real>(function: &str, a: &[S]) -> S {
-    // The root of a zero that is a constant is a constant.
+    // The root of a constant zero has no derivative.
     let root = |x: S| if x.re() == 0.0 { S::zero() } else { x.sqrt() };
     match function {
         "rf" => rf(a[0], a[1], a[2]),
@@ -204,7 +204,7 @@ fn jacobi_argument_derivatives() -> Result<Measured, String> {
         let m = 1.0 - m1;
         let [(sn, sn1, sn2, sn3), (cn, cn1, ..), (dn, dn1, ..)] = derivatives(|u| jacobi(u, Dual3_64::from_re(m1)), u);
         let [s, c, d] = slopes([sn, cn, dn], m1);
-        // The size of each term, as it is without the cancellation at a zero.
+        // Each term is compared with its size without the cancellation at a zero.
         let size = 1.0 + m.abs();
         let residuals = [
             (sn1 - s) / size.sqrt(),

@@ -13,7 +13,7 @@ checks! {
     accelerations_of_angles: Autodiff "euler-angle-accelerations" [24, 25];
     /// n, L and e_x of a motion by Eq. (25) have the rates of the regular equations; Omega is that of Eq. (22)
     regular_equations: Autodiff "regular-equations" [9, 22, 25, 61];
-    /// the rates of the regular state, the torque and the wave's source turn with the inertial frame, for a tensor s^IJ that is not diagonal
+    /// the rates of the regular state, the torque and the source of the wave rotate with the inertial frame, for a tensor s^IJ that is not diagonal
     inertial_frame: Property "inertial-frame" [7, 25, 60];
     /// with any three eigenvalues a spin along X, Y or Z, both ways, is stationary: along X and Y beta stays at pi/2
     spin_along_principal_axis: Property "spin-along-principal-axis" [25, 27];

@@ -1,18 +1,18 @@
-//! The estimated error of a numerical motion compared with its true one, over the whole space of motions.
+//! The estimated error of a numerical motion compared with the true one, over the whole space of motions.
 
 use crate::prelude::*;
 
-// `cargo run --release -p twofold-tools --bin estimate_ratio` is the same over 10,000 scenes.
+// `cargo run --release -p twofold-tools --bin estimate_ratio` does the same for 10,000 scenes.
 checks! {
     /// the estimated error of a motion is not below its true error
     Oracle "error-estimate-not-below" [25]: || worst_of(scenes().chain(HARD), ratio);
     AtMost(1.0) "largest true / estimated error, 200 random scenes up to 60 rad, tolerances 1e-3 to 1e-16, and 6 hard ones";
     because "an estimate below the true error is wrong";
-    /// the estimated error of a motion is not below its true error where it starts near a state of rest, stable or not
+    /// the estimated error of a motion that starts near a state of rest, stable or not, is not below its true error
     Oracle "error-estimate-near-rest" [25]: || worst_of(short(near_rest).take(2000), |&number| estimate_ratio(&near_rest(number)));
     AtMost(1.0) "largest true / estimated error, 2,000 random scenes that start 1e-12 to 1e-1 off a state of rest or of spin about an axis of s, tolerances 1e-6 to 1e-2, up to 60 rad";
     because "an estimate below the true error is wrong";
-    /// the estimated error of a motion in parts, each of which goes on from the one before, is not below its true error
+    /// the estimated error of a motion in parts, each of which continues the one before, is not below its true error
     Oracle "error-estimate-in-parts" [25]: || worst_of(in_parts(), ratio_in_parts);
     AtMost(1.0) "largest true / estimated error by Taylor series and by splitting in two to five parts, 200 random scenes and 300 near a state of rest, up to 60 rad, and 3 hard ones";
     because "an estimate below the true error is wrong";
@@ -25,8 +25,8 @@ checks! {
 /// Seed of the scenes.
 const SEED: u64 = 3;
 
-/// Scenes, each as seed and number, whose error is mostly one of the rounding that all steps share (of the constants, of the frame, of
-/// the factors of the series), or that pass near the separatrix again and again.
+/// Scenes, each as seed and number, whose error is mostly one rounding common to all steps (of the constants, of the frame or of the
+/// factors of the series), or that pass near the separatrix again and again.
 const HARD: [(u64, u64); 6] = [(22, 3645), (22, 9181), (22, 5925), (22, 1197), (102, 3999), (103, 9216)];
 
 /// True over estimated error of a scene.
@@ -42,7 +42,7 @@ fn ratio_of(estimated_and_true: Result<(f64, f64), String>) -> Result<f64, Strin
     estimated_and_true.map(|(estimate, error)| error / estimate)
 }
 
-/// A scene that starts near rest or anywhere, by its number, with a method and a number of parts.
+/// A scene that starts near rest or anywhere, with a method and a number of parts.
 #[derive(Debug)]
 struct InParts {
     near_rest: bool,
@@ -51,7 +51,7 @@ struct InParts {
     parts: u32,
 }
 
-/// Of motions that go on, scenes with a large error of `L.n` or of the length of `n` at the end of a part, and one with nearly equal eigenvalues.
+/// Motions in parts with a large error of `L.n` or of the length of `n` at the end of a part, and one with nearly equal eigenvalues.
 const HARD_IN_PARTS: [InParts; 3] = [
     InParts { near_rest: false, number: 2686, method: Method::Taylor, parts: 4 },
     InParts { near_rest: true, number: 5433, method: Method::Taylor, parts: 3 },
@@ -76,7 +76,7 @@ fn near_rest(number: u64) -> ErrorScene {
     ErrorScene::draw(SEED, number).started_near_rest(number)
 }
 
-/// Numbers of the scenes that are short enough for a suite.
+/// Numbers of the scenes that are short enough for the test suite.
 fn short(draw: impl Fn(u64) -> ErrorScene) -> impl Iterator<Item = u64> {
     (0..).filter(move |&number| draw(number).turned() < 60.0)
 }

@@ -11,10 +11,10 @@ use twofold::observables::eta::{
 use crate::eta::{PAPER_ASYMMETRY, eta_curve, numerical_axis_rate, seen_rate, twelve_turns};
 use crate::prelude::*;
 
-/// Samples of a distribution.
+/// Number of samples of a distribution.
 const SAMPLES: usize = 20_000;
 
-/// Where `P(eta > x)` is compared with its integral.
+/// `x` at which `P(eta > x)` is compared with its integral.
 const MULTIPLES: [f64; 7] = [2.1, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
 
 /// Shapes of the tensor: symmetric about Z, the paper's, the most asymmetric one.
@@ -24,7 +24,7 @@ checks! {
     /// the secular rate of the spin axis is torque over angular momentum, is a^(1) about Z for s^XX = s^YY, and has the square of Eq. (41) with eta
     /// = 1 / speed
     torque_over_momentum: Property "secular-axis-rate" [31, 32, 41];
-    /// angles at the start by the asymmetry ratio alone are those of Eq. (34), lower signs, with A = 0
+    /// the initial angles as functions of the asymmetry ratio alone are those of Eq. (34), lower signs, with A = 0
     start_by_asymmetry_ratio: Property "single-precession-start" [34];
     /// the closed mean of the squared speed of the spin axis over its azimuth is the mean over eight azimuths
     Property "eta-azimuth-mean" [41]: azimuth_mean;
@@ -34,29 +34,29 @@ checks! {
     Oracle "eta-along-motion" [41]: along_motion;
     AtMost(1e-9) "largest relative difference, and distance from the start after the period, 60 random motions on both sides of the separatrix";
     because "Runge-Kutta of order four with 4000 steps a period: (2 pi / 4000)^4 / 120 a radian, times the harmonics of a motion near the separatrix";
-    /// eta over random directions to the observer and random azimuths of the axis is distributed as by the sum over speeds
+    /// eta over random directions to the observer and random azimuths of the axis is distributed as the sum over speeds
     Oracle "eta-distribution" [37, 41]: distribution;
     AtMost(1.95) "largest Kolmogorov-Smirnov statistic sqrt(N) D, 20,000 samples each at four inclinations, seed 41";
     because "exceeded by chance in one case of a thousand";
-    /// for a symmetric tensor and an axis of which nothing is known, P(eta > x) is the closed integral
+    /// for a symmetric tensor and an unknown spin axis, P(eta > x) is the closed integral
     Oracle "eta-unknown-axis" [41]: unknown_axis;
     AtMost(3e-6) "largest relative difference for x = 2.1 to 1000";
     because "midpoint rule over a kink, beyond which 664 of the 16384 nodes lie at x = 1000: (1/664)^2 of the part beyond";
-    /// eta over random orientations of the tensor's axes, for an observer at a known angle to the spin axis, is distributed as by the sum over speeds
+    /// eta over random orientations of the tensor's axes, at a known angle of the observer to the spin axis, is distributed as the sum over speeds
     Oracle "eta-at-known-angle" [37, 41]: known_angle;
     AtMost(1.95) "largest Kolmogorov-Smirnov statistic sqrt(N) D at 100 of 20,000 samples each, lambda = 30, 95 and 100 deg, three shapes of the \
      tensor, seed 42";
     because "exceeded by chance in one case of a thousand";
-    /// for a symmetric tensor, P(eta > x) at a known angle is an integral over the inclination of Z to the third axis, at right angles to the spin
-    /// axis and to the apparent motion
+    /// for a symmetric tensor, P(eta > x) at a known angle is an integral over the inclination of Z to the third axis, normal to the spin axis and
+    /// to the apparent motion
     Oracle "eta-at-known-angle-integral" [41]: known_angle_integral;
     AtMost(1e-5) "largest relative difference for x sin(lambda) = 2.1 to 1000";
     because "midpoint rule over a corner, beyond which 664 of the 16384 nodes lie at x = 1000: their number to the power of -3/2, over the part of \
      the probability that is next to it, some 1/10";
-    /// of all shapes of the tensor the one symmetric about Z has the largest eta at 95 %, if nothing is known of its axes
+    /// of all shapes of the tensor the one symmetric about Z has the largest eta at 95 %, if its axes are unknown
     Property "eta-largest-for-symmetric-tensor" [41]: symmetric_is_largest;
     AtMost(1.0) "largest ratio to the eta at 95 % of r = 0, |r| = 0.01 to 3, line of sight at a right angle to the spin axis";
-    because "asymmetry adds to the speed where the axis would be slow, near the equator and the pole";
+    because "asymmetry increases the speed where the axis would be slow, near the equator and the pole";
     /// for the paper's own tensor more than 5 % of directions and azimuths have an eta above 40, at every inclination
     Regime "eta-ten-exceeded" [41]: ten_exceeded;
     AtLeast(40.0) "smallest eta at 95 %, beta_0 = 0.05 to 1.57";
@@ -144,7 +144,7 @@ fn of_shape(ratio: f64) -> [f64; 3] {
     [ratio / 2.0 - 1.0 / 6.0, -ratio / 2.0 - 1.0 / 6.0, 1.0 / 3.0]
 }
 
-/// Mean of `|dl/dt|^2` over the time `period` by Runge-Kutta, and how far the end is from the start.
+/// Mean of `|dl/dt|^2` over the time `period` by Runge-Kutta, and the distance of the end from the start.
 fn integrated_mean(s: &Matrix3<f64>, start: Vector3<f64>, period: f64) -> (f64, f64) {
     const STEPS: usize = 4000;
     let rate = |l: &Vector3<f64>| secular_axis_rate(1.0, 1.0, s, l);
@@ -161,7 +161,7 @@ fn integrated_mean(s: &Matrix3<f64>, start: Vector3<f64>, period: f64) -> (f64, 
     (sum / STEPS as f64, (l - start).norm())
 }
 
-/// Period `4 K / (2 sqrt((s2 - s3)(s1 - h)))` of the secular motion for `I^zz / C = Omega^z = 1`, on either side.
+/// Period `4 K / (2 sqrt((s2 - s3)(s1 - h)))` of the secular motion for `I^zz / C = Omega^z = 1`, on either side of the separatrix.
 fn secular_period(mut s: [f64; 3], h: f64) -> f64 {
     s.sort_by(|a, b| b.total_cmp(a));
     let [first, middle, last] = if h > s[1] { [s[2], s[1], s[0]] } else { s };
@@ -213,8 +213,8 @@ fn known_angle_integral() -> Result<Measured, String> {
     let lambda = 1.745_f64;
     let distribution = EtaDistribution::new(0.0, SpinAxis::Unknown)?.seen_at(lambda)?;
     worst_of(MULTIPLES, |&scaled| {
-        // n.dl/dt = sin(lambda) (Z.l)(Z.b) with b at right angles to l: half of (1 - mu^2) sin(2 phi) about the third axis, so that
-        // P = int_0^1 (2/pi) asin min(1, 2 / (x (1 - mu^2))) d mu. The integrand is one from the kink on, a root before it.
+        // n.dl/dt = sin(lambda) (Z.l)(Z.b) with b normal to l: half of (1 - mu^2) sin(2 phi) about the third axis, so that P = int_0^1 (2/pi) asin
+        // min(1, 2 / (x (1 - mu^2))) d mu. The integrand is one beyond the kink, and a square root just below it.
         let kink = (1.0 - 2.0 / scaled).sqrt();
         let root = |t: f64| {
             let mu = kink * (1.0 - t * t);
@@ -241,7 +241,7 @@ fn ten_exceeded() -> Result<Measured, String> {
     Ok(Measured::new(smallest.figure, detail))
 }
 
-/// Largest distance between the shares of samples and a distribution, at one sample of `every`, times the root of their number.
+/// Kolmogorov-Smirnov statistic: largest distance between samples, one of `every`, and a distribution, times the root of their number.
 fn kolmogorov_smirnov(mut samples: Vec<f64>, expected: &EtaDistribution, every: usize) -> f64 {
     samples.sort_by(f64::total_cmp);
     let n = samples.len() as f64;

@@ -16,14 +16,14 @@ checks! {
     Autodiff "fisher-rank-of-period-and-width" [51, 52, 56, 57]: rank_of_formulas;
     Within(1.0, 1.0) "singular values of the Jacobian below 1e-12 of the largest, tp-I, 200 times over three turns of gamma";
     because "rounding of the Jacobian is some 1e-15 times the square root of its 400 rows; the next singular value must be above 1e-6";
-    /// what is undetermined is eps against a^(1) alone, at d eps : d a^(1) = cos beta_0 : Omega^z; Omega^z itself follows from the rates, gamma' +
-    /// alpha' cos beta_0
+    /// the undetermined direction is eps against a^(1) alone, at d eps : d a^(1) = cos beta_0 : Omega^z; Omega^z itself follows from the rates,
+    /// gamma' + alpha' cos beta_0
     Autodiff "fisher-null-direction" [51, 52, 56, 57]: null_direction;
     AtMost(1e-10) "relative deviation of d(2 s^ZZ - s^XX - s^YY) : d eps of the direction found from that one, tp-I; infinite if it is not the only \
      one or moves anything else";
     because "rounding of the Jacobian, 1e-15 times some 20, over its second smallest singular value, 3e-3";
-    /// arrival times and widths of the pulses of the numerical motion determine all parameters: eps and C s / I^xx too, beside eleven more unknowns. The defect
-    /// is one of the perturbation formulas
+    /// arrival times and widths of the pulses of the numerical motion determine all parameters, also eps and C s / I^xx, besides eleven more
+    /// unknowns. The degeneracy is due to the perturbation formulas
     Autodiff "fisher-rank-of-exact-signal" [25, 44, 57]: rank_of_signal;
     AtLeast(3.0) "decimal logarithm of the smallest singular value of the scaled Jacobian by 13 unknowns / what rounding can make of zero, tp-I, 200 \
      t_c";
@@ -35,7 +35,7 @@ fn rates_along_null_direction<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let (_, cos) = beta_0.sin_cos();
     let RigidSpheroid { inertia_xx, inertia_zz, constant_c } = p.spheroid;
     let forced_rate = |inertia_zz: F, combination: F| constant_c * combination * cos / (inertia_zz * spin);
-    // I^zz = (1 + eps) I^xx; the combination that makes a^(1) grow by Omega^z a unit while I^zz grows.
+    // I^zz = (1 + eps) I^xx; the combination that increases a^(1) at the rate Omega^z while I^zz increases.
     let inertia_rate = inertia_xx * cos;
     let combination = p.s.combination();
     let combination_rate = spin * inertia_zz * spin / (constant_c * cos) + combination * inertia_rate / inertia_zz;
@@ -54,7 +54,7 @@ fn rates_along_null_direction<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let moved =
         Perturbation::new_unchecked(Form::Printed, Precession::Twofold, &spheroid, &s, F::fixed(spin), &constants);
     let gamma_rate = F::fixed(spin) - moved.rate * F::fixed(cos);
-    // gamma' as Eq. (57) prints it.
+    // gamma' as printed in Eq. (57).
     let oblateness = inertia_zz / inertia_xx - F::one();
     let printed = cos * forced_rate(inertia_zz, combination) - oblateness * spin;
     vec![
@@ -65,7 +65,7 @@ fn rates_along_null_direction<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     ]
 }
 
-/// `beta` stands for `beta_0`, `gamma` for its phase; `a^(1)` follows of `2 s^ZZ - s^XX - s^YY`.
+/// `beta` stands for `beta_0`, `gamma` for its phase; `a^(1)` follows from `2 s^ZZ - s^XX - s^YY`.
 const UNKNOWNS: [Parameter; 8] = [
     Parameter::Spin,
     Parameter::Oblateness,
@@ -82,7 +82,7 @@ fn tp_1() -> Result<Parameters<f64>, String> {
     parameters_of(&scene).map_err(String::from)
 }
 
-/// The constants of tp-I in place of its initial values.
+/// Parameters of tp-I with its constants in place of initial values.
 fn constants() -> Result<Parameters<f64>, String> {
     let model = tp_1()?;
     Ok(Parameters { angles: EulerAngles { beta: 0.7, gamma: FRAC_PI_2, ..model.angles }, ..model })
@@ -102,7 +102,7 @@ fn formulas<S: Real>(model: &Parameters<S>) -> Result<Vec<S>, twofold::Error> {
         signal.push(approximate_period(rates.alpha, offset_rate));
         let cosine = cosine_of_colatitude(beta_0, gamma, chi, S::zero());
         let theta = (one - cosine * cosine).sqrt().atan2(cosine);
-        // Grazing pulses have a width whose derivative is without limit.
+        // The width of a grazing pulse has an infinite derivative.
         match pulse_width(model.rho, theta, model.theta_o) {
             PulseWidth::Pulsed(width) if width.re() > 0.1 => signal.push(width),
             _ => {}
@@ -111,7 +111,7 @@ fn formulas<S: Real>(model: &Parameters<S>) -> Result<Vec<S>, twofold::Error> {
     Ok(signal)
 }
 
-/// What the formulas tell, by one dual number per unknown.
+/// The Fisher matrix of the formulas, with one dual number per unknown.
 fn fisher_of_formulas() -> Result<Fisher, String> {
     let model = constants()?;
     let column = |unknown: &Parameter| {
@@ -157,7 +157,7 @@ fn rank_of_signal() -> Result<Measured, String> {
     let (model, end) = (tp_1()?, 200.0);
     let signal = Signal::new(&model, end)?;
     let events = signal.events()?;
-    // Edges known to 1e-3 t_c, each by itself.
+    // Independent edges known to 1e-3 t_c.
     let noise = [(Observable::Arrivals, 1e-3 / SQRT_2), (Observable::Widths, 1e-3 * SQRT_2)];
     let data = data_of(&signal, &events, &[], &noise)?;
     let fisher = Fisher::of(&model, &events, &data, &Parameter::OF_PULSES)?;

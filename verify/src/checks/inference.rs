@@ -10,7 +10,7 @@ use twofold::parameters::ThirdRate;
 use twofold_scene::measurements::parameters_of;
 
 checks! {
-    /// derivatives of arrival times, closest approaches, widths, periods and strains by all 21 unknowns are those of data recomputed from moved
+    /// derivatives of arrival times, closest approaches, widths, periods and strains by all 21 unknowns agree with data recomputed from changed
     /// scenes: tp-I and 6 random stars
     Oracle "data-derivatives" [25, 44, 71]: derivatives;
     AtMost(2e-8) "largest difference from differences of fourth order / largest derivative by the same unknown of the same kind of data";
@@ -25,7 +25,7 @@ checks! {
     because "steps of 1e-3 of the scale of each unknown move the slow precession of some 10 rad by 0.01 rad, those by unknowns that change rates \
      move the fast phases by as much: 1e-8 by truncation. A last digit of L in a moved start is 1e-9 rad after 1e6 turns and 1e-6 of a derivative by \
      an angle, 1e3 times as much after 1e9 turns: there these unknowns are left out. Rounding of edges, 1e-14, over a step is taken for nothing";
-    /// after 1e9 turns the symmetries are found and named as over short spans, of a star with the tensor of alpha_2 and one with three eigenvalues
+    /// after 1e9 turns the symmetries are found and named as over short spans, for a star with the tensor of alpha_2 and one with three eigenvalues
     Oracle "degenerate-directions-named-decades" [5, 23, 44, 71]: directions_of_decades;
     AtMost(0.0) "directions that are missing, without a name, or too many, of all 21 unknowns by arrivals and widths";
     because "exact: each symmetry is named or not";
@@ -34,8 +34,8 @@ checks! {
     Oracle "degenerate-directions-named" [23, 44, 71]: directions;
     AtMost(0.0) "directions that are missing, without a name, or too many, in 11 sets of data and unknowns";
     because "exact: each symmetry is named or not";
-    /// fits recover what was put in, and their error bars hold: 90 simulated measurements of random stars by pulses, by strain and by both, 10 to
-    /// 13 unknowns, started three standard deviations off
+    /// fits recover the true parameters, and their error bars hold: 90 simulated measurements of random stars by pulses, by strain and by both,
+    /// 10 to 13 unknowns, started three standard deviations off
     Oracle "fit-coverage" [25, 44, 71]: coverage;
     AtMost(4.0) "largest of |score| of five: parts within one and two standard deviations, mean pull, chi^2 of unknowns, chi^2 of residuals; a fit \
      that fails is infinite";
@@ -45,15 +45,14 @@ checks! {
     Regime "forecast-scaling-with-number" [44]: number_scaling;
     Within(-0.53, -0.47) "power of the number of epochs, tp-2 with phi_o = 1, 12800 t_c, 200 to 1600 epochs";
     because "equally spaced epochs beat with the turns of the star, which changes single forecasts by some 5 %: over a factor of eight, 0.03";
-    /// where the slow precession is far from a turn, and the frame of s and the observer are known, the uncertainty of s goes as the inverse of the
-    /// span: the drift of the spin axis is seen, as in Eq. (41)
+    /// where the slow precession is far from a full turn, and the frame of s and the observer are known, the uncertainty of s goes as the inverse
+    /// of the span: the drift of the spin axis is measured, as in Eq. (41)
     Regime "forecast-known-frame" [41, 44]: known_frame;
     Within(-1.1, -0.9) "power of the span, tp-2 with s over 4000 and phi_o = 1, 500 to 8000 t_c, 100 epochs, 7 unknowns";
     because "s t is 2e-3 to 0.03 rad of slow precession and the next order that much of it; equally spaced epochs beat with the turns of the star, \
      some 5 %";
-    /// where the slow precession is far from a turn and nothing is known of the frame of s, the uncertainty of s goes as the inverse third power of
-    /// the span: five unknowns (two of s, two
-    /// of its frame, one of the observer) need the drift of the spin axis to third order in s t
+    /// where the slow precession is far from a full turn and the frame of s is unknown, the uncertainty of s goes as the inverse third power of the
+    /// span: five unknowns (two of s, two of its frame, one of the observer) need the drift of the spin axis to third order in s t
     Regime "forecast-unknown-frame" [44]: unknown_frame;
     Within(-3.1, -2.8) "power of the span, sp-1 with s over 4000 and phi_o = 1, 1000 to 16000 t_c, 100 epochs, 13 unknowns";
     because "as for the known frame; the last span is a third of a radian of slow precession";
@@ -67,7 +66,7 @@ fn tp_1() -> Result<Parameters<f64>, String> {
     parameters_of(&Scene::named("tp-1")?).map_err(String::from)
 }
 
-/// Values of the data `wanted` of a model: of the same turns, counted from the pulse nearest to the first.
+/// Values of the data `wanted` of a model, for the same turns, counted from the pulse nearest to the first one.
 fn values(
     model: &Parameters<f64>,
     end: f64,
@@ -113,7 +112,7 @@ fn derivatives() -> Result<Measured, String> {
         let signal = Signal::new(model, end)?;
         let turn = signal.turn();
         let mut events = signal.events()?;
-        // Pulses that a moved scene has as well, and none so short that its edges go as a root of the step.
+        // Only pulses that a changed scene also has, and none so short that its edges vary as a root of the step.
         events.retain(|event| event.start > turn && event.end < end - turn && event.end - event.start > 0.1 * turn);
         let samples = [0.0, 13.0, 39.0];
         let data = data_of(&signal, &events, &samples, &noise)?;
@@ -123,7 +122,7 @@ fn derivatives() -> Result<Measured, String> {
             let [two, one, minus_one, minus_two] = [at(2.0)?, at(1.0)?, at(-1.0)?, at(-2.0)?];
             for observable in Observable::ALL {
                 let rows = || (0..data.len()).filter(|row| data[*row].observable == observable);
-                // One for an unknown that changes nothing.
+                // One for an unknown without effect.
                 let scale = largest(rows().map(|row| exact[(row, column)].abs())).max(1.0);
                 let difference =
                     |row: usize| (8.0 * (one[row] - minus_one[row]) - (two[row] - minus_two[row])) / (12.0 * STEP);
@@ -135,7 +134,7 @@ fn derivatives() -> Result<Measured, String> {
     worst.finish()
 }
 
-/// A star whose `s^IJ` is of a given size, in any frame: of three eigenvalues, or of the form of alpha_2.
+/// A star whose `s^IJ` has a given size, in any frame: with three eigenvalues, or of the form of alpha_2.
 fn slow_star(size: f64, of_alpha_2: bool) -> Parameters<f64> {
     let s = if of_alpha_2 {
         let w = nalgebra::Vector3::new(0.48, -0.6, 0.64);
@@ -162,7 +161,7 @@ fn decades() -> Result<Measured, String> {
     use Parameter::*;
     let mut worst = Worst::default();
     let strain = [LONG_NOISE[0], LONG_NOISE[1], (Observable::StrainPlus, 1.0), (Observable::StrainCross, 1.0)];
-    // Widths of the strong one change as it precesses: a step a tenth as long.
+    // Widths of the strong tensor change with the precession: the step is a tenth.
     for (size, end, part) in [(1e-9, 6e9, 1e-3), (1e-6, 6e6, 1e-3), (0.01, 6e5, 1e-4)] {
         for of_alpha_2 in [false, true] {
             let model = slow_star(size, of_alpha_2);
@@ -181,7 +180,7 @@ fn decades() -> Result<Measured, String> {
                 let scale = match unknown {
                     unknown if unknown.is_of_s() && *unknown != SScale => size.min(10.0 / end),
                     _ if changes_rates => 10.0 / end,
-                    // What turns the slow precession by as much.
+                    // A change that turns the slow precession by as much.
                     _ => f64::min(1.0, 10.0 / end / size),
                 };
                 let step = part * scale;
@@ -193,12 +192,12 @@ fn decades() -> Result<Measured, String> {
                 let [two, one, minus_one, minus_two] = [at(2.0)?, at(1.0)?, at(-1.0)?, at(-2.0)?];
                 for kind in [Observable::Arrivals, Observable::Widths, Observable::StrainPlus, Observable::StrainCross]
                 {
-                    // Waves at fixed times turn many times while the rate changes by a step.
+                    // Waves at fixed times turn many times during a step of a rate.
                     if !kind.is_of_pulses() && !unknown.is_of_s() {
                         continue;
                     }
                     let of_kind = || (0..data.len()).filter(|row| data[*row].observable == kind);
-                    // A pulse that is about to go under has a width like a square root, which differences do not follow.
+                    // The width of a pulse that is about to disappear varies as a square root, which differences do not follow.
                     let widest = largest(of_kind().map(|row| data[row].value));
                     let is_short = |row: &usize| kind == Observable::Widths && data[*row].value < 0.5 * widest;
                     let rows = || of_kind().filter(|row| !is_short(row));
@@ -210,7 +209,7 @@ fn decades() -> Result<Measured, String> {
                         Place::Time(t) => (None, t),
                     };
                     let is_same = |a: &Datum, b: &Datum| a.observable == b.observable && places(a) == places(b);
-                    // A turn may be dark for a moved star.
+                    // A changed star may have no pulse in a turn.
                     let of =
                         |list: &'_ [Datum], row: usize| list.iter().find(|datum| is_same(datum, &data[row])).copied();
                     let errors: Vec<f64> = rows()
@@ -258,7 +257,7 @@ fn directions_of_decades() -> Result<Measured, String> {
 /// Data and the Fisher matrix of a built-in scene.
 fn fisher(scene: &str, noise: &[Noise], unknowns: &[Parameter]) -> Result<Fisher, String> {
     let scene = Scene::named(scene)?;
-    // An azimuth at which no horizontal axis is X or Y.
+    // At this azimuth no horizontal axis is X or Y.
     let model = Parameters { phi_o: 0.7, ..parameters_of(&scene)? };
     let end = 100.0;
     let signal = Signal::new(&model, end)?;
@@ -268,7 +267,7 @@ fn fisher(scene: &str, noise: &[Noise], unknowns: &[Parameter]) -> Result<Fisher
     Fisher::of(&model, &events, &data, unknowns).map_err(String::from)
 }
 
-/// A built-in scene, what is measured of it, what is unknown, and pieces of the words of every degenerate direction.
+/// A built-in scene, the measured quantities, the unknowns, and parts of the words for every degenerate direction.
 type Case<'a> = (&'a str, &'a [Noise], &'a [Parameter], &'a [&'a str]);
 
 fn directions() -> Result<Measured, String> {
@@ -349,7 +348,7 @@ fn coverage() -> Result<Measured, String> {
 
 const TIMES_AND_WIDTHS: [Noise; 2] = [(Observable::Arrivals, 1e-4), (Observable::Widths, 1e-4)];
 
-/// A built-in scene with s scaled, seen from an azimuth at which the first drift of the spin axis is seen.
+/// A built-in scene with s scaled, at an azimuth from which the first drift of the spin axis is visible.
 fn scaled(name: &str, scale: f64) -> Result<Parameters<f64>, String> {
     let model = parameters_of(&Scene::named(name)?)?;
     Ok(Parameters { coefficients: model.coefficients * scale, phi_o: 1.0, ..model })

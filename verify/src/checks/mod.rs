@@ -129,7 +129,7 @@ pub fn all() -> Vec<Check> {
     subjects.iter().flat_map(|checks| checks()).collect()
 }
 
-/// What became of a check, which is run once in a process; nothing if no check is called so.
+/// The outcome of a check, which runs once per process; `None` if no check has this id.
 pub fn outcome(id: &str) -> Option<&'static Outcome> {
     static OUTCOMES: LazyLock<Vec<(Check, OnceLock<Outcome>)>> =
         LazyLock::new(|| all().into_iter().map(|check| (check, OnceLock::new())).collect());

@@ -23,7 +23,7 @@ fn observer_basis<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let horizontal = Vector3::new(direction.x, direction.y, F::zero());
     components![
         direction.z - cos_theta,
-        // The azimuth: the horizontal part lies along (cos phi, sin phi), and its length is sin theta.
+        // The horizontal part lies along (cos phi, sin phi) and has the length sin theta.
         direction.x * sin_phi - direction.y * cos_phi,
         direction.x * cos_phi + direction.y * sin_phi - sin_theta,
         horizontal.dot(&horizontal) - sin_theta * sin_theta,

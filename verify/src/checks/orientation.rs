@@ -12,7 +12,7 @@ checks! {
     angular_velocity: Autodiff "angular-velocity" [9, 22];
     /// the rate of R along the Euler rates is epsilon^IJK Omega^J R^iK
     rate_along_euler_rates: Autodiff "rotation-rate" [61, 62];
-    /// the potential in the angles of the frame Y-Z-X with permuted coefficients is the potential of the same axis; three permutations are none
+    /// the potential in the angles of the frame Y-Z-X with permuted coefficients is that of the same axis; three permutations are the identity
     axis_permutation: Property "axis-permutation" [21, 36];
 }
 
@@ -55,7 +55,7 @@ fn axis_permutation<F: Differentiable>(p: &Point<F>) -> Vec<F> {
             - anisotropic_potential_of_axis(c, &p.s.tensor(), &axis),
         [thrice.xx - p.s.xx, thrice.yy - p.s.yy, thrice.zz - p.s.zz],
         permuted * p.s.tensor() * permuted.transpose() - p.s.permuted().tensor(),
-        // A vector along X is along the third axis of the permuted frame, and the frame stays right-handed.
+        // A vector along X becomes the third axis of the permuted frame, and the frame stays right-handed.
         permuted * Vector3::x() - Vector3::z(),
         permuted * permuted * permuted - Matrix3::identity(),
     ]

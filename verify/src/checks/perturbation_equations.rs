@@ -7,7 +7,7 @@ use crate::prelude::*;
 checks! {
     /// the full first-order equations are the terms of first order of Eq. (25), about free precession and about a stationary spin
     linearisation: Autodiff "full-first-order-equations" [25, 27, 28, 29];
-    /// Eq. (29) as printed lacks in the second equation, and there alone, a^2 sin^2(b0) beta1 for the upper signs and (C / I^xx) (2 s^ZZ - s^XX -
+    /// Eq. (29) as printed lacks in the second equation, and only there, a^2 sin^2(b0) beta1 for the upper signs and (C / I^xx) (2 s^ZZ - s^XX -
     /// s^YY) sin^2(b0) beta1 for the lower ones
     term_that_is_missing: Autodiff "missing-first-order-term" [25, 27, 28, 29];
     /// the printed rates solve the printed Eq. (29), both signs, any A and phi
@@ -27,12 +27,12 @@ pub(super) fn constants<F: Scalar>(p: &Point<F>) -> Constants<F> {
         alpha_0: p.angles.alpha,
         beta_0: p.angles.beta,
         amplitude: p.numbers[0],
-        // A phase coded like every other angle.
+        // The phase is coded like every other angle.
         phase: p.angles.gamma,
     }
 }
 
-/// What the two kinds mean: free precession has `L` along Z, `I^zz Omega^z = L cos b`, `a = L / I^xx`, Eq. (28). The torque of a
+/// The unperturbed motions: free precession has `L` along Z, `I^zz Omega^z = L cos b`, `a = L / I^xx`, Eq. (28). The torque of a
 /// tensor with `s^XX = s^YY` turns a spinning star about Z at `a^(1)`, Eq. (31).
 pub(super) fn unperturbed_motion<F: Scalar>(kind: Precession, p: &Point<F>) -> Unperturbed<F> {
     let (_, cos_beta) = p.angles.beta.sin_cos();
@@ -103,7 +103,7 @@ fn printed_solution<F: Differentiable>(p: &Point<F>) -> Vec<F> {
 fn corrected_solution<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     components![KINDS.map(|kind| {
         let solution = solution_of(Form::Corrected, kind, p);
-        // To first order the homogeneous frequency of the twofold solution is the zeroth-order rate.
+        // To first order the homogeneous frequency of the twofold solution is the rate at zeroth order.
         let nu = match kind {
             Precession::Twofold => solution.zeroth_rate,
             Precession::Single => solution.homogeneous_frequency,
@@ -118,7 +118,7 @@ fn rates_of_angles<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     components![FORMS.map(|form| {
         KINDS.map(|kind| {
             let solution = Perturbation::new_unchecked(form, kind, &spheroid, &s, spin, &constants);
-            // Time as an infinitesimal about zero: phases, which are sums of angles, keep their real parts.
+            // Time is an infinitesimal about zero: phases, which are sums of angles, keep their real parts.
             let moving = solution.at(F::first(F::zero(), F::one()));
             [
                 F::derivative(moving.alpha) - F::value(moving.alpha_rate),

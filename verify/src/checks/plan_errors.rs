@@ -11,18 +11,18 @@ checks! {
     Oracle "plan-error-bounds" [25]: bounds;
     AtMost(1.0) "largest true error / (predicted error of the method + of rounding)";
     because "a bound or an estimate below the true error is wrong";
-    /// of random motions no more than the share that a plan states miss its goal: splitting, splitting with derivatives and Taylor series, 300
-    /// scenes of every kind each up to 60 rad, four in ten of them beside the middle axis
+    /// the share of random motions that miss the goal of their plan is not above the share that the plan states: splitting, splitting with
+    /// derivatives and Taylor series, 300 scenes of every kind each up to 60 rad, four in ten of them beside the middle axis
     Oracle "plan-error-goals" [25]: goals;
     AtMost(1.0) "largest share of true errors above (predicted error of the method + of rounding) / the share allowed";
     because "the shares, 1, 5 and 1 %, are those of 3,000 such scenes to 2,000 t_c and of 10,000 with strong torques (0.6, 3.5 and 0.3 % at most), \
      rounded up";
-    /// the goal of splitting is predicted from its steps and does not just repeat the tolerance: it is not far above the true error either, the same
-    /// scenes
+    /// splitting predicts its goal from its steps instead of repeating the tolerance: in the same scenes the goal is not far above the true error
+    /// either
     Oracle "plan-error-goals-not-idle" [25]: not_idle;
     AtMost(100.0) "median of (predicted error of the method + of rounding) / true error";
     because "ten times the model of the error, which for half of the motions is less than ten times the true one";
-    /// the rounding that a plan predicts for a numerical motion is what the motion's error estimate counts: tolerance 1e-16, off the middle axis,
+    /// the rounding that a plan predicts for a numerical motion agrees with the motion's error estimate: tolerance 1e-16, off the middle axis,
     /// 200 random scenes by Taylor series and by splitting, from 5 rad to 2000 t_c
     Property "plan-rounding" [25]: rounding;
     AtMost(0.05) "share of estimates more than ten times above or below the prediction";
@@ -36,7 +36,7 @@ const SEED: u64 = 5;
 /// Longest rotation of motions that are compared with true ones (rad).
 const LONGEST: f64 = 60.0;
 
-/// Scenes that a method is made for, which end at the time asked for.
+/// Scenes for which a method is made, ending at the requested time.
 fn scenes(method: Method) -> impl Iterator<Item = (u64, ErrorScene)> {
     (0_u64..).filter_map(move |number| {
         let seed = SEED ^ number.wrapping_mul(0x9e37_79b9);
@@ -54,7 +54,7 @@ fn plan(scene: &ErrorScene, method: Method, derivatives: &[Parameter]) -> Result
     scene.problem.plan(&request)
 }
 
-/// Error foreseen, true error, and what the plan promises; none of a scene that the method refuses.
+/// Predicted error, true error and the promise of the plan; `None` if the method refuses the scene.
 fn foreseen_and_true(
     scene: &ErrorScene,
     method: Method,
@@ -74,7 +74,7 @@ fn foreseen_and_true(
     Ok(Some((prediction.truncation + prediction.rounding, error, prediction.promise)))
 }
 
-/// The first motions of a method that are short enough, by the number of their scenes.
+/// The first `count` motions of a method that are short enough, each with the number of its scene.
 fn found(method: Method, derivatives: &[Parameter], count: usize) -> Result<Vec<(u64, f64, f64, Promise)>, String> {
     let mut all = Vec::new();
     for (number, scene) in scenes(method).filter(|(_, scene)| scene.turned() < LONGEST).take(3 * count) {

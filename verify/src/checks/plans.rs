@@ -12,26 +12,26 @@ checks! {
     Property "plan-counts" [25]: counts;
     AtMost(2.0) "largest ratio of counted to predicted right-hand sides, or the inverse";
     because "the plan knows the first step; later ones are longer or shorter as torque and rotation add up or not";
-    /// at random no method requested by name is predicted to meet the tolerance at less cost than the one that a plan takes, with derivatives or
-    /// without; each method is taken at times
+    /// at random no method requested by name is predicted to meet the tolerance at less cost than the method that a plan chooses, with
+    /// derivatives or without; every method but steady precession is chosen at least 20 times
     Property "plan-cheapest" [25]: cheapest;
     AtMost(0.0) "methods by name, of six for each of 600 plans, that are admitted and cost less";
     because "a plan is the cheapest choice; whether the predictions are true is tested by plan-error-bounds and plan-error-goals";
-    /// free rotation in place of the motion is off by at most its rigorous bound, over 1e-2 to 1e2 t_c
+    /// free rotation in place of the motion has an error of at most its rigorous bound, over 1e-2 to 1e2 t_c
     Property "free-motion-bound" [48]: free_bound;
     AtMost(1.0) "largest difference of n, L and e_x from the numerical motion / (bound + its error estimate)";
     because "the bound follows from the largest torque alone";
-    /// for two equal eigenvalues of s^IJ in any frame the motion by elliptic functions is the numerical one within both estimates, also where the
-    /// eigenvalues differ a little
+    /// for two equal eigenvalues of s^IJ in any frame the motion by elliptic functions agrees with the numerical one within both estimates, also
+    /// if the eigenvalues differ a little
     Oracle "symmetric-motion" [25]: symmetric_motion;
     AtMost(1.0) "largest difference of n, L and e_x / sum of the two error estimates";
     because "the same motion, computed twice; the estimate counts rounding by the derivatives of the solution";
-    /// steady precession about any axis is the numerical motion, and states beside it are refused
+    /// steady precession about any axis agrees with the numerical motion, and nearby states are refused
     Oracle "steady-motion" [26]: steady_motion;
     AtMost(1.0) "largest difference of n, L and e_x / sum of the two error estimates";
     because "the same motion, computed twice";
-    /// derivatives of n, L and e_x by fifteen parameters by the tangent maps of a splitting scheme are those of duals through Taylor series: 60
-    /// random motions in any frame, forwards and backwards
+    /// derivatives of n, L and e_x with respect to fifteen parameters by the tangent maps of a splitting scheme agree with duals through Taylor
+    /// series: 60 random motions in any frame, forwards and backwards
     Oracle "gradient-both-ways" [25]: gradients_both_ways;
     AtMost(2e-10) "largest difference / (largest derivative by the same parameter at the same time, at least 1e-3); of values, / (1 + |L|)";
     because "the maps go by a tolerance of 1e-11 (the series by 1e-15), times 20: the model of the error behind the choice of steps is one formula \
@@ -43,8 +43,8 @@ checks! {
      that they are divided by; truncation is 1e-15";
 }
 
-/// Largest difference at a time from the numerical motion over the sum of both error estimates, for a body in units `I^xx = C = 1`; `L` in units of
-/// that at the start and of what the torque makes of it.
+/// Largest difference from the numerical motion at a time over the sum of both error estimates, for a body in units `I^xx = C = 1`. The unit of `L`
+/// is its initial size plus what the torque can add.
 fn over_estimates(
     motion: &impl Motion<f64, State = BodyState<f64>>,
     exact: &TaylorMotion<f64>,
@@ -75,7 +75,7 @@ fn counts() -> Result<Measured, String> {
     })
 }
 
-/// Scenes without, with little and with much violation, with two equal eigenvalues or not.
+/// Scenes without, with weak and with strong violation, with two equal eigenvalues or not.
 fn scenes_for_plans() -> impl Strategy<Value = RandomScene> {
     (scenes(), 0..4_u8, -16.0..-6.0f64).prop_map(|(mut scene, kind, log)| {
         match kind {
@@ -103,7 +103,7 @@ fn cheapest() -> Result<Measured, String> {
         };
         let plan = scene.problem().plan(&request)?;
         let (method, prediction) = plan.method.zip(plan.prediction).ok_or("a plan without a method")?;
-        // Every other method, asked for by name, foresees its own work again.
+        // Every other method, requested by name, predicts its own work.
         for other in Method::ALL {
             let named = scene.problem().plan(&Request { method: Some(other), ..request.clone() });
             let admitted = |other: &Prediction| plan.admits(other) && other.cost < prediction.cost;
@@ -112,7 +112,7 @@ fn cheapest() -> Result<Measured, String> {
         seen[Method::ALL.iter().position(|m| *m == method).ok_or("a method that is none")?] += 1;
         Ok(0.0)
     })?;
-    // A steady precession is no accident.
+    // Random scenes do not precess steadily.
     let rare = |(method, seen): (&Method, &usize)| *method != Method::Steady && *seen < 20;
     if Method::ALL.iter().zip(&seen).any(rare) {
         return Err(format!("methods {seen:?} in the order of the list: some were hardly chosen"));
@@ -143,7 +143,7 @@ fn symmetric_motion() -> Result<Measured, String> {
         if kind == 0 {
             scene.s.yy *= 1.0 + 10f64.powf(log);
         }
-        // Axes exchanged, too: the symmetry axis need not be that of the last eigenvalue.
+        // The axes are exchanged, too: the symmetry axis need not be that of the last eigenvalue.
         let problem = if kind == 1 { scene.problem() } else { turned(&scene.problem(), frame) };
         let span = (0.0, 10f64.powf(span));
         let Ok(motion) = SymmetricMotion::new(&problem, span) else { return Ok(None) };
@@ -172,7 +172,7 @@ fn steady_motion() -> Result<Measured, String> {
         let span = (0.0, 50.0);
         let Ok(motion) = UniformMotion::steady(&problem, span) else { return Ok(None) };
         solved += 1;
-        // What turns faster or slower by 1e-6 is not steady, wherever the torque is above rounding.
+        // A rotation faster by 1e-6 is not steady, if the torque is above rounding.
         let initial = problem.initial();
         let beside = problem.starting_from(BodyState { momentum: initial.momentum * (1.0 + 1e-6), ..*initial })?;
         let pull = scene.s.zz - scene.s.xx;

@@ -34,7 +34,7 @@ fn potential_of_masses<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     ]
 }
 
-/// A body of three masses: its self-energy is that of its pairs. The identity holds pair by pair, so that the three separations need not close.
+/// The self-energy of three masses is that of their pairs. The identity holds pair by pair, so that the three separations need not form a triangle.
 fn self_energy_of_pairs<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let m = [p.spheroid.inertia_xx, p.spheroid.inertia_zz, p.spheroid.constant_c];
     let [first, second] = [&p.angles, &p.frame].map(|angles| body_from_inertial(angles).row(2).transpose());
@@ -48,7 +48,7 @@ fn self_energy_of_pairs<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let mut tensor = Matrix3::zeros();
     for (masses, distance, direction) in &pairs {
         of_pairs += anisotropic_potential_of_masses(&p.s_inertial, *masses, *distance, direction);
-        // Both orders of the double sum, and the factor 1/2.
+        // Both orders of the double sum, with the factor 1/2.
         let separation = direction * *distance;
         let weight = masses[0] * masses[1] / (*distance * *distance * *distance);
         tensor += separation * separation.transpose() * weight;
@@ -56,13 +56,13 @@ fn self_energy_of_pairs<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     vec![of_pairs - anisotropic_potential_of_body(&p.s_inertial, &tensor)]
 }
 
-/// Of the term `k^{abcd} R_{abcd}` of the action, the part with the Ricci tensor without its trace is `s^{ab} R_{ab}`.
+/// In the term `k^{abcd} R_{abcd}` of the action, the part with the trace-free Ricci tensor is `s^{ab} R_{ab}`.
 fn coupling_to_curvature<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let metric = Matrix4::from_diagonal(&nalgebra::Vector4::new(-F::one(), F::one(), F::one(), F::one()));
     let first = symmetric(&p.s_inertial, &p.gradient, p.numbers[0]);
     let rates = Vector3::new(p.rates.alpha, p.rates.beta, p.rates.gamma);
     let second = symmetric(&p.potential_energy_tensor, &rates, p.numbers[1]);
-    // With all parts: Weyl, Ricci and scalar.
+    // A `k` with all parts: Weyl, Ricci and scalar.
     let k = sum(&product(&first, &second), &product(&first, &first));
     let accelerations = Vector3::new(p.accelerations.alpha, p.accelerations.beta, p.accelerations.gamma);
     let ricci = symmetric(&p.s.tensor(), &accelerations, p.numbers[2]);
@@ -77,7 +77,7 @@ fn coupling_to_curvature<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     components![coupling - s.component_mul(&ricci).sum(), s.component_mul(&metric).sum(), s - s.transpose()]
 }
 
-/// A symmetric matrix of its spatial part, its column of time and their common component.
+/// A symmetric matrix from its spatial part, its time column and the time-time component.
 fn symmetric<F: Scalar>(space: &Matrix3<F>, mixed: &Vector3<F>, time: F) -> Matrix4<F> {
     Matrix4::from_fn(|a, b| match (a, b) {
         (0, 0) => time,
@@ -90,8 +90,8 @@ fn indices() -> impl Iterator<Item = (usize, usize, usize, usize)> {
     (0..256).map(|i| (i / 64, i / 16 % 4, i / 4 % 4, i % 4))
 }
 
-/// The product of Kulkarni and Nomizu: `h_ac q_bd + h_bd q_ac - h_ad q_bc - h_bc q_ad` has the symmetries of the Riemann tensor. With the metric as one
-/// factor, half of it is the curvature of which the other, without trace, is the Ricci tensor.
+/// The Kulkarni-Nomizu product `h_ac q_bd + h_bd q_ac - h_ad q_bc - h_bc q_ad` has the symmetries of the Riemann tensor. If one factor is the metric,
+/// half of the product is a curvature whose Ricci tensor is the other factor, if that is trace-free.
 fn product<F: Scalar>(h: &Matrix4<F>, q: &Matrix4<F>) -> CurvatureTensor<F> {
     let mut result = [[[[F::zero(); 4]; 4]; 4]; 4];
     for (a, b, c, d) in indices() {

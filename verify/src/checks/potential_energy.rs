@@ -17,10 +17,10 @@ checks! {
     /// Nordtvedt's form differs from delta U = C s^zz to first order in the angle between angular velocity and axis
     Regime "nordtvedt-form-needs-alignment" [11, 13]: misaligned_nordtvedt;
     Within(0.95, 1.05) "slope of log(difference / C) against log of that angle, 1e-1 to 1e-5 rad";
-    because "one form has the direction of the angular velocity where the other has the axis; an integer order to 0.05";
+    because "one form contains the direction of the angular velocity, the other the axis; an integer order to 0.05";
 }
 
-/// Both forms for a star that turns about a direction at an angle from its axis, `w` at 0.6 rad from the axis.
+/// Both forms for a star that rotates about a direction at an angle to its axis, with `w` at 0.6 rad from the axis.
 fn misaligned_nordtvedt() -> Result<Measured, String> {
     let w = symmetry_axis(0.0, 0.6);
     let s = coefficients_from_preferred_frame(1.0, &w);

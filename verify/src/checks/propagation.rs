@@ -46,12 +46,12 @@ checks! {
     because "the same motion, computed twice";
 }
 
-/// Largest difference of two states, of `L` in units of its size where that is above one.
+/// Largest difference of two states; `L` is in units of its size if that is above one.
 fn difference<X: RotationState<f64>>(a: &X, b: &X) -> f64 {
     largest_difference(a, b, b.axis_state().momentum.norm().max(1.0))
 }
 
-/// The numerical motion of `n`, `L` and, as the type of state says, `e_x` of a reference motion, up to its last listed time.
+/// The numerical motion of `n`, `L` and, depending on the type of state, `e_x` of a reference motion, up to its last listed time.
 fn motion_of<X: RotationState<f64>>(
     reference: &ReferenceMotion,
     tolerance: f64,
@@ -71,8 +71,8 @@ pub(super) fn against_reference<X: RotationState<f64>>() -> Result<Measured, Str
     })
 }
 
-/// Against a series in 31 digits that starts, as the motion does, from doubles: the rounding of a start from decimal numbers is no error of the motion, and by
-/// 200 `t_c` can be twenty times as large.
+/// Compared with a series in 31 digits that starts from the same doubles: the rounding of a start from decimal numbers is no error of the motion, and
+/// at 200 `t_c` can be twenty times as large.
 pub(super) fn estimate_against_truth<X: RotationState<f64>>() -> Result<Measured, String> {
     worst_of(reference_motions(), |reference| {
         let problem = reference.problem();
@@ -180,7 +180,7 @@ fn time_reversal() -> Result<Measured, String> {
         let problem = scene.problem();
         let (end, there) = end_of(&problem, (0.0, 30.0))?;
         let (back, back_again) = end_of(&problem.starting_from(end)?, (30.0, 0.0))?;
-        // The way back turns e_x about n at the rate of its own start: by what rounding has made of L.n there.
+        // On the way back e_x turns about n at the rate of that start, which depends on the rounding of L.n there.
         let (spheroid, initial) = (problem.spheroid(), problem.initial());
         let spin = |state: &BodyState<f64>| state.momentum.dot(&state.axis) / spheroid.inertia_zz;
         let turned = 30.0 * (spheroid.oblateness() * (spin(&end) - spin(initial))).abs();

@@ -7,14 +7,14 @@ use crate::prelude::*;
 use twofold_scene::pulsar_table::published::limit_of;
 use twofold_scene::pulsar_table::{self, CONFIDENCE, CONSERVATIVE_ETA, Figure, Pulsar, Quantity, Spread, recommended};
 
-/// Changes of width of PSR B1937+21 (main pulse, interpulse) and PSR J1744-1134 in 1e-3 deg/yr, as Shao, Caballero,
-/// Kramer, Wex, Champion and Jessner, Class. Quantum Grav. 30, 165019 (2013) are remembered to give them: second-hand.
+/// Changes of width of PSR B1937+21 (main pulse, interpulse) and PSR J1744-1134 in 1e-3 deg/yr. They are attributed to
+/// Shao, Caballero, Kramer, Wex, Champion and Jessner, Class. Quantum Grav. 30, 165019 (2013), but are second-hand.
 const SLOPES: [f64; 3] = [-3.2, 3.5, 1.3];
 
 checks! {
     /// with I^zz/C = 4/Omega^2 and s = -alpha_2 w w the spin axis turns about w with Nordtvedt's rate (alpha_2/2) |w| Omega (w.l)
     nordtvedt_precession: Property "nordtvedt-precession" [5, 41];
-    /// I^zz/C = 4/Omega^2 is Eq. (43) with the oblateness of Eq. (20), times 5/4 for a uniform star, whatever density and radius
+    /// I^zz/C = 4/Omega^2 is Eq. (43) with the oblateness of Eq. (20), times 5/4 for a uniform star, for any density and radius
     Property "fluid-inertia-over-c" [20, 43]: fluid_inertia;
     AtMost(16.0) "largest relative difference / 2.2e-16, 200 random stars";
     because "some twelve products";
@@ -23,8 +23,8 @@ checks! {
     AtMost(0.03) "largest |ratio to the standard deviation of 20,000 random draws - 1|, two pulsars, seed 42";
     because "linear propagation neglects the square of the relative uncertainty, 0.085^2 = 0.7 %, some times; a standard deviation of 20,000 draws \
      scatters by 0.5 %";
-    /// the limits at 95 % of the pulsar table are not exceeded by 95 % of random changes, other numbers, tensor axes and azimuths of the line of
-    /// sight about the spin axis, each turned through Eq. (41) with the rate of the axis itself
+    /// 5 % of random changes, other numbers, tensor axes and azimuths of the line of sight about the spin axis exceed the limits at 95 % of the
+    /// pulsar table; each draw follows Eq. (41) with the rate of the axis itself
     Oracle "pulsar-limits-monte-carlo" [41, 42]: limits_by_draws;
     AtMost(4.0) "largest |share above the limit - 0.05| / its standard error, 100,000 draws each of three pulses, seed 95";
     because "four standard errors of 0.0007; the linear effect of the inputs is good to 0.085^2 of the limit, 0.0004 of the share";
@@ -32,7 +32,7 @@ checks! {
     Property "pulsar-limits-coverage" [41]: coverage;
     AtLeast(0.947) "smallest share of limits above the truth, 100,000 measurements each of eight sizes from 0.3 to 10,000 errors, seed 96";
     because "0.95 less four standard errors of 0.0007";
-    /// the changes of width that the paper's table calls bounds are 15 years of the slopes of Shao et al. 2013 (second-hand), values with a sign
+    /// the changes of width that the paper's table calls bounds are 15 years times the signed slopes of Shao et al. 2013 (second-hand)
     Oracle "pulsar-changes-are-slopes" [42]: changes_are_slopes;
     AtMost(0.5) "largest difference in 1e-3 deg";
     because "rounding of the printed changes; the slopes are quoted second-hand";
@@ -40,8 +40,8 @@ checks! {
     Oracle "pulsar-limits-with-error" [41, 42]: limits_with_error;
     Within(10.58, 11.58) "limit over eta at 95 % by the error of Delta W / bound over eta without it, PSR J1744-1134";
     because "1.96 errors of 108/20 times the value, and at most the value more";
-    /// the recommended limit as one on alpha_2, and the bound printed for PSR J1744-1134 with eta = 10, are of the order of the published
-    /// |alpha_2-hat| < 1.6e-9 of the two pulsars (arXiv:1307.2552)
+    /// the recommended limit, expressed in alpha_2, and the bound printed for PSR J1744-1134 with eta = 10, are of the order of the
+    /// published |alpha_2-hat| < 1.6e-9 of the two pulsars (arXiv:1307.2552)
     Oracle "bounds-consistent-with-alpha-2" [5, 41, 43]: alpha_2;
     AtMost(1.0) "largest |log10(bound / 1.6e-9)|";
     because "an order of magnitude: the published limit uses the direction of w and combines two pulsars; the number is that of its abstract";
@@ -80,7 +80,7 @@ fn uncertainties() -> Result<Measured, String> {
     let mut random = Random::with_seed(42);
     worst_of(pulsar_table::paper(), |pulsar| {
         let figures = pulsar.figures()?;
-        // The measured error of the change is as large as the change: its effect is in `pulsar-limits-monte-carlo`.
+        // The change is as uncertain as it is large. `pulsar-limits-monte-carlo` tests the effect of this error.
         let pulsar = Pulsar { width_change: Quantity::exact(pulsar.width_change.value), ..pulsar.clone() };
         let (mut sums, mut squares) = (vec![0.0; figures.len()], vec![0.0; figures.len()]);
         for _ in 0..DRAWS {
@@ -123,14 +123,14 @@ fn limits_by_draws() -> Result<Measured, String> {
 
 fn coverage() -> Result<Measured, String> {
     const DRAWS: u32 = 100_000;
-    // Measured changes up to 20 errors, beyond which the limit is proportional.
+    // Measured changes up to 20 errors. Beyond, the limit is proportional.
     const STEPS: (u32, f64) = (80, 0.25);
     let mut random = Random::with_seed(96);
     let pulsars = pulsar_table::paper();
     let pulsar = pulsars.first().ok_or("no pulse")?;
     let lambda = pulsar.lambda.value * DEGREE;
     let s = PrincipalCoefficients::new([0.0, 0.0, 0.5]).tensor();
-    // In errors of the bound over eta.
+    // In units of the error of the bound over eta.
     let figure = |value| Figure { key: "", label: String::new(), value, from_change: Some(1.0), from_inputs: 0.0 };
     let limit = |i: u32| Ok(pulsar.limit(&figure(f64::from(i) * STEPS.1))?.all);
     let limits = (0..=STEPS.0).map(limit).collect::<Result<Vec<f64>, String>>()?;
@@ -162,7 +162,7 @@ fn changes_are_slopes() -> Result<Measured, String> {
     }
     worst_of(pulsars.iter().zip(SLOPES), |(pulsar, slope)| {
         let change = pulsar.measured_change().ok_or_else(|| format!("{}: a change without an error", pulsar.name))?;
-        // 52.5 for a printed 53 is met to the half unit, but for the rounding of both.
+        // 52.5 for a printed 53 is at half a unit; the factor allows for rounding.
         Ok((change.value * 1e3 - slope * pulsar.years.value).abs() * (1.0 - 1e-12))
     })
 }
@@ -182,12 +182,12 @@ fn alpha_2() -> Result<Measured, String> {
     let pulsars = pulsar_table::paper();
     let (pulsar, _) = recommended(&pulsars)?;
     let limit = pulsar.limit(&pulsar.figure("alpha_2_over_eta_own")?)?.all;
-    // The bound that the paper prints, with eta = 10.
+    // The bound printed in the paper, with eta = 10.
     let speed = 369e3 / si::SPEED_OF_LIGHT;
     worst_of([limit, 1e-15 / (2.0 * speed * speed)], |bound| Ok((bound / limit_of("1307.2552")).log10().abs()))
 }
 
-/// Of 13 pulsar systems together, to which the paper compares its bounds.
+/// Limit of 13 pulsar systems together, with which the paper compares its bounds.
 fn global_2014() -> f64 {
     limit_of("1402.6452")
 }

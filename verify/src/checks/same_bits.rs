@@ -1,4 +1,4 @@
-//! Bitwise reproducibility: backwards as forwards with the momentum reversed, and in every run, order and thread.
+//! Bitwise reproducibility: backwards compared with forwards with the momentum reversed, and in every run, order and thread.
 
 use crate::prelude::*;
 
@@ -6,7 +6,7 @@ const SCENES: u64 = 60;
 const SEED: u64 = 11;
 
 checks! {
-    /// free rotation, splitting and Taylor series at -t are at t with L reversed, to the last bit
+    /// free rotation, splitting and Taylor series at -t agree with those at t with L reversed, to the last bit
     Property "reversal-same-bits" [25]: reversal;
     AtMost(0.0) "states of random scenes that differ in a bit";
     because "the equations are reversible, and rounding does not depend on signs: any difference comes from a step, a threshold or a branch that does";
@@ -23,7 +23,7 @@ fn scene(method: Method, number: u64) -> Option<ErrorScene> {
     Some(scene)
 }
 
-/// State and estimate, or what the method refuses.
+/// State and estimate, or the error of the method.
 fn state_of(method: Method, scene: &ErrorScene) -> Result<(BodyState<f64>, f64), String> {
     let motion = scene.problem.motion_by(method, scene.span, scene.tolerance)?;
     Ok((motion.state(scene.time)?, motion.error_estimate(scene.time)))

@@ -61,7 +61,7 @@ fn free_reference() -> Result<Measured, String> {
 
 fn free_equations() -> Result<Measured, String> {
     worst_over(11, 300, &(scenes(), 0.0..100.0f64, 0..10), |(scene, t, pick)| {
-        // A third of the cases at t = 0, at rest, and below the switch to the series.
+        // One case in ten is at t = 0, one below the switch to the series, and the others have L = 0.
         let t = if *pick == 0 { 0.0 } else { *t };
         let slow = [1.0, 1e-9, 0.0][(*pick as usize).min(2)];
         let mut problem: Problem<Dual64> = scene.problem().map(Dual64::from_re);
@@ -149,7 +149,7 @@ fn inverse_round_trip() -> Result<Measured, String> {
     })
 }
 
-/// Eq. (34) is not linear: several constants can give the same initial values, so the way back ends at the smallest `A`.
+/// Eq. (34) is not linear: several constants can give the same initial values. The inverse takes the smallest `A`.
 fn inverse_at_random() -> Result<Measured, String> {
     let (spheroid, s) = (RigidSpheroid::in_units_of_tc(1.1), PrincipalCoefficients::new(S));
     let domain = (-PI..PI, 0.2..1.1f64, 0.0..0.02f64, -PI..PI, prop_oneof![-2.0..-0.5f64, 0.5..2.0f64]);

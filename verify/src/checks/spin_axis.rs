@@ -24,7 +24,7 @@ checks! {
         || order_of_error(&[1e-1, 3e-2, 1e-2, 3e-3, 1e-3], |k| error(&SYMMETRIC.scaled(k), 0.0, 10.0));
     Within(1.9, 2.1) "slope of log(error of Delta cos lambda after 10 t_c) against log k, s of sp-I scaled by k = 1e-1 to 1e-3";
     because "a^(1) is the rate to first order in s; the next orders shift the slope by about k";
-    /// the terms of (39) in A are no drift: over many turns the error is of first order, as the change itself
+    /// the terms of (39) in A are not a drift: over many turns the error is of first order, like the change itself
     Regime "spin-axis-changes-oscillation" [37, 38, 39]:
         || order_of_error(&[1e-2, 3e-3, 1e-3, 3e-4, 1e-4], |k| error(&SYMMETRIC.scaled(k), 0.01 * k, 10.0));
     Within(0.9, 1.1) "slope of log(error of Delta cos lambda after 10 t_c) against log k, s and A = 0.01 scaled by k = 1e-2 to 1e-4";
@@ -70,7 +70,7 @@ fn single_precession_changes<F: Differentiable>(p: &Point<F>) -> Vec<F> {
 
 /// Error of the change of `cos lambda` by Eqs. (38) and (39) over `interval`, for the motion with the initial values (34).
 fn error(s: &PrincipalCoefficients<f64>, amplitude: f64, interval: f64) -> Result<f64, String> {
-    // A general phase and, below, a direction that leaves neither term of Eq. (38) out.
+    // A general phase and a general direction, so that both terms of Eq. (38) contribute.
     let constants = Constants { alpha_0: FRAC_PI_2, beta_0: 0.7, amplitude, phase: 0.4 };
     let solution = Perturbation::new(Form::Printed, Precession::Single, &spheroid(), s, SPIN, &constants)?;
     let start = solution.at(0.0);

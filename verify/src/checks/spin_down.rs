@@ -11,34 +11,33 @@ use crate::prelude::*;
 use crate::second_integrator::braked_states;
 
 checks! {
-    /// under a torque along L a wobbling star is in stretched time the star that does not slow down, L apart: free, for the shares 0, 1/2 and 1 of
-    /// the torque that go with the
-    /// magnetic axis
+    /// under a torque along L a wobbling star is, in stretched time and apart from L, the star that does not slow down: free, for shares 0, 1/2
+    /// and 1 of the torque that depend on the magnetic axis
     Oracle "spin-down-free" []: free;
     AtMost(1e-10) "largest difference of n, e_x and L / |L_0| over 3,000 rad, in which 8 % of the rotation is lost";
     because "the other method's tolerance 1e-13 per step grows with the phase, to 3,000 times that";
-    /// the same with Lorentz violation, where C falls with the square of the rotation as that of a bulge does
+    /// the same with Lorentz violation, with C proportional to the square of the rotation, like that of a bulge
     Oracle "spin-down-bulge" []: bulge;
     AtMost(1e-9) "largest difference of n, e_x and L / |L_0| over 3,000 rad, s of 0.03, by the exact motion on the torus";
     because "as without violation; the torque lets errors of the phase grow by another factor of ten";
-    /// the same for a star with a centrifugal bulge along L, whatever the torque: the bulge turns the magnetic axis and L together
+    /// the same for a star with a centrifugal bulge along L, under any torque: the bulge turns the magnetic axis and L together
     Oracle "spin-down-with-bulge" []: with_bulge;
     AtMost(1e-9) "largest difference of n, e_x and L / |L_0| over 3,000 rad, strength of the bulge 0.125, of the rigid deformation 5e-13";
     because "as without violation, and as much again for the averaged motion: 4 x y of 2.5e-13 and 4 x y^2 for each of 3,000 rad, 1e-10";
-    /// for a dipole, n = 3, the closed form of what the varying torque makes a pulsar late is right to a thousandth over 1,000 precessions
+    /// for a dipole, n = 3, the closed form of a pulsar's delay due to the varying torque is right to a thousandth over 1,000 precessions
     Oracle "spin-down-residual" []: residual;
     AtMost(1e-3) "largest difference of direction / (delay x rotation rate), 100 times over 1,000 precession periods, epsilon = 0.05, wobble 0.3 rad, in which 8 % of the rotation is lost";
     because "exact: what is left is the integrator's 1e-13 for each of 1.3e5 rad, 1e-8 rad, beside a delay of some 5e-5 rad";
-    /// for another index what the closed form leaves out of the delay is of third order in the braking rate
+    /// for another index the remainder of the closed form of the delay is of third order in the braking rate
     Regime "spin-down-order" []: order;
     AtMost(0.1) "|measured slope against the braking rate - 3| of what a straight line leaves of the error over six precessions, n = 5, four rates";
     because "the closed form has all terms of first and second order; a straight line, a constant change of the rotation, is the mean of a third";
-    /// the stated error holds for any index, for a star that speeds up, and with Lorentz violation, whose mean wobble is not that at the start
+    /// the stated error holds for any index, for a star that speeds up, and with Lorentz violation, where the mean wobble is not that at the start
     Oracle "spin-down-stated-error" []: stated_error;
     AtMost(1.0) "largest difference of direction / (stated error x rotation rate + 1e-9 rad), n = 2, 3 and 5 and both signs of F1; \
      x = 1e-4 and 1e-3 nearly, wobbles of 0.3, 0.03 and 0.005 rad";
     because "an estimate below the true error is wrong; 1e-9 rad is the error of the integration";
-    /// the truncation error of the delay that stretched time states is a bound, for random stars with any index or a damped wobble
+    /// the truncation error that stretched time states for the delay is a bound, for random stars with any index or a damped wobble
     Oracle "spin-down-left-out" []: left_out;
     AtMost(1.0) "largest true error of the delay / that stated, 1,000 random stars of each kind, against the law by Gauss' formula";
     because "the bound is derived term by term from the law";
@@ -47,19 +46,19 @@ checks! {
     AtMost(1e-5) "largest relative difference of n, from F0, F1 and F2 fitted to 200 arrivals, n = 2.5, 3 and 12";
     because "over times of both signs only the fourth derivative changes F2: by the square of n times the part of the rotation that is lost, \
      (12 x 1e-4)^2 = 1.4e-6, times a number of order one";
-    /// at both edges of the pulses of a star that slows down the integrated motion has the line of sight on the rim of the beam
+    /// at both edges of the pulses of a star that slows down, the line of sight lies on the rim of the beam in the integrated motion
     Oracle "spin-down-edges" []: edges;
     AtMost(1e-9) "largest |m.n - cos rho|, at least 30 edges over 3,000 rad";
     because "as for the motion, times the slope of m.n, below one";
-    /// friction in the star takes the wobble away as tan theta = tan theta_0 exp(-gamma t), and the precession goes faster by cos theta / cos theta_0
+    /// friction in the star damps the wobble as tan theta = tan theta_0 exp(-gamma t), and the precession becomes faster by cos theta / cos theta_0
     Oracle "damping-free" []: damped_free;
-    AtMost(1e-10) "largest difference of n, e_x and L / |L_0| over 3,000 rad, wobbles of 0.3 and 1.2 rad, gamma t up to 1.5 of an oblate star and -1.5 of a prolate one";
+    AtMost(1e-10) "largest difference of n, e_x and L / |L_0| over 3,000 rad, wobbles of 0.3 and 1 rad, gamma t up to 1.5 of an oblate star and -0.9 of a prolate one";
     because "exact: the other method's tolerance 1e-13 per step grows with the phase, to 3,000 times that";
     /// under the torque of a dipole the delay of a star with a damped wobble is right to a thousandth
     Oracle "damping-residual" []: damped_residual;
     AtMost(1e-3) "largest difference of direction / (delay x rotation rate), epsilon = 0.05, wobble 0.3 rad, gamma / w of 1/500, over two damping times, 160 precessions";
     because "of third order in gamma / w = 0.002, 1e-8 times some 10, and over the time t another w t = 1,000 times that; the integrator's 1e-8 rad beside a delay of some 1e-4 rad";
-    /// what the delay of a damped wobble leaves out is of third order in the damping
+    /// the remainder of the delay of a damped wobble is of third order in the damping
     Regime "damping-order" []: damped_order;
     AtMost(0.1) "|measured slope against gamma - 3| of what a straight line leaves of the error over six precessions, four rates";
     because "partial integration has all terms of first and second order; a straight line, a constant change of the rotation, is the mean of a third";
@@ -77,14 +76,14 @@ const WOBBLE: f64 = 0.3;
 /// Angle between the magnetic axis and the symmetry axis.
 pub(super) const CHI: f64 = 1.2;
 
-/// A star with a wobble about Z.
+/// A star with the wobble `wobble`; `L` is along Z.
 pub(super) fn problem(oblateness: f64, wobble: f64, s: Matrix3<f64>) -> Result<Problem<f64>, String> {
     let spheroid = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.0 + oblateness, constant_c: 1.0 };
     let axis = Vector3::new(wobble.sin(), 0.0, wobble.cos());
     Ok(Problem::new(spheroid, s, BodyState { axis, momentum: Vector3::z(), equatorial_axis: Vector3::y() })?)
 }
 
-/// The beam at an angle to the axis.
+/// A beam at an angle to the axis.
 pub(super) fn beam(chi: f64) -> Beam<f64> {
     Beam::new(chi, 0.4, 0.3)
 }
@@ -99,7 +98,7 @@ fn clock(problem: &Problem<f64>, chi: f64, braking: &Braking) -> Result<PulsarCl
     Ok(clock.braked(braking)?)
 }
 
-/// States of the integration at some times, of a star whose mean rotation at the time zero is that of the problem.
+/// Integrated states of a star whose mean rotation at time zero is that of the problem, under its braking torque.
 pub(super) fn integrated(
     problem: &Problem<f64>,
     (wobble, chi): (f64, f64),
@@ -109,7 +108,7 @@ pub(super) fn integrated(
     let Braking { rate, index, torque_share } = *time.braking();
     let initial = problem.initial();
     let slowed = problem.starting_from(BodyState { momentum: initial.momentum * time.slowing(0.0), ..*initial })?;
-    // By the angles, not by the harmonics of the model.
+    // From the angles, independently of the harmonics in the model.
     let mean = 1.0 - (wobble.cos() * chi.cos()).powi(2) - 0.5 * (wobble.sin() * chi.sin()).powi(2);
     let modulation = torque_share / (1.0 - torque_share + torque_share * mean);
     braked_states(
@@ -129,7 +128,7 @@ fn equally(count: u32, span: f64) -> Vec<f64> {
     (1..=count).map(|k| span * f64::from(k) / f64::from(count)).collect()
 }
 
-/// For shares of the torque and braking indices.
+/// For some shares of the torque and braking indices.
 fn largest_of_motion(problem: &Problem<f64>, cases: &[(f64, f64)]) -> Result<Measured, String> {
     worst_of(cases, |&&(torque_share, index)| {
         let clock = clock(problem, CHI, &Braking { rate: 3e-5, index, torque_share })?;
@@ -157,17 +156,15 @@ fn with_bulge() -> Result<Measured, String> {
     largest_of_motion(&problem, &[(0.0, 2.0), (0.0, 3.0), (1.0, 3.0)])
 }
 
-/// A dipole over 1,000 precessions, and its integrated states at some times.
+/// A dipole over 1,000 precessions with integrated states.
 pub(super) struct LongDipole {
-    /// Its clock.
     pub(super) clock: PulsarClock,
-    /// The times, no whole number of precessions apart: after these nothing is late.
+    /// The times. They are not whole precessions apart, since the delay would then vanish.
     pub(super) times: Vec<f64>,
-    /// The states.
     pub(super) states: Vec<BodyState<f64>>,
 }
 
-/// Integrated once for the checks that look at it.
+/// The long dipole, integrated once for several checks.
 pub(super) fn long_dipole() -> Result<&'static LongDipole, String> {
     static DIPOLE: LazyLock<Result<LongDipole, String>> = LazyLock::new(|| {
         let problem = problem(0.05, WOBBLE, Matrix3::zeros())?;
@@ -195,7 +192,7 @@ fn order() -> Result<Measured, String> {
     largest_off_order([("n = 5".to_owned(), 3.0, errors)])
 }
 
-/// What a straight line leaves of how far `n` is ahead on its way round `L` (rad), over six precessions.
+/// The remainder of the lead of `n` on its path about `L` (rad) over six precessions, after a fit of a straight line.
 fn off_a_line(clock: &PulsarClock, problem: &Problem<f64>) -> Result<f64, String> {
     let time = clock.stretched_time();
     let times = equally(48, 6.0 * TAU / time.precession().rate);
@@ -239,7 +236,7 @@ fn left_out() -> Result<Measured, String> {
 }
 
 fn index() -> Result<Measured, String> {
-    // Without a wobble no geometry is in the arrival times.
+    // Without a wobble the arrival times do not depend on the geometry.
     let problem = problem(0.1, 0.0, Matrix3::zeros())?;
     worst_of([2.5, 3.0, 12.0], |&index| {
         let clock = clock(&problem, CHI, &Braking { rate: 1e-9, index, torque_share: 0.0 })?;
@@ -325,7 +322,7 @@ fn edges() -> Result<Measured, String> {
     let clock = clock(&problem, CHI, &Braking { rate: 3e-5, index: 3.0, torque_share: 1.0 })?;
     let mut times = Vec::new();
     for k in 1..=40 {
-        // In some turns the wobble takes the beam past the line of sight.
+        // In some turns the beam misses the line of sight because of the wobble.
         if let Some(pulse) = clock.pulse_near([75.0 * f64::from(k), 0.0])? {
             times.extend([-0.5, 0.5].map(|half| pulse.midpoint[0] + half * pulse.duration));
         }

@@ -16,7 +16,7 @@ checks! {
     /// the same kernels have these values in doubles
     Oracle "symbolic-rounding" EQUATIONS: || compare_doubles(&Document::parse(DATA)?);
     AtMost(2.0) "largest error / (2.2e-16 x sum of magnitudes of its terms), 8 rational points";
-    because "each term is rounded some tens of times by half an ulp at most, in directions that have no reason to agree";
+    because "each term is rounded some tens of times by half an ulp at most, independently of the others";
     /// coefficients and C of spheroids, steady and free precession, mean Hamiltonian with its transformation, wave harmonics, bound, braked rotation and
     /// damped wobble are what computer algebra derives, from the integral over directions, the Lagrangian and the law of braking
     Oracle "symbolic-closed-forms" [12, 15, 17, 19, 26, 40, 43, 48, 68, 71, 73, 74, 75, 77, 78, 79]:

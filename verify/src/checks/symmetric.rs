@@ -37,14 +37,14 @@ checks! {
     Property "symmetric-period" [25]: periods;
     AtMost(4.0) "largest error sin^2 b / (1 + phase, 2.2e-16)";
     because "roundings of the period and of the rates, times the time";
-    /// s^XX != s^YY, a start on the pole, the separatrix and unstable steady precession are refused by name
+    /// s^XX != s^YY, a start on the pole, the separatrix and unstable steady precession are refused with a reason
     Property "symmetric-refusals" [25]: refusals;
     AtMost(0.0) "cases not refused";
     because "each is outside the domain of the solution";
 }
 
-/// Random scenes with `s^XX = s^YY`; both signs of `s^ZZ - s^XX`, so that the quartic has four real roots or two. Half of
-/// them with coefficients of up to 3, which trap the axis near the equator or a pole.
+/// Random scenes with `s^XX = s^YY` and both signs of `s^ZZ - s^XX`, so that the quartic has four real roots or two. Half
+/// of them have coefficients of up to 3, which trap the axis near the equator or a pole.
 fn symmetric_scenes() -> impl Strategy<Value = RandomScene> {
     (scenes(), prop_oneof![Just(1.0), Just(10.0)]).prop_map(|(scene, strength)| {
         let s = scene.s.scaled(strength);
@@ -79,7 +79,7 @@ fn difference(a: &BodyState<f64>, b: &BodyState<f64>) -> f64 {
     largest_difference(a, b, f64::INFINITY)
 }
 
-/// The real parts, and the derivatives.
+/// The real parts and the derivatives as two states.
 fn parts(state: &BodyState<Dual64>) -> [BodyState<f64>; 2] {
     let part = |of: fn(Dual64) -> f64| BodyState::from_vectors(state.vectors().map(|v| v.map(of)));
     [part(|x| x.re), part(|x| x.eps)]
@@ -121,10 +121,10 @@ fn against_reference() -> Result<Measured, String> {
     })
 }
 
-/// Largest difference over the error estimate of the numerical motion and the rounding that no solution can avoid: of the
-/// phase, and of the initial rate of `beta`, carried to `t` by the derivative of the motion.
+/// Largest difference over the error estimate of the numerical motion plus unavoidable rounding: that of the phase, and
+/// that of the initial rate of `beta`, carried to `t` by the derivative of the motion.
 fn compare_with_propagation(scene: &RandomScene) -> Result<f64, String> {
-    // Derivatives by the initial inclination and by its rate: near the unstable equator both grow exponentially.
+    // Derivatives by the initial inclination and its rate: near the unstable equator both grow exponentially.
     let solutions = [0, 1].map(|variable| {
         let (spheroid, s, mut angles, mut rates) = lifted::<Dual64>(scene);
         if variable == 0 {
@@ -184,7 +184,7 @@ fn derivatives() -> Result<Measured, String> {
     })
 }
 
-/// `1 +` the turns of the motion in `t`, in rad.
+/// `1 +` the angle of rotation in `t` (rad).
 fn phase(scene: &RandomScene, t: f64) -> f64 {
     let state = scene.state();
     1.0 + t * (state.momentum.norm() + (scene.rates.alpha.abs() + scene.rates.beta.abs() + scene.rates.gamma.abs()))
@@ -225,7 +225,7 @@ fn steady() -> Result<Measured, String> {
             now.gamma - angles.gamma - scene.rates.gamma * t,
             (motion.mean_rates().alpha - rate) * t,
         ];
-        // A rounding of the rate tilts the axis by as much over the stiffness.
+        // The rounding of the rate tilts the axis by that amount over the stiffness.
         let condition = 1.0 + 1.0 / (stiffness * sin * sin);
         Ok(Some(largest(errors.map(f64::abs)) / (phase(&scene, t) * condition * f64::EPSILON)))
     })?;
@@ -258,7 +258,7 @@ fn refusals() -> Result<Measured, String> {
         let rates = EulerRates { alpha, beta: beta_rate, gamma };
         SymmetricSolution::new(&spheroid, &PrincipalCoefficients::new(s), &angles, &rates)
     };
-    // Without spin and L_Z the axis swings as a pendulum; cos beta0 is the rate with which it comes to rest on the equator.
+    // Without spin and L_Z the axis swings like a pendulum. At the initial rate cos beta0 it comes to rest on the equator.
     let cases = [
         ("asymmetric", at([0.1, 0.2, 0.3], 1.0, [1.0, 0.0, 0.0])),
         ("pole", at([0.0, 0.0, 0.1], 0.0, [1.0, 0.1, 0.0])),

@@ -13,13 +13,13 @@ use crate::prelude::*;
 use crate::timing_simulation::{YEAR, arrivals_of, widths_of};
 
 checks! {
-    /// the phase of the timing model is an integer, the number of the pulse, at the midpoints of the pulses of the clock, which finds the edges of
-    /// each in the motion
+    /// the phase of the timing model is an integer, the number of the pulse, at the midpoints of the clock's pulses, whose edges are found in the
+    /// motion
     Oracle "timing-model-clock" []: of_clock;
     AtMost(1e-9) "largest difference (turns), 642 Hz, 20 years before and after the epoch, wobbles of 1e-6 to 0.6 rad and one of pi - 0.3, periods of 500 and 30 d, with and without torque, n = 3 and 2.5, damped in 200 years and undamped";
     because "between the edges the wobble changes the midpoint by w / (2 pi F0) = 6e-10 of the turn at most; in 8e11 turns 32 digits leave 1e-20 and \
      the delay of up to 10 turns 1e-15";
-    /// the same phase against the integration of the torque: of a star scaled so that 1,000 precessions can be integrated
+    /// the same phase compared with the integration of the torque, for a star scaled so that 1,000 precessions can be integrated
     Oracle "timing-model-torque" []: of_torque;
     AtMost(1e-3) "largest difference of phase / delay (rad), wobble 0.3 rad, epsilon = 0.05, 8 % of the rotation lost";
     because "as for `spin-down-residual`: the integrator's 1e-8 rad beside a delay of 5e-5 rad";
@@ -31,18 +31,18 @@ checks! {
     Oracle "timing-model-widths" []: widths;
     AtMost(1e-8) "largest relative difference from the time between the edges in the motion";
     because "the width is taken at the middle and over the mean rate of turns: right to w / (2 pi F0) = 6e-10, times wobble and slope of the width";
-    /// a fit over 15 years finds F0 to 32 digits, and from data without errors the parameters that they were made with
+    /// a fit over 15 years finds F0 to 32 digits and, from data without errors, the true parameters
     Property "timing-fit-decades" []: decades;
     AtMost(1e-2) "largest (found - true) / standard deviation, 12 fits of 8 parameters to 300 arrivals to 1e-6 s and widths of stars of 2.4 to 642 Hz, begun three standard deviations off";
-    because "a fit ends where what is left of the gradient moves no unknown by more than a hundredth of its error";
-    /// error bars of fits with spin-down and torque hold: pulls and chi^2 are such as normal errors give
+    because "a fit ends where the remaining gradient moves no unknown by more than a hundredth of its error";
+    /// error bars of fits with spin-down and torque hold: pulls and chi^2 have the distribution for normal errors
     Property "timing-error-bars" []: error_bars;
     AtMost(4.0) "largest of five scores in standard deviations (parts within one and two, mean pull, both chi^2), 60 simulated pulsars over 10 to 20 years, 9 unknowns";
     because "one of five normal numbers is beyond four in 3e-4 of all seeds";
     /// a small wobble is found by the linear limit at its period, and exceeds no limit
     Property "timing-wobble-limits" []: limits;
     AtMost(1e-3) "largest |best / true wobble - 1|, by geometry and torque, wobbles of 3e-5 rad, 400 arrivals";
-    because "what is left out is of relative size theta = 3e-5, times tan chi of up to 10";
+    because "the neglected terms are of relative size theta = 3e-5, times tan chi of up to 10";
 }
 
 /// A clock of a pulsar with frequency (Hz), wobble and rate of the free precession, in seconds.
@@ -51,7 +51,7 @@ fn clock(frequency: f64, wobble: f64, rate: f64, braking: &Braking) -> Result<Pu
     let problem = problem(rate / of_axis, wobble, Matrix3::zeros())?;
     let start = BodyState { momentum: problem.initial().momentum * of_axis, ..*problem.initial() };
     let motion = PhasedMotion::new(&problem.starting_from(start)?, 0.0)?;
-    // Where L points away from n it is -n that is near it, and the beam pi - CHI from that.
+    // If n is near -L, -n is near L, and the beam is at the angle pi - CHI to -n.
     let theta_o = if wobble > FRAC_PI_2 { PI - 1.1 } else { 1.1 };
     let clock = PulsarClock::new(motion, &Beam::new(CHI, 0.4, 0.9), &Observer::at(theta_o, 0.2))?;
     Ok(clock.braked(braking)?)
@@ -97,7 +97,7 @@ fn of_torque() -> Result<Measured, String> {
     Ok(Measured::new(off.figure / late, format!("delay up to {late:.1e} rad, differences up to {:.1e}", off.figure)))
 }
 
-/// A random star of ten turns in a unit of time, whose parameters are all of a size that differences show.
+/// A random star with ten turns in a unit of time and parameters large enough for finite differences.
 fn random_model(random: &mut Random, is_damped: bool) -> Result<TimingModel, String> {
     let mut within = |from: f64, to: f64| random.within(from, to);
     let parameters = [
@@ -149,7 +149,7 @@ fn slopes() -> Result<Measured, String> {
                     (of_phase[parameter as usize], slope(&phase)?),
                     (of_width[parameter as usize], slope(&|model| model.width(t))?),
                 ] {
-                    // In units of what the parameter's scale does, or of a thousandth of a turn.
+                    // Relative to the slope, or to a thousandth of a turn over the scale.
                     worst = worst.max((found - expected).abs() / (expected.abs() + 1e-3 / scale));
                 }
             }
@@ -170,7 +170,7 @@ fn widths() -> Result<Measured, String> {
     })
 }
 
-/// A star with a wobble of 500 days.
+/// A star with a precession period of 500 days.
 fn star(frequency: f64, wobble: f64, chi: f64, torque_share: f64) -> Result<TimingModel, String> {
     let f1 = -1e-15 * frequency;
     let parameters = [

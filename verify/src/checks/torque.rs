@@ -4,7 +4,7 @@ use crate::derivation::virtual_rotation::{gradient_in_angles, torque_by_virtual_
 use crate::prelude::*;
 
 checks! {
-    /// the torque does the work -dU under a change of each Euler angle alone, for any potential (U_gamma not zero)
+    /// the torque does the work -dU under a change of any one Euler angle, for any potential (U_gamma not zero)
     work_of_torque: Property "torque-from-gradient" [22, 66];
     /// Eq. (66) of the potential in angles, torque_on_body with the tensor U^ij of a spheroid and -2 C n x (s n) agree
     torque_on_spheroid: Property "torque-on-spheroid" [21, 66];

@@ -7,7 +7,7 @@ use twofold::propagation::TorusMotion;
 use twofold::solutions::torus::TorusSolution;
 
 checks! {
-    /// a motion reflected in a principal plane of s^IJ, with n and L as vectors, runs backwards: F x(t) is a motion in -t
+    /// a motion reflected in a principal plane of s^IJ, with n and L as vectors, is a motion in -t
     Property "torus-reflection" [25]: reflection;
     AtMost(1e-11) "largest difference of a component, 50 random motions over 20 t_c, each plane";
     because "two integrations of some 40 rad at the tolerance 1e-13, whose estimated errors add to some 5e-12";
@@ -34,26 +34,25 @@ checks! {
     Oracle "torus-error-estimate" [25]: estimates;
     AtMost(1.0) "largest true / estimated error, 200 random scenes up to 60 rad, and eight that are near an edge";
     because "an estimate below the true error is wrong";
-    /// whatever the strength of the torque, also from rest, hardly a motion is refused whose L does not start beside the middle axis
+    /// at any strength of the torque, also from rest, hardly any motion is refused unless L starts beside the middle axis
     Property "torus-refusals" [25]: refusals;
     AtMost(0.01) "share of 1,000 random scenes";
-    because "refused are tori as near the separatrix as rounding, which random starts seldom hit";
-    /// derivatives of n, L and e_x by fifteen parameters, by the period lattice of the torus, are those of duals through Taylor series over 200 t_c:
-    /// the four examples,
-    /// s = diag(0.3, 0.1, -0.4), diag(0.02, 0.02, -0.04) and diag(2e-7, 1e-7, -3e-7), and 20 random scenes in any frame
+    because "only tori within rounding of the separatrix are refused, which random starts seldom hit";
+    /// derivatives of n, L and e_x with respect to fifteen parameters, by the period lattice of the torus, agree with duals through Taylor series
+    /// over 200 t_c: the four examples, s = diag(0.3, 0.1, -0.4), diag(0.02, 0.02, -0.04) and diag(2e-7, 1e-7, -3e-7), and at least 20 random scenes
+    /// in any frame
     Oracle "torus-gradient" [25]: gradient_by_series;
     AtMost(1e-11) "largest difference / largest derivative by the same parameter at the same time (at least 1e-3)";
     because "some 400 steps of the series, each rounded by 1e-16, in a phase of 400 rad: 400 x 400 x 1e-16 = 2e-11 if all add up, 1e-12 as a random walk; the periods of the torus, of which 70 are passed, have a rounding of 1e-15 each";
-    /// after 1e6 t_c the derivatives are differences of the motion with changed parameters: the initial state of tp-2 and s = diag(0.02, 0.01,
-    /// -0.04), diag(0.3, 0.1, -0.4),
-    /// diag(0.02, 0.02, -0.04), turned
+    /// after 1e6 t_c the derivatives agree with finite differences for the initial state of tp-2 and s = diag(0.02, 0.01, -0.04), diag(0.3,
+    /// 0.1, -0.4) and diag(0.02, 0.02, -0.04), in a rotated frame
     Oracle "torus-gradient-long" [25]: gradient_by_differences;
     AtMost(1e-8) "largest difference / largest derivative by the same parameter";
     because "means of four differences of the eighth order for changes by some 0.03 rad. The initial state of a changed motion is rounded by 1e-16, which is 1e-10 rad after 1e6 rad, over 0.03 rad and by \
      the sum of weights 1.9: 6e-9, half of that in the mean; terms of fifth order in the angles leave 0.15^8 / 630 of them, 1e-9 of such terms of 1e-3";
 }
 
-/// Parameters of a problem without an axis on the pole.
+/// Parameters of a problem whose axis is not at a pole.
 fn parameters(problem: &Problem<f64>) -> Result<Parameters<f64>, Error> {
     let (spheroid, initial) = (problem.spheroid(), problem.initial());
     Ok(Parameters::new(*spheroid, *problem.coefficients(), initial.angles()?, initial.rates(spheroid)?))
@@ -83,7 +82,7 @@ fn gradient_by_series() -> Result<Measured, String> {
     let of_random = worst_over(65, 24, &strategy, |(scene, frame)| {
         let coefficients = *turned(&scene.problem(), *frame).coefficients();
         let start = Parameters::new(scene.spheroid, coefficients, scene.angles, scene.rates);
-        // Some turn slowly against the torque, and have no such torus.
+        // Scenes that turn slowly compared with the torque may have no such torus.
         let Ok(_) = TorusSolution::new(&start.problem()?, 1e-15, 200.0) else { return Ok(None) };
         compared += 1;
         Ok(Some(both_ways(&start)?))
@@ -98,7 +97,7 @@ fn gradient_by_differences() -> Result<Measured, String> {
     const T: f64 = 1e6;
     const STEPS: [f64; 4] = [0.025, 0.0275, 0.03, 0.0325];
     const WEIGHTS: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
-    // In a frame in which every parameter but gamma moves phases in proportion to time.
+    // In this frame every parameter but gamma changes phases in proportion to time.
     let frame = Rotation3::from_euler_angles(0.4, -0.7, 1.1);
     let tp = &examples()?[1];
     worst_of([[0.02, 0.01, -0.04], [0.3, 0.1, -0.4], [0.02, 0.02, -0.04]], |values| {
@@ -125,7 +124,7 @@ fn gradient_by_differences() -> Result<Measured, String> {
     })
 }
 
-/// Tori of random motions of two strengths, to rounding.
+/// Tori of random motions with two strengths, accurate to rounding.
 fn tori(
     seed: u64,
     figure: impl Fn(&Problem<f64>, &TorusSolution, &mut Random) -> Result<f64, String>,
@@ -241,9 +240,8 @@ fn thousand() -> Result<Measured, String> {
 /// Seed of the scenes.
 const SEED: u64 = 64;
 
-/// Seeds and numbers of scenes on which an estimate may fail: `n` on `L` within 1e-8 rad, whose way to the plane has whole turns; nearly equal
-/// eigenvalues; coefficients that grow
-/// again behind small ones.
+/// Seeds and numbers of difficult scenes for the estimate: `n` along `L` within 1e-8 rad, with whole turns on the way to the plane; nearly
+/// equal eigenvalues; coefficients that grow again behind small ones.
 const NEAR_AN_EDGE: [(u64, u64); 8] =
     [(21, 8767), (22, 1954), (22, 2905), (22, 7243), (23, 1420), (23, 2443), (23, 4387), (24, 7195)];
 

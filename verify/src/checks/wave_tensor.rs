@@ -34,7 +34,7 @@ fn wave_tensor_of_motion<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     components![
         tensor.trace(),
         tensor_in_inertial_frame(&rotation, &tensor) - by_time,
-        // The same in the body frame: each component of Eq. (65) by itself.
+        // The same in the body frame compares each component of Eq. (65).
         tensor - rotation * by_time * rotation.transpose(),
     ]
 }
@@ -105,7 +105,7 @@ fn free_wave_source<F: Differentiable>(p: &Point<F>) -> Vec<F> {
 }
 
 fn quadrupole_formula<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-    // Two masses at points of the body with no symmetry at all.
+    // Two point masses in general positions.
     let masses = [(p.inertia.xx, p.gradient), (p.inertia.yy, Vector3::from_fn(|i, _| p.numbers[i]))];
     let rotation = body_from_inertial(&accelerated_angles(&p.angles, &p.rates, &p.accelerations)).transpose();
     let turning = masses.map(|(mass, x)| (F::constant(mass), rotation * x.map(F::constant)));

@@ -13,9 +13,9 @@ checks! {
     /// h_+ e_+ + h_x e_x is P h P - (1/2) P tr(P h) with P = 1 - n n, for any symmetric h; both forms of Eq. (71) agree
     polarizations_transverse_traceless: Property "polarizations-transverse-traceless" [59, 69, 71];
     /// h_+ and h_x do not change when star, s^IJ and observer are rotated together, by any rotation; and the observer at azimuth phi_o sees what
-    /// the one at azimuth 0 sees of the scene turned back by phi_o
+    /// the observer at azimuth 0 sees of the scene turned back by phi_o
     wave_of_rotated_scene: Property "wave-of-rotated-scene" [46, 70, 71];
-    /// with the basis turned by psi about n-hat, (h_+, h_x) turn by 2 psi: their sum of squares does not depend on the basis
+    /// if the basis is turned by psi about n-hat, (h_+, h_x) turn by 2 psi: their sum of squares does not depend on the basis
     polarizations_spin_two: Property "polarizations-spin-two" [69, 71];
     /// a triaxial body spinning about its z axis has the textbook wave (1/2) h_0 (1 + cos^2 i) cos 2a, h_0 cos i sin 2a with h_0 = 4 W^2 (I^xx -
     /// I^yy) / r
@@ -25,11 +25,11 @@ checks! {
     /// h_+ and h_x of tp-I and tp-II from n and L alone are those of the general A^ij with the torque, along the numerical motion
     Oracle "wave-of-motion-general-form" [59, 64, 65, 66, 71]: two_forms_along_motion;
     AtMost(2e-14) "largest difference of h, r = 1, at 2,000 times up to 200 t_c";
-    because "two formulas with terms up to 0.4; the axes of the motion are normal and of length one to 600 steps' rounding, 3e-15";
+    because "two formulas with terms up to 0.4; the axes of the motion are orthonormal to the rounding of 600 steps, 3e-15";
     /// h_+ and h_x of the numerical motion of ten scenes, and of that of n and L alone, are those of the 34-digit states, these by the general A^ij
     Oracle "wave-of-reference-motion" [59, 65, 66, 71]: against_reference;
     AtMost(1e-12) "largest difference of h, r = 1, theta_o = 0.8, phi_o = 0.3";
-    because "the numerical motion is held to 1e-12 of those states";
+    because "the numerical motion agrees with those states within 1e-12";
     /// h_+ and h_x of tp-I are those of the authors' published waveform data, first rows
     Oracle "wave-of-published-data" [59, 65, 71]: against_published_data;
     AtMost(1e-6) "largest difference of h, r = 1, I^xx = 1, theta_o = 0.8, phi_o = 0";
@@ -51,7 +51,7 @@ fn tensor_products<F: Differentiable>(p: &Point<F>) -> Vec<F> {
         tensors.map(|tensor| tensor.trace()),
         tensors.map(|tensor| tensor - tensor.transpose()),
         tensors.map(|tensor| tensor * observer.direction),
-        // The sign of each: h_+ stretches along theta-hat, h_x along theta-hat + phi-hat.
+        // The signs: h_+ stretches along theta-hat, h_x along theta-hat + phi-hat.
         observer.theta_hat.dot(&(tensors[0] * observer.theta_hat)) - F::one(),
         observer.theta_hat.dot(&(tensors[1] * observer.phi_hat)) - F::one(),
     ]
@@ -67,7 +67,7 @@ fn polarizations_transverse_traceless<F: Differentiable>(p: &Point<F>) -> Vec<F>
     let (theta, phi) = (&observer.theta_hat, &observer.phi_hat);
     components![
         e_plus * plus + e_cross * cross - projected,
-        // Second form: -(1/r) of the source's components.
+        // The second form: -(1/r) times the components of the source.
         plus + (theta.dot(&(source * theta)) - phi.dot(&(source * phi))) / distance,
         cross + theta.dot(&(source * phi)) * F::from_f64(2.0) / distance,
     ]
@@ -115,7 +115,7 @@ fn wave_of_spinning_triaxial_body<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     vec![plus - h_0 * (F::one() + cos_i * cos_i) / 2.0 * (cos * cos - sin * sin), cross - h_0 * cos_i * sin * cos * 2.0]
 }
 
-/// Wave at the colatitude `inclination` of a body that spins about its own z axis, which is Z.
+/// The wave, seen at the colatitude `inclination`, of a body that spins about its z axis, which is along Z.
 fn spinning_body<F: Differentiable>(
     inertia: &PrincipalInertia<F>,
     alpha: F,
@@ -137,7 +137,7 @@ fn wave_of_free_precession<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let distance = p.spheroid.constant_c;
     let h = metric_perturbation(distance, &source);
     let Polarizations { plus, cross } = polarizations(&Observer::at(inclination, F::zero()), &h);
-    // Their phase is the azimuth of the symmetry axis, a - pi/2, and half a turn.
+    // Their phase is the azimuth of the symmetry axis, a - pi/2, plus half a turn.
     let (sin_a, cos_a) = alpha.sin_cos();
     let (sin_t, cos_t) = (cos_a, -sin_a);
     let ((sin_b, cos_b), (sin_i, cos_i)) = (beta.sin_cos(), inclination.sin_cos());
@@ -149,7 +149,7 @@ fn wave_of_free_precession<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     ]
 }
 
-/// The wave by the body-frame tensor `A^ij` with the torque, from the rotation matrix: no part of the short form.
+/// The wave from the body-frame tensor `A^ij` with the torque and the rotation matrix. It shares nothing with the short form.
 fn wave_by_general_form(observer: &Observer<f64>, scene: &Problem<f64>, state: &BodyState<f64>) -> Polarizations<f64> {
     let (body, rotation) = (scene.spheroid(), state.body_from_inertial());
     let omega = rotation * angular_velocity(body, &state.axis, &state.momentum);

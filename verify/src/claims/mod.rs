@@ -9,12 +9,12 @@ use toml::de::{DeTable, DeValue};
 
 pub use page::{Evidence, capital, evidence, markdown};
 
-/// What became of a statement.
+/// The verdict on a statement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     /// It holds as printed.
     Confirmed,
-    /// Its core holds; something printed with it does not, or it holds in other limits than stated.
+    /// Its core holds, but something printed with it does not, or it holds in other limits than stated.
     Corrected,
     /// It was right when written; a later result goes further.
     Superseded,
@@ -23,10 +23,10 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// All of them.
+    /// All verdicts.
     pub const ALL: [Self; 4] = [Self::Confirmed, Self::Corrected, Self::Superseded, Self::NotReproduced];
 
-    /// In words.
+    /// The verdict in words.
     pub fn name(self) -> &'static str {
         match self {
             Verdict::Confirmed => "confirmed",
@@ -40,17 +40,17 @@ impl Verdict {
 /// One statement of the paper.
 #[derive(Debug, Clone, Copy)]
 pub struct Claim {
-    /// Kebab-case name, of its own.
+    /// Unique kebab-case name.
     pub id: &'static str,
-    /// Where the paper says it.
+    /// Place in the paper.
     pub place: &'static str,
-    /// What it says, in our words.
+    /// The statement in our words.
     pub statement: &'static str,
     /// Whether it holds.
     pub verdict: Verdict,
-    /// What was found, where there is more to say than that it holds; for a confirmed statement a remark.
+    /// The finding, if there is more to say than that the statement holds; for a confirmed statement a remark.
     pub finding: &'static str,
-    /// Ids of the checks that the verdict rests on: if one of them fails, the verdict is void.
+    /// Ids of the checks behind the verdict: if one of them fails, the verdict is void.
     pub checks: &'static [&'static str],
     /// Golden tables with the numbers.
     pub golden: &'static [&'static str],

@@ -15,14 +15,14 @@ pub struct Evidence {
     pub id: &'static str,
     /// What its figure is.
     pub figure: &'static str,
-    /// The figure, as many digits as are the same on every machine, and its bound.
+    /// The figure with the digits that are the same on every machine, and its bound.
     pub measured: String,
     /// Whether the bound holds.
     pub passed: bool,
 }
 
 impl Evidence {
-    /// Of a check that was run.
+    /// The evidence of a check that was run.
     pub fn of(check: &Check, outcome: &Outcome) -> Self {
         let measured = match &outcome.measured {
             Err(_) => "none".to_owned(),
@@ -37,7 +37,7 @@ impl Evidence {
     }
 }
 
-/// Two or three digits of a physical figure. What is rounding, and differs from machine to machine, is not shown.
+/// Two or three digits of a physical figure. Rounding errors differ between machines and are not shown.
 fn shown(check: &Check, figure: f64) -> String {
     let in_units_of_rounding = check.figure.contains("2.2e-16") || check.figure.contains("ulp");
     match figure {
@@ -51,7 +51,7 @@ fn shown(check: &Check, figure: f64) -> String {
 /// Runs the checks of a claim.
 ///
 /// # Errors
-/// A check that does not exist.
+/// If a check does not exist.
 pub fn evidence(claim: &Claim) -> Result<Vec<Evidence>, String> {
     let all = checks::all();
     let of = |id: &&'static str| {
@@ -65,7 +65,7 @@ pub fn evidence(claim: &Claim) -> Result<Vec<Evidence>, String> {
 /// The page `docs/claims.md`. Runs the checks of every claim.
 ///
 /// # Errors
-/// A claim that names a check which does not exist, or one that fails.
+/// If a claim names a check that does not exist or that fails.
 pub fn markdown() -> Result<String, String> {
     let mut page = String::from(
         "# What the paper says, and what was found\n\n\

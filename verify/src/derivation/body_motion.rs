@@ -1,5 +1,5 @@
-//! A rigid body moving along given angles, rates and accelerations: everything is computed from the rotation matrix with
-//! time jets.
+//! A rigid body moving along given angles, rates and accelerations: everything follows from the rotation matrix by time
+//! jets.
 
 use crate::derivation::accelerated_angles;
 use crate::prelude::*;
@@ -32,8 +32,8 @@ pub fn angular_acceleration<F: Differentiable>(q: &EulerAngles<F>, v: &EulerRate
     body_rates(&moving_angles(q, v), &moving_rates(v, a)).map(F::derivative)
 }
 
-/// The torque that makes the body move so, in body components: `R d(R^T I Omega)/dt`, the rate of the angular momentum in
-/// the inertial frame. With free accelerations this is any torque at all.
+/// The torque of such a motion, in body components: `R d(R^T I Omega)/dt`, the rate of the angular momentum in the
+/// inertial frame. With free accelerations it is an arbitrary torque.
 pub fn torque_of_motion<F: Differentiable>(
     inertia: &PrincipalInertia<F>,
     q: &EulerAngles<F>,

@@ -1,13 +1,12 @@
-//! The first-order equations from differentiating Eq. (25) without omitting any term, and a solution inserted into them.
+//! The first-order equations by differentiation of Eq. (25) with all terms, and a solution inserted into them.
 
 use crate::prelude::*;
 
-/// The motion about which is expanded, free precession or a stationary spin, and the rate of `alpha` in it: of free precession without Lorentz
-/// violation, or `a^(1)` of the slow precession of a stationary spin about Z with `s^XX = s^YY`, of first order in `s`.
+/// The unperturbed motion, free precession or a stationary spin, with its rate of `alpha`: that of free precession without Lorentz violation,
+/// or `a^(1)` of the slow precession of a stationary spin about Z with `s^XX = s^YY`, of first order in `s`.
 pub type Unperturbed<F> = (ZerothOrder<F>, F);
 
-/// The terms of Eq. (25) that are of first order, with nothing else dropped. The first equation is divided by `sin^2 beta_0`, as
-/// Eq. (29) is.
+/// All first-order terms of Eq. (25). The first equation is divided by `sin^2 beta_0`, like Eq. (29).
 pub fn first_order_equations<F: Differentiable>(
     spheroid: &RigidSpheroid<F>,
     s: &PrincipalCoefficients<F>,
@@ -22,8 +21,8 @@ pub fn first_order_equations<F: Differentiable>(
     [of_alpha / (sin_beta * sin_beta), of_beta]
 }
 
-/// Derivative by a small parameter along the unperturbed motion plus the parameter times the first order, with `s^IJ`
-/// proportional to the parameter.
+/// Derivative with respect to a small parameter along the unperturbed motion plus the parameter times the first order.
+/// `s^IJ` is proportional to the parameter.
 fn about_free_precession<F: Differentiable>(
     spheroid: &RigidSpheroid<F>,
     s: &PrincipalCoefficients<F>,
@@ -32,7 +31,7 @@ fn about_free_precession<F: Differentiable>(
 ) -> [F; 2] {
     let small = |x| F::first(F::zero(), x);
     let motion = AxisAngles {
-        // At first order the potential is taken along the zeroth order: alpha1 does not enter.
+        // At first order the potential is evaluated along the zeroth order: alpha1 does not enter.
         alpha: F::fixed(zeroth.alpha),
         beta: F::first(zeroth.beta, first.beta),
         alpha_rate: F::first(*rate, first.alpha_rate),
@@ -45,10 +44,10 @@ fn about_free_precession<F: Differentiable>(
     [F::derivative(of_alpha), F::derivative(of_beta)]
 }
 
-/// Two small parameters: `e1`, the size of `s` and of the rates, and `e2`, that of `s^XX - s^YY` against
-/// `2 s^ZZ - s^XX - s^YY` and of `beta1`. The terms in `e1` (the slow precession about Z) and in `e1 e2` together. The
-/// accelerations are those of the homogeneous motion, whose frequency is not small and whose amplitude is counted as `e1 e2`;
-/// slow ones are of the order `e1^2`.
+/// Two small parameters: `e1`, the size of `s` and of the rates, and `e2`, that of `beta1` and of `s^XX - s^YY` relative to
+/// `2 s^ZZ - s^XX - s^YY`. The result has the terms in `e1` (the slow precession about Z) and in `e1 e2`. The accelerations
+/// are those of the homogeneous motion, whose frequency is not small and whose amplitude counts as `e1 e2`; slow ones are of
+/// the order `e1^2`.
 fn about_stationary_spin<F: Differentiable>(
     spheroid: &RigidSpheroid<F>,
     s: &PrincipalCoefficients<F>,
@@ -64,7 +63,7 @@ fn about_stationary_spin<F: Differentiable>(
         zz: F::second(zero, s.zz, zero, zero),
     };
     let motion = AxisAngles {
-        // The potential depends on alpha by s^XX - s^YY alone: alpha1 adds terms in e1 e2^2.
+        // The potential depends on alpha only through s^XX - s^YY: alpha1 adds terms in e1 e2^2.
         alpha: F::constant(zeroth.alpha),
         beta: F::second(zeroth.beta, zero, first.beta, zero),
         alpha_rate: F::second(zero, *rate, zero, first.alpha_rate - *rate),
@@ -77,10 +76,10 @@ fn about_stationary_spin<F: Differentiable>(
 }
 
 /// A solution as a first-order motion at `t = 0` with its phases at the zeroth-order rate of `alpha` and the homogeneous frequency
-/// `nu`. What Eq. (32) adds to `a` is put back into the rate of `alpha1`, where Eq. (30) has it.
+/// `nu`. The part that Eq. (32) adds to `a` returns to the rate of `alpha1`, as in Eq. (30).
 pub fn first_order_motion<F: Differentiable>(solution: &Perturbation<F>, nu: F) -> FirstOrderMotion<F> {
     let Constants { alpha_0, amplitude, phase, .. } = solution.constants;
-    // About a stationary spin the forced beta1 divides by a^(1), and the homogeneous one is smaller by the order of s.
+    // About a stationary spin the forced beta1 is divided by a^(1), and the homogeneous one is smaller by the order of s.
     let (rate, amplitude_of_beta) = match solution.kind {
         Precession::Twofold => (solution.zeroth_rate, amplitude),
         Precession::Single => (solution.rate, F::zero()),
@@ -115,7 +114,7 @@ pub fn first_order_motion<F: Differentiable>(solution: &Perturbation<F>, nu: F) 
     }
 }
 
-/// Constants of integration with an infinitesimal that they do not have.
+/// Constants of integration with zero derivatives.
 pub fn fixed_constants<F: Differentiable>(c: &Constants<F>) -> Constants<F::First> {
     let [alpha_0, beta_0, amplitude, phase] = [c.alpha_0, c.beta_0, c.amplitude, c.phase].map(F::fixed);
     Constants { alpha_0, beta_0, amplitude, phase }

@@ -1,7 +1,7 @@
 //! The paper's equations, derived again from first principles with automatic derivatives.
 //!
 //! Each derivation is written once and runs on three kinds of numbers: a prime field (exact), `f64` with the dual numbers
-//! of `num_dual`, and [`Conditioned`] (how large rounding may be).
+//! of `num_dual`, and [`Conditioned`] (bounds on rounding errors).
 
 use nalgebra::SMatrix;
 use num_dual::HyperDual64;
@@ -15,7 +15,7 @@ pub mod first_order;
 pub mod spheroid_motion;
 pub mod virtual_rotation;
 
-/// A number with two kinds of infinitesimals over it.
+/// A number with two kinds of infinitesimals added.
 pub trait Differentiable: Scalar {
     /// `x + x1 e` with `e^2 = 0`.
     type First: Scalar;
@@ -41,18 +41,18 @@ pub trait Differentiable: Scalar {
     /// The coefficient of `e1 e2`.
     fn derivative_12(x: Self::Second) -> Self;
 
-    /// A constant, without derivatives.
+    /// A constant.
     fn constant(x: Self) -> Self::Second {
         Self::second(x, Self::zero(), Self::zero(), Self::zero())
     }
 
-    /// A constant, without derivatives.
+    /// A constant.
     fn fixed(x: Self) -> Self::First {
         Self::first(x, Self::zero())
     }
 }
 
-/// Both kinds of infinitesimals over a type of numbers: their types, how the second is made, and its two parts.
+/// Implements both kinds of infinitesimals for a number type: their types, the constructor of the second, and its two parts.
 macro_rules! differentiable {
     ($type:ty, $first:ty, $second:ty, $make:expr, $($one:ident).+, $($both:ident).+) => {
         impl Differentiable for $type {
@@ -91,11 +91,11 @@ fn nested<F: Scalar>(x: F, x1: F, x2: F, x12: F) -> Dual<Dual<F>> {
 }
 
 differentiable!(f64, Dual64, HyperDual64, HyperDual64::new, eps1, eps1eps2);
-// The exact field and the measure of conditioning carry the duals of `crate::dual`.
+// The exact field and the conditioned numbers use the duals of `crate::dual`.
 differentiable!(Fp, Dual<Fp>, Dual<Dual<Fp>>, nested, re.eps, eps.eps);
 differentiable!(Conditioned, Dual<Conditioned>, Dual<Dual<Conditioned>>, nested, re.eps, eps.eps);
 
-/// Angles that move with given rates, to first order in time.
+/// Angles that change at given rates, to first order in time.
 pub fn moving_angles<F: Differentiable>(q: &EulerAngles<F>, v: &EulerRates<F>) -> EulerAngles<F::First> {
     EulerAngles { alpha: F::first(q.alpha, v.alpha), beta: F::first(q.beta, v.beta), gamma: F::first(q.gamma, v.gamma) }
 }

@@ -24,12 +24,12 @@ pub fn accelerations<F: Differentiable>(
     EulerRates { alpha, beta, gamma: gamma_acceleration(q, v, alpha) }
 }
 
-/// The spheroid as a constant with an infinitesimal.
+/// The spheroid as a constant in the extended numbers.
 pub fn fixed_spheroid<F: Differentiable>(spheroid: &RigidSpheroid<F>) -> RigidSpheroid<F::First> {
     spheroid.map(F::fixed)
 }
 
-/// The coefficients as constants with an infinitesimal.
+/// The coefficients as constants in the extended numbers.
 pub fn fixed_coefficients<F: Differentiable>(s: &PrincipalCoefficients<F>) -> PrincipalCoefficients<F::First> {
     PrincipalCoefficients::new([s.xx, s.yy, s.zz].map(F::fixed))
 }

@@ -3,9 +3,9 @@
 use crate::prelude::*;
 
 /// Torque on a body with the tensor `U^ij` in body components: minus the derivative of `-(1/2) s^ij U^ij` under a rotation
-/// of the body about each of its axes. `s` in inertial components.
+/// of the body about each of its axes. `s` is in inertial components.
 ///
-/// A body that turns by a small angle about its axis `e_i` has the rows `e_j + angle e_i x e_j`.
+/// After a rotation by a small angle about the axis `e_i`, the rows are `e_j + angle e_i x e_j`.
 pub fn torque_by_virtual_rotation<F: Differentiable>(
     rotation: &Matrix3<F>,
     s: &Matrix3<F>,
@@ -19,7 +19,7 @@ pub fn torque_by_virtual_rotation<F: Differentiable>(
     })
 }
 
-/// Derivatives of `-(1/2) s^ij U^ij` by the three Euler angles. `s` in inertial components, `U^ij` in body components.
+/// Derivatives of `-(1/2) s^ij U^ij` by the three Euler angles; `s` in inertial components, `U^ij` in body components.
 pub fn gradient_in_angles<F: Differentiable>(
     q: &EulerAngles<F>,
     s: &Matrix3<F>,
@@ -32,7 +32,7 @@ pub fn gradient_in_angles<F: Differentiable>(
     })
 }
 
-/// Rate one of the `i`-th of `alpha`, `beta`, `gamma`, zero of the others.
+/// Rates with a one for the `i`-th of `alpha`, `beta`, `gamma` and zeros for the others.
 pub fn unit_rates<F: Differentiable>(i: usize) -> EulerRates<F> {
     let unit = |j| if i == j { F::one() } else { F::zero() };
     EulerRates { alpha: unit(0), beta: unit(1), gamma: unit(2) }

@@ -6,7 +6,7 @@ use super::{GoldenLine, GoldenTable, Printed};
 use crate::eta::{EtaStatistics, PAPER_ASYMMETRY, eta_curve};
 use crate::prelude::*;
 
-/// What it is for three shapes of the tensor, with its quantiles for the paper's.
+/// Eta for three shapes of the tensor, with quantiles for the paper's.
 pub(super) fn table() -> Result<GoldenTable, Error> {
     let mut lines = Vec::new();
     let mut line = |label: String, printed, value| {

@@ -13,16 +13,16 @@ pub enum Printed {
     No,
 }
 
-/// One labelled number.
+/// One labelled number of a table.
 #[derive(Debug, Clone)]
 pub struct GoldenLine {
-    /// What it is, with its symbol, unit and equation.
+    /// Label with symbol, unit and equation.
     pub label: String,
     /// The paper's number.
     pub printed: Printed,
-    /// Ours.
+    /// Our number.
     pub ours: f64,
-    /// Significant digits shown, as many as are the same on every machine.
+    /// Significant digits shown: those that are the same on every machine.
     pub digits: usize,
 }
 
@@ -32,7 +32,7 @@ impl GoldenLine {
         Self { label: label.into(), printed, ours, digits: 9 }
     }
 
-    /// `confirmed`, `differs`, or `derived` where nothing is printed.
+    /// `confirmed`, `differs`, or `derived` if nothing is printed.
     pub fn verdict(&self) -> &'static str {
         let agrees = match self.printed {
             Printed::No => return "derived",
@@ -45,7 +45,7 @@ impl GoldenLine {
         if agrees { "confirmed" } else { "differs" }
     }
 
-    /// The paper's number, an order of magnitude with `~` before it.
+    /// The paper's number; an order of magnitude has `~` before it.
     pub fn printed_text(&self) -> String {
         match self.printed {
             Printed::Decimal(text) => text.to_string(),
@@ -60,7 +60,7 @@ impl GoldenLine {
     }
 }
 
-/// A number below 1e-15 is the rounding of a zero in these tables.
+/// Formats a number. Below 1e-15 it is the rounding of a zero in these tables.
 fn significant(value: f64, digits: usize) -> String {
     if value.abs() < 1e-15 { "0".into() } else { format!("{value:.*e}", digits - 1) }
 }

@@ -15,9 +15,9 @@ pub use line::{GoldenLine, Printed};
 /// One golden table.
 #[derive(Debug, Clone)]
 pub struct GoldenTable {
-    /// File name of its snapshot, without ending.
+    /// File name of its snapshot, without extension.
     pub name: &'static str,
-    /// What it holds.
+    /// Title.
     pub title: &'static str,
     /// Its lines.
     pub lines: Vec<GoldenLine>,
@@ -41,7 +41,7 @@ impl std::fmt::Display for GoldenTable {
     }
 }
 
-/// The golden tables of the verification; those of the figures are made with the figures.
+/// The golden tables of the verification; those of the figures are computed with the figures.
 ///
 /// # Errors
 /// If a number cannot be computed.

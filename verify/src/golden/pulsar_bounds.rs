@@ -4,7 +4,7 @@ use super::{GoldenLine, GoldenTable, Printed};
 use twofold_scene::pulsar_table::published::printed_bounds;
 use twofold_scene::pulsar_table::{CONSERVATIVE_ETA, ROUND_INERTIA_OVER_C};
 
-/// The rows of the table that follow from its others, by each of the three readings.
+/// The rows of the table that follow from its other rows, for each of the three readings.
 pub(super) fn table() -> Result<GoldenTable, String> {
     let mut lines = Vec::new();
     for (pulsar, printed) in printed_bounds() {

@@ -53,7 +53,7 @@ pub(super) fn twofold() -> Result<GoldenTable, String> {
     })
 }
 
-/// Single precession: largest distance of the true from the approximate axis over one forced period, printed and corrected.
+/// Single precession: largest distance between the true and the approximate axis over one forced period, printed and corrected.
 pub(super) fn single() -> Result<GoldenTable, String> {
     let inclinations = [0.1, 0.3, 0.5, 0.7, 0.9, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5].map(|beta_0| (0.01, 1.0, beta_0, 0.0));
     let amplitudes = [0.003, 0.01, 0.03, 0.1].map(|amplitude| (0.01, 1.0, 0.7, amplitude));

@@ -32,7 +32,7 @@ pub(super) fn table() -> Result<GoldenTable, String> {
     })
 }
 
-/// What the paper's figures mark beside a line.
+/// The value that the paper's figures mark for a line.
 fn marked(what: &str) -> Printed {
     match what {
         "alpha'" => Printed::Decimal("1.438"),

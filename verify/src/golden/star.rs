@@ -6,7 +6,7 @@ use twofold::units::geometrised::GRAM_PER_CUBIC_CENTIMETRE;
 use super::{GoldenLine, GoldenTable, Printed};
 use crate::prelude::*;
 
-/// Eqs. (20), (43), (58) with the inputs that the paper names.
+/// Eqs. (20), (43), (58) for the values given in the paper.
 pub(super) fn estimates() -> Result<GoldenTable, Error> {
     let density = 1e15 * GRAM_PER_CUBIC_CENTIMETRE;
     let deformation = |period: f64| centrifugal_oblateness_scaled(1.0 / period, 10.0, 1.4);

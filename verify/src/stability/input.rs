@@ -7,9 +7,9 @@ use crate::prelude::*;
 pub enum Input {
     /// This number.
     Fixed(f64),
-    /// Evenly between two numbers.
+    /// Uniform between two numbers.
     In(f64, f64),
-    /// `10^u`, `u` evenly between two numbers.
+    /// `10^u` with `u` uniform between two numbers.
     Log(f64, f64),
     /// The same with either sign.
     Signed(f64, f64),
@@ -22,7 +22,7 @@ pub enum Input {
 }
 
 impl Input {
-    /// A number of the range, `share` of it from its start.
+    /// A number of the range, at the fraction `share` of it.
     fn at(self, share: f64, random: &mut Random) -> f64 {
         let power = |low: f64, high: f64| 10f64.powf(low + (high - low) * share);
         let sign = if random.word() & 1 == 0 { 1.0 } else { -1.0 };
@@ -38,7 +38,7 @@ impl Input {
     }
 }
 
-/// Points of a case: the first input in as many equal parts of its range, a random place in each; the others anywhere.
+/// Points of a case: the first input at random in each of equal parts of its range, the others at random.
 pub(super) fn points(inputs: &[Input], seed: u64, count: usize) -> impl Iterator<Item = Vec<f64>> {
     let mut random = Random::with_seed(seed);
     (0..count).map(move |i| {

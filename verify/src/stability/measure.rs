@@ -1,26 +1,26 @@
-//! The runner: largest errors of a case in ulp of the conditioned scale, digits lost.
+//! The measurement of a case: largest errors in ulp of the conditioned scale, and digits lost.
 
 use super::input::points;
 use crate::prelude::*;
 
 use super::{Case, Scale, Wide, WideDual};
 
-/// Points of a round, as a rule.
+/// Default number of points per round.
 pub const POINTS: usize = 40;
 
-/// Relative change of an input in the scale of derivatives: small against the distance of a double from any other, large against 31 digits.
+/// Relative change of an input for the scale of derivatives: small compared with the spacing of doubles, large compared with 31 digits.
 const CHANGE: f64 = 1e-20;
 
-/// Largest errors of a kernel, a formula or a derivative.
+/// Largest errors of a kernel, of a formula or of a derivative.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Errors {
     /// Largest error in ulp of the conditioned scale.
     pub ulp: f64,
-    /// Where it was.
+    /// Inputs where it occurred.
     pub place: Vec<f64>,
-    /// Which of the results.
+    /// Index of the result.
     pub component: usize,
-    /// Decimal digits lost of the value itself at most, by conditioning and kernel together.
+    /// Largest number of decimal digits lost of the value itself, by conditioning and kernel together.
     pub digits: f64,
     /// Condition number, scale over value, where most digits were lost.
     pub condition: f64,
@@ -41,7 +41,7 @@ impl Errors {
             (self.ulp, self.place, self.component) = (ulp, x.to_vec(), component);
         }
         let value = exact.high().abs();
-        // Of a zero there is no digit.
+        // A zero has no digits.
         let digits = (error / spacing(value)).log10().clamp(0.0, 17.0);
         if value > 0.0 && digits > self.digits {
             (self.digits, self.condition) = (digits, scale / value);
@@ -49,16 +49,16 @@ impl Errors {
     }
 }
 
-/// What was found in a case.
+/// Results of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Found {
     /// Number of points.
     pub points: usize,
-    /// Of the kernel.
+    /// Errors of the kernel.
     pub kernel: Errors,
     /// Of its derivatives by the first input.
     pub derivative: Option<Errors>,
-    /// Of the formula beside it.
+    /// Errors of the formula compared with it.
     pub naive: Option<Errors>,
 }
 
@@ -67,7 +67,7 @@ pub(super) fn spacing(x: f64) -> f64 {
     x.abs().next_up() - x.abs()
 }
 
-/// The largest error of some cases, derivatives included, over its bound.
+/// The largest error of some cases, derivatives included, relative to its bound.
 pub(super) fn largest_over_bound(cases: Vec<Case>) -> Result<Measured, String> {
     let mut worst = Worst::default();
     for case in cases {
@@ -87,7 +87,7 @@ pub(super) fn largest_over_bound(cases: Vec<Case>) -> Result<Measured, String> {
 }
 
 impl Case {
-    /// Measures the case in as many rounds; the first round is the same for any number of them.
+    /// Measures the case in some rounds; the first round does not depend on their number.
     pub fn measure(&self, rounds: u64) -> Found {
         let mut found = Found {
             points: rounds as usize * self.points,
@@ -130,7 +130,7 @@ impl Case {
         }
     }
 
-    /// Derivatives of the oracle by the input `by`; `moved` is changed a little.
+    /// Derivatives of the oracle by the input `by`; the input `moved` is changed slightly.
     fn slopes(&self, x: &[f64], by: usize, moved: Option<usize>) -> Vec<Wide> {
         let inputs: Vec<WideDual> = (0..x.len())
             .map(|i| {

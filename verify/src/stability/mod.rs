@@ -1,7 +1,7 @@
 //! Digits lost by kernels and solvers, relative to an oracle of 31 digits, on logarithmic sweeps into their limits.
 //!
-//! A [`Case`] is one sweep: a function generic over the scalar, the ranges of its inputs and the limit that the first one approaches, and the
-//! allowed error. It is run on doubles, on duals, and as its own oracle on double-double numbers; if it has constants or thresholds for doubles,
+//! A [`Case`] is one sweep: a function generic over the scalar, the ranges of its inputs, the limit that the first one approaches, and the
+//! allowed error. It runs on doubles, on duals and, as its own oracle, on double-double numbers; if it has constants or thresholds for doubles,
 //! another formula is the oracle. [`measure`] runs all of them.
 //!
 //! The error of a number `f(x)` is counted in ulp of its *conditioned scale*
@@ -11,8 +11,8 @@
 //! ```
 //!
 //! with the derivatives from duals over double-double numbers. This is the precision that inputs accurate to rounding permit, so that a loss is
-//! attributed to the kernel only if its inputs do not explain it. Inputs are exact doubles for kernel and oracle alike. An ulp is the distance
-//! to the next double at the scale.
+//! attributed to the kernel only if its inputs do not explain it. Kernel and oracle have the same exact doubles as inputs. An ulp is the
+//! distance to the next double at the scale.
 
 pub mod cases;
 pub mod denormal;
@@ -28,7 +28,7 @@ use crate::prelude::*;
 
 /// A function of several numbers with several results, over any scalar.
 pub trait Function {
-    /// The results at `x`; not a number where there are none.
+    /// The results at `x`; NaN where there are none.
     fn of<S: Real>(x: &[S]) -> Vec<S>;
 }
 
@@ -36,18 +36,18 @@ pub trait Function {
 pub(crate) type Wide = DoubleDouble;
 pub(crate) type WideDual = Dual<DoubleDouble>;
 
-/// How much error is allowed.
+/// The allowed error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Class {
     /// A formula of one step: 4 ulp of the conditioned scale.
     Scalar,
-    /// Made of several kernels, or of iterations: 16 ulp.
+    /// A formula made of several kernels, or an iteration: 16 ulp.
     Composite,
-    /// More than that, for a reason.
+    /// A larger bound, for a reason.
     Exception {
         /// Bound in ulp of the conditioned scale.
         bound: f64,
-        /// Why, with the condition number that the scale does not see.
+        /// The reason, with the condition number that the scale does not contain.
         reason: &'static str,
     },
 }
@@ -63,14 +63,14 @@ impl Class {
     }
 }
 
-/// Which scale the error of one of several results is measured by.
+/// The scale for the error of one of several results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
-    /// Each by its own.
+    /// Each result by its own scale.
     Each,
     /// All by one: they are parts of a turn, whatever the size of the inputs.
     Unit,
-    /// All by the largest: they are the components of a vector, in whatever frame.
+    /// All by the largest: they are the components of a vector in an arbitrary frame.
     Vector,
 }
 
@@ -83,7 +83,7 @@ pub struct Case {
     pub name: &'static str,
     /// The limit of the sweep, in words.
     pub limit: &'static str,
-    /// Where inputs are drawn from; the first is swept.
+    /// Ranges of the inputs; the first one is swept.
     pub inputs: Vec<Input>,
     /// Allowed error of the values.
     pub class: Class,
@@ -91,11 +91,11 @@ pub struct Case {
     pub class_of_derivatives: Class,
     /// Scale of several results.
     pub scale: Scale,
-    /// Points of a round.
+    /// Points per round.
     pub points: usize,
-    /// Whether derivatives `df/dx` count against `f / x` too.
+    /// Whether derivatives `df/dx` are compared with `f / x`, too.
     pub natural_derivatives: bool,
-    /// The formula beside it, in words.
+    /// Name of the formula compared with it.
     pub naive_formula: &'static str,
     kernel: Evaluate<f64>,
     derivative: Option<Evaluate<Dual64>>,
@@ -105,7 +105,7 @@ pub struct Case {
 }
 
 impl Case {
-    /// A function that is its own oracle on double-double numbers: it has no constant, threshold or iteration meant for doubles.
+    /// A function that is its own oracle on double-double numbers: it has no constant, threshold or iteration made for doubles.
     pub fn new<K: Function>(name: &'static str, limit: &'static str, inputs: &[Input]) -> Self {
         Self {
             name,
@@ -125,7 +125,7 @@ impl Case {
         }
     }
 
-    /// A function in doubles alone, with its oracle.
+    /// A function on doubles only, with its oracle.
     pub fn of_doubles<O: Function>(
         name: &'static str,
         limit: &'static str,
@@ -135,77 +135,77 @@ impl Case {
         Self { kernel, derivative: None, ..Self::new::<O>(name, limit, inputs) }
     }
 
-    /// With derivatives of a function that is not generic.
+    /// Adds the derivatives of a function that is not generic.
     pub fn with_derivatives(mut self, derivative: fn(&[Dual64]) -> Vec<Dual64>) -> Self {
         self.derivative = Some(derivative);
         self
     }
 
-    /// With another formula for oracle.
+    /// Sets another formula as oracle.
     pub fn against<O: Function>(mut self) -> Self {
         self.oracle = O::of::<Wide>;
         self.oracle_slope = O::of::<WideDual>;
         self
     }
 
-    /// With another formula beside it, in doubles.
+    /// Adds another formula in doubles for comparison.
     pub fn beside<N: Function>(mut self, formula: &'static str) -> Self {
         self.naive = Some(N::of::<f64>);
         self.naive_formula = formula;
         self
     }
 
-    /// A composite.
+    /// Marks a composite.
     pub fn composite(mut self) -> Self {
         self.class = Class::Composite;
         self
     }
 
-    /// Whose results are the components of a vector.
+    /// Marks results as the components of a vector.
     pub fn vector(mut self) -> Self {
         self.scale = Scale::Vector;
         self
     }
 
-    /// With so many points in a round: it is slow.
+    /// Sets the number of points per round, for a slow function.
     pub fn with_points(mut self, points: usize) -> Self {
         self.points = points;
         self
     }
 
-    /// Without derivatives.
+    /// Omits derivatives.
     pub fn values_only(mut self) -> Self {
         self.derivative = None;
         self
     }
 
-    /// Whose derivatives count against their natural size as well, the scale of the value over the swept input: where that is much larger than
-    /// the derivative itself, which is a difference of terms of that size.
+    /// Compares errors of derivatives also with their natural size, the scale of the value over the swept input. It is for derivatives that
+    /// are small differences of terms of that size.
     pub fn natural_derivatives(mut self) -> Self {
         self.natural_derivatives = true;
         self
     }
 
-    /// Whose results are parts of a whole.
+    /// Marks results as parts of a whole.
     pub fn unit(mut self) -> Self {
         self.scale = Scale::Unit;
         self
     }
 
-    /// With an exception for the values.
+    /// Sets an exception for the values.
     pub fn except(mut self, bound: f64, reason: &'static str) -> Self {
         self.class = Class::Exception { bound, reason };
         self
     }
 
-    /// With an exception for the derivatives.
+    /// Sets an exception for the derivatives.
     pub fn derivatives_except(mut self, bound: f64, reason: &'static str) -> Self {
         self.class_of_derivatives = Class::Exception { bound, reason };
         self
     }
 }
 
-/// Functions generic over the scalar, as types. One that is measured has a name and says how, as the methods of [`Case`] do:
+/// Functions generic over the scalar, as types. A measured one has a name and options, which are methods of [`Case`]:
 /// `Angle: "angle".against::<ExactAngle>().composite(), (x) { ... }` gives `Angle::case(limit, inputs)`.
 macro_rules! functions {
     ($(
@@ -231,7 +231,7 @@ macro_rules! functions {
     };
 }
 
-/// Inputs, with how often each is there if more than once: `list![beta, component; 3]`.
+/// A list of inputs, with the number of repetitions if it is not one: `list![beta, component; 3]`.
 macro_rules! list {
     ($($input:expr $(; $count:expr)?),* $(,)?) => {
         [$(&[$input; 1 $(- 1 + $count)?][..]),*].concat()

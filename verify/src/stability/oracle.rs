@@ -1,8 +1,8 @@
-//! Formulas for 31 digits where the kernels have constants, series or thresholds for 16 digits.
+//! Formulas for 31 digits, where the kernels have constants, series or thresholds for 16 digits.
 
 use crate::prelude::*;
 
-/// Largest relative distance from the common mean at which a series of Carlson is summed: its first missing terms are of degree 8.
+/// Largest relative distance from the mean at which Carlson's series is summed: the first omitted terms are of degree 8.
 const SERIES_RADIUS: f64 = 1e-6;
 
 /// `pi`, to 32 digits.
@@ -17,7 +17,7 @@ pub fn ratio<S: Real>(over: f64, under: f64) -> S {
 
 /// `beta = (4/15) 2F1(3/2, 3/2; 7/2; e^2)` of a spheroid: half-angle steps down to a shorter series than the kernel's.
 ///
-/// The identity of the steps is that of the kernel. Its values are held against a table of 34 digits by a test here.
+/// The identity of the steps is that of the kernel. A test here compares its values with a table of 34 digits.
 pub fn reduced_difference<S: Real>(q: S, q2: S, e2: S) -> S {
     if e2.re().abs() < 1e-3 || e2.re().is_nan() {
         let term = |k: f64| ratio::<S>((k + 1.5) * (k + 1.5), (k + 3.5) * (k + 1.0));
@@ -35,7 +35,7 @@ pub fn potential_coefficients<S: Real>(q: S, q2: S, e2: S) -> [S; 4] {
     let difference = q * e2 * reduced_difference(q, q2, e2);
     let sum = S::one() + q2 * 2.0;
     let a3 = (S::one() - difference) * 2.0 / sum;
-    // Of two that are equal the one whose derivative does not cancel.
+    // Of two equal expressions, this is the one whose derivative does not cancel.
     let a1 = if q2.re() > 1.0 { S::one() - a3 / 2.0 } else { (q2 * 2.0 + difference) / sum };
     let a0 = if q2.re() > 1e3 {
         // 2 q arsinh(s) / s, s^2 = q^2 - 1.
@@ -93,7 +93,7 @@ pub fn rj<S: Real>(x: S, y: S, z: S, p: S) -> S {
         let d = (root + roots[0]) * (root + roots[1]) * (root + roots[2]);
         let one = S::one();
         let e = (p - at[0]) * (p - at[1]) * (p - at[2]) / (d * d);
-        // 1 + e, which for small p cancels: the product is 2 sqrt p (p + lambda) / d then.
+        // 1 + e cancels for small p; then it is computed as 2 sqrt p (p + lambda) / d.
         let lambda = lambda(&at);
         let y = if e.re() < -0.5 { root * (p + lambda) * 2.0 / d } else { one + e };
         sum += scale / d * rc(one, y);
@@ -116,7 +116,7 @@ fn series<S: Real>([e2, e3, e4, e5]: [S; 4]) -> S {
         + e2 * e4 * r(3.0, 20.0)
 }
 
-/// Carlson's `R_D(x, y, z) = R_J(x, y, z, z)`, by a duplication of its own: `R_J` would lose what `p - z` does.
+/// Carlson's `R_D(x, y, z) = R_J(x, y, z, z)`, by a separate duplication: `R_J` would cancel in `p - z`.
 pub fn rd<S: Real>(x: S, y: S, z: S) -> S {
     let (mut at, mut sum, mut scale) = ([x, y, z], S::zero(), S::one());
     for _ in 0..1000 {

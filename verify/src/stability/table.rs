@@ -6,7 +6,7 @@ use super::cases::FAMILIES;
 use super::measure::{Errors, Found};
 use super::{Case, Class};
 
-/// Rounds of the page: the first is that of the checks.
+/// Number of rounds for the page; the first is that of the checks.
 pub const ROUNDS: u64 = 10;
 
 const HEAD: &str = "# Digits lost: stability tables
@@ -42,7 +42,7 @@ Recorded on 2026-11-21, 22 and 28, largest error in ulp of the conditioned scale
 | `Top`, derivatives | equal eigenvalues | 180 | 6 | the same |
 ";
 
-/// The page, measured with so many rounds of points.
+/// The page, measured with the given number of rounds.
 pub fn markdown(rounds: u64) -> String {
     let mut page = String::from(HEAD);
     let add = |page: &mut String, text: String| page.write_str(&text).expect("writing to a string succeeds");
@@ -97,7 +97,7 @@ fn denormal_inputs() -> String {
     page
 }
 
-/// A maximum as it is stated: rounded up to a half, in large numbers to two digits.
+/// A maximum as stated on the page: rounded up to a half, large numbers to two digits.
 pub fn stated(ulp: f64) -> String {
     if ulp <= 100.0 {
         return format!("{:.1}", (ulp * 2.0).ceil() / 2.0);

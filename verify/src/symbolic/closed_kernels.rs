@@ -10,7 +10,6 @@ type Point = RationalPoint<f64>;
 type Components = Result<Vec<f64>, Error>;
 type Values = fn(&Point) -> Components;
 
-/// All of them.
 pub(super) fn all() -> Vec<ClosedKernel> {
     let kernels: [(&str, Values); 17] = [
         ("potential-coefficients", |p| {
@@ -52,7 +51,7 @@ pub(super) fn all() -> Vec<ClosedKernel> {
             let (s, n, l) = mean_point(p);
             Ok(generator_slopes(&p.spheroid(), &s, &n, &(l * p.at("size"))).iter().flatten().copied().collect())
         }),
-        // At the energy of the first-order averaged motion on the middle axis with the size G and the cosine c of the point.
+        // At the energy of the first-order averaged motion on the middle axis, for the size G and the cosine c of the point.
         ("growth-at-middle-axis", |p| {
             let (spheroid, s, size, cosine) = (p.spheroid(), p.coefficients(), p.at("size"), p.at("x_1"));
             let mean = (s.xx + s.yy + s.zz) / 3.0;
@@ -81,7 +80,7 @@ pub(super) fn all() -> Vec<ClosedKernel> {
             let later = free_rotation(&p.spheroid(), &start, p.at("x_1"));
             Ok(later.axis.iter().chain(&later.equatorial_axis).copied().collect())
         }),
-        // `L` along Z, the axis at the colatitude and azimuth of the point, the observer at the inclination `zeta` in the plane of azimuth zero.
+        // `L` along Z, the axis at the colatitude and azimuth of the point, the observer at the inclination `zeta` and azimuth zero.
         ("wave-harmonics", |p| {
             let (theta, phi) = (p.at("colatitude"), p.at("azimuth"));
             let ((sin_theta, cos_theta), (sin_phi, cos_phi)) = (theta.sin_cos(), phi.sin_cos());

@@ -6,7 +6,7 @@ use super::document::Document;
 use super::{closed_kernels, rational_kernels};
 use crate::prelude::*;
 
-/// Every rational kernel over the prime field: how many values differ from the images of the exact ones.
+/// Every rational kernel over the prime field: the number of values that are not images of the exact ones.
 pub(crate) fn compare_field(document: &Document) -> Result<Measured, String> {
     let kernels = rational_kernels();
     let values = |i: usize, point: &_| Ok((kernels[i].field)(&document.layout.coded(point)));
@@ -20,7 +20,7 @@ pub(crate) fn compare_field(document: &Document) -> Result<Measured, String> {
     Ok(Measured::new(differing.len() as f64, format!("{} values; first {:?}", pairs.len(), differing.first())))
 }
 
-/// Every rational kernel in doubles: the largest error in units of 2.2e-16 times the sum of the magnitudes of the terms.
+/// Compares every rational kernel in doubles: the largest error in units of 2.2e-16 times the sum of the magnitudes of the terms.
 pub(crate) fn compare_doubles(document: &Document) -> Result<Measured, String> {
     let kernels = rational_kernels();
     let values = |i: usize, point: &_| {
@@ -33,7 +33,7 @@ pub(crate) fn compare_doubles(document: &Document) -> Result<Measured, String> {
     )
 }
 
-/// Every other kernel in doubles: the largest error in units of 2.2e-16 times the scale of the file.
+/// Compares every other kernel in doubles: the largest error in units of 2.2e-16 times the scale in the file.
 pub(crate) fn compare_closed(document: &Document) -> Result<Measured, String> {
     let kernels = closed_kernels();
     let values = |i: usize, point: &_| (kernels[i].values)(&document.layout.coded(point));
@@ -43,7 +43,7 @@ pub(crate) fn compare_closed(document: &Document) -> Result<Measured, String> {
     )
 }
 
-/// Name, point and component of a value, the value, and what the file has for it.
+/// Name, point and component of a value, the value, and its entry in the file.
 type Pair<'d, V, E> = ((&'static str, usize, usize), V, &'d E);
 
 /// The values of all kernels of a kind at all points.

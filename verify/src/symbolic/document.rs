@@ -6,7 +6,7 @@ use super::RationalPoint;
 use super::point::Coded;
 use crate::prelude::*;
 
-/// A range of fractions `n / denominator` with `low <= n <= high`, zero left out.
+/// A range of fractions `n / denominator` with `low <= n <= high`, without zero.
 type Range = (i32, i32, i32);
 
 /// Names of angles and numbers with their ranges.
@@ -23,7 +23,7 @@ pub(super) struct Exact {
     pub(super) nearest: f64,
 }
 
-/// A value by 40 digits, rounded, and what its error is counted in.
+/// A value with 40 digits, rounded, and the scale of its error.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rounded {
     pub(super) value: f64,
@@ -46,7 +46,7 @@ impl Layout {
         let mut fraction = |&(low, high, denominator): &Range| {
             let count = u64::from(high.abs_diff(low)) + 1;
             loop {
-                // At most 49 of 2^64: that some of them are a little likelier is of no matter.
+                // The bias is at most 49 of 2^64, which is negligible.
                 let numerator = low + (random.word() % count) as i32;
                 if numerator != 0 {
                     return (numerator, denominator);
@@ -67,7 +67,7 @@ impl Document {
     /// Reads the text of a file.
     ///
     /// # Errors
-    /// Says what is missing or wrong.
+    /// If something is missing or malformed.
     pub fn parse(text: &str) -> Result<Self, String> {
         let json: Value = serde_json::from_str(text).map_err(|error| error.to_string())?;
         let ranges = |kind: &str| {

@@ -8,7 +8,7 @@ use super::point::Coded;
 use super::{RationalKernel, RationalPoint};
 use crate::prelude::*;
 
-/// Each kernel once, for every type of numbers.
+/// Defines each kernel once, for every type of numbers.
 macro_rules! kernels {
     ($($name:literal => |$point:ident| $values:expr;)*) => {
         /// All of them.
@@ -84,7 +84,7 @@ kernels! {
         let [omega, torque] = [["w_1", "w_2", "w_3"], ["g_1", "g_2", "g_3"]].map(|names| p.vector(names));
         flat(&wave_tensor(&p.body(), &omega, &torque))
     };
-    // By the symmetry axis and the angular momentum, and by the tensor A^ij of the body.
+    // From the symmetry axis and the angular momentum, and from the tensor A^ij of the body.
     "inertia-acceleration" => |p| {
         let (spheroid, s, state) = (p.spheroid(), p.coefficients().tensor(), p.state());
         let direct = spheroid_inertia_acceleration(&spheroid, &s, &state.axis, &state.momentum);
@@ -200,7 +200,7 @@ fn beam<F: Coded>(p: &Point<F>) -> Beam<F> {
     Beam::new(p.at("chi"), p.at("delta"), p.at("half_opening"))
 }
 
-/// Twice the angle whose half is asked for: halved again it has the same code.
+/// Twice the angle: its half, which the kernel takes, has the same code.
 fn width<F: Coded>(p: &Point<F>) -> F {
     p.at("half_width") * 2.0
 }
@@ -220,7 +220,7 @@ fn first_order<F: Coded>(p: &Point<F>, kind: Precession, residuals: Residuals<F>
     residuals(&p.spheroid(), &p.coefficients(), &zeroth, &first)
 }
 
-/// Numbers, angles and rates at the phases `x` and `y`, and the changes in the time `x_1` after the start, where these are the phases.
+/// Constants, angles and rates at the phases `x` and `y`, and the changes in the time `x_1` after the start, where these are the phases.
 fn solution<F: Coded>(p: &Point<F>, form: Form, kind: Precession) -> Vec<F> {
     let (phase, alpha_0) = (p.at("x"), p.at("y"));
     let constants = Constants { alpha_0, beta_0: p.at("beta"), amplitude: p.at("amplitude"), phase };

@@ -2,8 +2,8 @@
 //! rational points are stored in `verify/data/symbolic.json`. The comparison does not need Python.
 //!
 //! An angle of a point is given by `t = tan(angle / 2)`, so that any rational function of sines and cosines is rational in `t`. Such kernels
-//! are compared twice: in the prime field, where a rational number has an exact image and nothing is rounded, and in doubles, in units in the
-//! last place of the sum of the magnitudes of their terms. Kernels with roots or inverse functions are compared in doubles only.
+//! are compared twice: in the prime field, where a rational number has an exact image and nothing is rounded, and in doubles, in ulp of the
+//! sum of the magnitudes of their terms. Kernels with roots or inverse functions are compared in doubles only.
 
 use crate::prelude::*;
 
@@ -20,7 +20,7 @@ pub use point::{Coded, RationalPoint};
 /// The file that `verify/oracles/symbolic` writes.
 pub const DATA: &str = include_str!("../../data/symbolic.json");
 
-/// A kernel whose values are rational functions of its input, over the three types of numbers that it is compared in.
+/// A kernel whose values are rational functions of its input, over the three types of numbers of the comparison.
 #[derive(Clone, Copy)]
 pub struct RationalKernel {
     /// Name of the quantity in the file.
@@ -33,7 +33,7 @@ pub struct RationalKernel {
     pub conditioned: fn(&RationalPoint<Conditioned>) -> Vec<Conditioned>,
 }
 
-/// A kernel with roots or inverse functions: in doubles alone. An error of a kernel is a failure of the comparison.
+/// A kernel with roots or inverse functions, in doubles only. An error of a kernel is a failure of the comparison.
 #[derive(Clone, Copy)]
 pub struct ClosedKernel {
     /// Name of the quantity in the file.

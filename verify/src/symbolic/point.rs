@@ -2,7 +2,7 @@
 
 use crate::prelude::*;
 
-/// A type of numbers that rational numbers and rational points of the circle can be written in.
+/// A type of numbers in which rational numbers and rational points of the circle can be written.
 pub trait Coded: Differentiable {
     /// The number `numerator / denominator`, both small integers.
     fn number(numerator: i32, denominator: i32) -> Self;
@@ -37,7 +37,7 @@ impl Coded for Fp {
     }
 
     fn angle(numerator: i32, denominator: i32) -> Self {
-        // An angle is coded by its t.
+        // The code of an angle is its t.
         Self::number(numerator, denominator)
     }
 }
@@ -49,7 +49,7 @@ pub struct RationalPoint<F> {
 }
 
 impl<F: Coded> RationalPoint<F> {
-    /// From fractions by name; `is_angle` says which of them are angles.
+    /// Point from fractions by name; `is_angle` tells angles from numbers.
     pub fn new(fractions: &BTreeMap<String, (i32, i32)>, is_angle: impl Fn(&str) -> bool) -> Self {
         let coded = |name: &str, (n, d): (i32, i32)| if is_angle(name) { F::angle(n, d) } else { F::number(n, d) };
         Self { values: fractions.iter().map(|(name, &fraction)| (name.clone(), coded(name, fraction))).collect() }
@@ -58,7 +58,7 @@ impl<F: Coded> RationalPoint<F> {
     /// The number or angle of this name.
     ///
     /// # Panics
-    /// If the point has none: kernels and layout of the file do not belong together.
+    /// If the point has none: kernels and file do not belong together.
     pub fn at(&self, name: &str) -> F {
         *self.values.get(name).unwrap_or_else(|| panic!("points of symbolic.json have no {name}"))
     }

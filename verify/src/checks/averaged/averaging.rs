@@ -26,7 +26,6 @@ checks! {
     because "some hundred roundings";
 }
 
-/// A function of `n` and `L`.
 trait Function: Fn(&State, &Vector3<Dual64>, &Vector3<Dual64>) -> Dual64 {}
 
 impl<T: Fn(&State, &Vector3<Dual64>, &Vector3<Dual64>) -> Dual64> Function for T {}

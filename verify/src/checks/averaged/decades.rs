@@ -9,7 +9,7 @@ checks! {
     AtMost(1e-9) "largest difference (turns), 40 random motions, both orders";
     because "rounding of rates: what Lorentz violation adds, at most 1e-6 of 4e11 turns, is known to some 1e-16 of itself, 1e-10 turn; a bound of \
      1e-9 turn is 2 ps, far below 1 ns of timing";
-    /// a state up to 1e15 t_c after the start is the same whether times are counted from the start, in two parts, or from near the state
+    /// a state up to 1e15 t_c after the start is the same whether times count from the start, in two parts, or from near the state
     Property "mean-epochs" [25]: epochs;
     AtMost(4e-14) "largest difference of a component, 200 random motions that start from 1 to 1e15 t_c earlier";
     because "a phase rounded to 1e-16 turn, and some hundred roundings of a state each";

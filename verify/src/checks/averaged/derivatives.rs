@@ -7,8 +7,8 @@ use crate::averaged_scenes::AveragedScene;
 use crate::prelude::*;
 
 checks! {
-    /// the averaged motion in any frame over duals has the derivatives that differences of it have: by s^IJ (two equal eigenvalues, split along
-    /// their axes or any others, included), L, n and the moments of inertia
+    /// derivatives of the averaged motion by duals agree with finite differences in any frame: by s^IJ (also for two equal eigenvalues, split
+    /// along their axes or any others), L, n and the moments of inertia
     Autodiff "mean-derivatives" [25]: derivatives;
     AtMost(1e-8) "largest |dual - difference| / largest component of the derivative, 60 random motions, 24 of them with two equal eigenvalues, of \
      five parameters";
@@ -29,7 +29,7 @@ struct Family {
 }
 
 impl Family {
-    /// Two equal values that part along their axes are also tried without a frame.
+    /// Equal values that separate along their axes are also tried without a frame.
     fn at<S: Real>(&self, x: S, t: S, frame_of: Frame<S>) -> Result<BodyState<S>, Error> {
         let (frame, direction) = (self.frame.map(S::from_f64), self.direction.map(S::from_f64));
         let principal: Problem<S> = self.scene.problem.map(S::from_f64);
@@ -43,7 +43,7 @@ impl Family {
         let problem = principal.rotated(&frame);
         let (mut body, mut tensor, mut state) = (*problem.spheroid(), *problem.coefficients(), *problem.initial());
         match self.kind {
-            // Values along the principal axes.
+            // Eigenvalues along the principal axes.
             0 => tensor += frame * along_axes * frame.transpose(),
             // The axes turn as well.
             1 => tensor += direction * size * direction.transpose() * x,
@@ -72,7 +72,7 @@ impl Family {
 fn derivatives() -> Result<Measured, String> {
     let mut random = Random::with_seed(61);
     worst_of(0..60_u64, |&number| {
-        // Half of them with two equal principal values, none where L is on an axis or within 1e-4 of the separatrix.
+        // Two in five have two equal principal values. In none is L on an axis or within 1e-4 of the separatrix.
         let mut scene = AveragedScene::draw(17, 6 * number + [0, 1, 3, 4, 5][(number % 5) as usize], 300.0);
         let start = scene.problem.initial();
         let l = Vector3::new(0.5 + random.within(0.0, 0.3), 0.3 + random.within(0.0, 0.2), 0.6);
@@ -86,7 +86,7 @@ fn derivatives() -> Result<Measured, String> {
             let direction = Vector3::from_fn(|_, _| random.within(-1.0, 1.0));
             let family = Family { scene, frame, kind, equal: number % 5 < 2, direction };
             let found = family.components(Dual64::new(0.0, 1.0), principal_frame_along)?;
-            // The state changes by a part of itself while the parameter changes by this much.
+            // A change of the parameter by 1 / size changes the state by about its own size.
             let size = largest(found.iter().map(|x| x.eps.abs())).max(1.0);
             let step = 5e-4 / size;
             let at = |x: f64| family.components(x * step, principal_frame_with_derivatives);

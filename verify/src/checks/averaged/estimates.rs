@@ -14,8 +14,8 @@ checks! {
     Property "mean-error-not-below" [25]: not_below;
     AtMost(1.0) "largest true error / estimate, 400 random motions at 12 times, up to 1,500 rad";
     because "an estimate below the true error is wrong";
-    /// the estimate is not below the error beside the separatrix, nearer to it than what the order leaves out of the tensor, while L goes round a
-    /// few times
+    /// the estimate is not below the error beside the separatrix, closer to it than the terms that the order neglects, while L goes round a few
+    /// times
     Property "mean-error-separatrix" [25]: beside_separatrix;
     AtMost(1.0) "largest true error / estimate, 300 random motions at 12 times, both orders";
     because "an estimate below the true error is wrong";
@@ -29,7 +29,7 @@ checks! {
     because "one and a half orders of magnitude: the coefficients of the estimate are those of the worst geometry";
 }
 
-/// What two checks look at, for both orders.
+/// The random motions of two checks, for both orders.
 fn seen() -> Result<&'static [[EstimateSeen; 2]], String> {
     static SEEN: LazyLock<Result<Vec<[EstimateSeen; 2]>, String>> = LazyLock::new(|| {
         let seen = |number| Ok(AveragedScene::draw(11, number, 1500.0).estimates_seen(number)?);
@@ -61,7 +61,7 @@ fn rounding() -> Result<Measured, String> {
         let averaged = scene.motion::<f64>(AveragingOrder::Second)?;
         let exact = scene.motion::<DoubleDouble>(AveragingOrder::Second)?;
         let t = 10f64.powf(random.within(0.0, 12.0));
-        // Only the part that grows with the slow phase: in double-double numbers phases are not reduced, and the fast ones are the same theory.
+        // The reference has only the phase errors that grow with time: it is the same theory, and its phases are reduced in double-double numbers.
         let rates = exact.rates();
         let phases = [rates.slow, rates.about_momentum, rates.about_axis].map(|rate| rate * DoubleDouble::from_f64(t));
         let tau = DoubleDouble::tau();

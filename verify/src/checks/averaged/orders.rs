@@ -28,8 +28,8 @@ checks! {
     Oracle "averaged-motion-reference-slopes" [25, 57]: slopes_of_reference;
     AtMost(0.1) "largest |measured slope - order|, k from 1e-1 to 1e-5";
     because "corrections of relative order k";
-    /// the second-order averaged motion holds for random geometries, single precession with n on L, c^2 = 1/3 and tensors with two equal values
-    /// among them
+    /// the second-order averaged motion holds for random geometries, including single precession with n along L, c^2 = 1/3 and tensors with two
+    /// equal values
     Regime "averaged-motion-regular" [25, 26]: random_geometries;
     AtMost(6.0) "largest error of n, L / G or e_x over x^2 (1 + x G t / I^xx), x = C (s_max - s_min) I^xx / G^2, away from the separatrix";
     because "the periodic part of second order and rates of third, with coefficients of order one";
@@ -88,7 +88,7 @@ fn random_geometries() -> Result<Measured, String> {
             2 => (l + across * 1e-3).normalize(),
             _ => n,
         };
-        // Near the separatrix small differences grow.
+        // Small differences grow near the separatrix.
         let mut sorted = [s.x, s.y, s.z];
         sorted.sort_by(f64::total_cmp);
         let distance = (l.dot(&s.component_mul(&l)) - sorted[1]).abs() / (sorted[2] - sorted[0]);
@@ -113,7 +113,7 @@ fn random_geometries() -> Result<Measured, String> {
     }
 }
 
-/// Errors of both orders by `k`: the largest of the tenths that the reference has.
+/// Errors of both orders by `k`: the largest over the times of the reference.
 fn errors_of_reference() -> Result<Vec<(f64, [f64; 2])>, String> {
     let mut errors: Vec<(f64, [f64; 2])> = Vec::new();
     for line in include_str!("../../../data/mean_reference.csv").lines().filter(|line| !line.starts_with(['#', 'k'])) {

@@ -24,7 +24,7 @@ impl State {
         Self { body, s, n, momentum }
     }
 
-    /// With the principal values multiplied by `factor`, and some `e_x`.
+    /// With the principal values times `factor` and an arbitrary `e_x`.
     pub(super) fn problem(&self, factor: f64) -> Result<Problem<f64>, Error> {
         let equatorial_axis = self.n.cross(&Vector3::new(0.3, -0.5, 0.8)).normalize();
         let state = BodyState { axis: self.n, momentum: self.momentum, equatorial_axis };
@@ -32,7 +32,7 @@ impl State {
     }
 }
 
-/// Largest difference of n, e_x and L in units of its size.
+/// Largest difference of n, e_x and L; L in units of its size.
 pub(super) fn difference(a: &BodyState<f64>, b: &BodyState<f64>) -> f64 {
     largest_difference(a, b, b.momentum.norm())
 }

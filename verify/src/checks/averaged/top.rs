@@ -4,7 +4,7 @@ use crate::prelude::*;
 use twofold::solutions::averaged::Top;
 
 checks! {
-    /// the direction, the frame that it carries along and the integrals of its squares, by theta functions, are those of an integration: any order
+    /// the direction, the frame that it carries along and the integrals of its squares, by theta functions, agree with an integration: any order
     /// of the principal values, equal ones, on and near every axis and on the separatrix
     Oracle "mean-top" [32]: tops;
     AtMost(2e-10) "largest difference, of the integrals times the rate of the phase, 120 random tops over 10 units of time";
@@ -55,7 +55,7 @@ fn tops() -> Result<Measured, String> {
             1 => l = Vector3::new(1e-7 * l.x, 1e-9 * l.y, -1.0),
             2 => l = Vector3::new(1e-3 * l.x, 1.0, 1e-3 * l.z),
             3 => l.z = 0.0,
-            // On the separatrix.
+            // The direction is on the separatrix.
             4 => (k, l.z) = (Vector3::new(k.x, 0.0, -k.x), l.x),
             _ => {}
         }
@@ -68,7 +68,7 @@ fn tops() -> Result<Measured, String> {
             top.rates.about * time + end.turned[1].atan2(end.turned[0]) - start.turned[1].atan2(start.turned[0]);
         let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), about);
         let frame = end.frame * turn * start.frame.transpose();
-        // What enters a phase is this times rates as small as the slow one.
+        // The integrals enter a phase multiplied by rates as small as the slow one.
         let squares = top.mean_squares() * time + top.squares(end.integral - start.integral);
         let (direction, by_steps, integral) = integrated(&k, l);
         Ok(largest([

@@ -7,8 +7,8 @@ use super::scenes::Scene;
 use crate::prelude::*;
 
 checks! {
-    /// the growth rate at the middle axis is that of the monodromy matrix of the unstable periodic motion to first and to second order; for a spin
-    /// along the axis that of a closed quartic
+    /// the growth rate at the middle axis is that of the monodromy matrix of the unstable periodic motion, to first and second order; for a spin
+    /// along the axis, that of a closed quartic
     Regime "middle-axis-growth-orders" [36]: growth_orders;
     AtMost(0.15) "largest |measured slope of the relative error - order|, s of the examples scaled by 1 to 0.03, n turning about L at 0, 0.4 and 1.1 \
      rad";
@@ -27,8 +27,8 @@ checks! {
     because "k' is of first order in the strength, as the logarithm's constant";
 }
 
-/// A star whose axis turns about `L` at the angle `nutation`, `L` about the middle axis of the examples' s scaled by `k`: the unstable periodic motion, with
-/// its exact growth rate.
+/// A star whose axis circles `L` at the angle `nutation`, with `L` along the middle axis of the examples' s scaled by `k`: the unstable periodic
+/// motion and its exact growth rate.
 fn unstable(k: f64, nutation: f64) -> Result<(Scene, f64), String> {
     let (body, s) = (RigidSpheroid::in_units_of_tc(1.1), PrincipalCoefficients::new([0.02, 0.01, -0.04]).scaled(k));
     let g = 1.4;
@@ -45,7 +45,7 @@ fn unstable(k: f64, nutation: f64) -> Result<(Scene, f64), String> {
     let energy = (g * f64::sin(nutation)).powi(2) / 2.0 + body.inertia_zz * spin * spin / 2.0;
     let start = separatrix_motion(&body, &s, energy, spin)?;
     let scene = Scene { body, s, start };
-    // The period: n and L are in the same plane again, twice each turn.
+    // The period: n and L lie in the same plane again, twice per turn.
     let problem = scene.problem()?;
     let motion = problem.taylor((0.0, 10.0), 1e-16)?;
     let out = |t: f64| motion.state(t).map(|state| state.axis.z).map_err(String::from);
@@ -64,7 +64,7 @@ fn unstable(k: f64, nutation: f64) -> Result<(Scene, f64), String> {
     if off.is_nan() || off > 1e-9 {
         return Err(format!("the motion about the middle axis is not periodic: {off:e}"));
     }
-    // Trace of the monodromy matrix of (n, L): four of its eigenvalues are one, two exp(+-mu T).
+    // Trace of the monodromy matrix of (n, L). Four of its eigenvalues are one, the other two exp(+-mu T).
     let lifted: Problem<Dual64, AxisState<Dual64>> = problem.reduced().map(Dual64::from_re);
     let mut excess = -6.0;
     for place in 0..6 {
@@ -103,7 +103,7 @@ fn growth_of_examples() -> Result<Measured, String> {
     worst_of(NUTATIONS, |&nutation| growth_error(AveragingOrder::Second, 1.0, nutation))
 }
 
-/// Exact slow period at a distance `k'^2` (signed) from the separatrix of the examples' s scaled by `k`, the growth rate and the strength of the torque.
+/// Exact slow period at the signed distance `k'^2` from the separatrix of the examples' s scaled by `k`, with the growth rate and the scene.
 fn near_separatrix(k: f64, complement: f64) -> Result<(f64, f64, Scene), String> {
     let (scene, growth) = unstable(k, 0.7)?;
     let mut integrals = scene.integrals();

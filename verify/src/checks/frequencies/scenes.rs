@@ -27,7 +27,7 @@ impl Scene {
         let found = motion.frequencies();
         let rate = |symbol: &str| found.rate(symbol).ok_or(format!("the motion has no {symbol}: {self:?}"));
         let slow = rate("l'")?;
-        // The nutation is counted from the plane of L and the axis, which goes round with L.
+        // The nutation counts from the plane of L and the axis, which turns with L.
         let end = self.start.momentum.dot(&found.pole).signum();
         Ok([slow, rate("nu'")? + end * slow, rate("psi'")?])
     }
@@ -47,7 +47,7 @@ impl Scene {
         self.start.momentum.norm() / self.body.inertia_xx
     }
 
-    /// A motion with a strength of the torque between `x` and three times that. Every fourth one a single precession.
+    /// A motion with a torque of strength `strength` to three times that. Every fourth is single precession.
     pub(in crate::checks) fn random(random: &mut Random, case: usize, strength: f64) -> Self {
         let mut body = RigidSpheroid::in_units_of_tc(random.within(0.6, 1.6));
         body.inertia_xx = random.within(0.5, 2.0);
@@ -67,7 +67,7 @@ impl Scene {
         Self { body, s, start: BodyState { axis: n, momentum, equatorial_axis } }
     }
 
-    /// Distance from the separatrix: `k'^2` by `l` at the start.
+    /// Distance from the separatrix: `k'^2` from the initial direction `l`.
     pub(in crate::checks) fn complement(&self) -> f64 {
         let l = self.start.momentum.normalize();
         let mut order = [0, 1, 2];
@@ -82,7 +82,7 @@ impl Scene {
     }
 }
 
-/// The largest figure of 60 random motions of alternating strengths of the torque, those near the separatrix left out.
+/// The largest figure of 60 random motions with alternating strengths of the torque, except those near the separatrix.
 pub(super) fn worst_off_separatrix(
     seed: u64,
     strengths: [f64; 2],
@@ -97,7 +97,7 @@ pub(super) fn worst_off_separatrix(
     worst_of(scenes, figure)
 }
 
-/// Which multiples of `slow`, `about_momentum` and `about_axis` the mean rates of alpha and gamma are.
+/// The mean rates of alpha and gamma as combinations of `slow`, `about_momentum` and `about_axis`.
 #[derive(Debug)]
 pub(super) struct Angles {
     pub(super) alpha: [f64; 3],

@@ -11,8 +11,8 @@ checks! {
     Property "torus-states" [24]: states;
     AtMost(1e-13) "largest of: difference of an integral / its size; difference of a frequency / rotation rate / 10; 60 random motions";
     because "K is met to 1e-13 of its size by construction; the frequencies lose one digit more, as a period divides by the thickness of the torus";
-    /// exact frequencies of the four examples are those of integration over 20,000 t_c with quadruple precision checks: the mean rates of alpha and
-    /// gamma are sums of them
+    /// the exact frequencies of the four examples agree with an integration over 20,000 t_c checked in quadruple precision: the mean rates of alpha
+    /// and gamma are sums of them
     Oracle "torus-frequencies-examples" [32, 57]: examples;
     AtMost(1e-13) "largest difference beyond half a unit of the reference's last digit [1/t_c]";
     because "rounding of a few periods; the references are given to 1e-11 and 1e-10";
@@ -72,7 +72,7 @@ fn examples() -> Result<Measured, String> {
     worst_of(expected, |(name, angles, alpha, gamma, slow, digit)| {
         let rates = Scene::example(name, 1.0).exact()?;
         let of_angles = [(sum(rates, angles.alpha), *alpha), (sum(rates, angles.gamma), *gamma)];
-        // The azimuth of L of tp-1 counts turns of alpha.
+        // In tp-1 the mean rate of the azimuth of L is that of alpha.
         let of_momentum = slow.map(|slow| (rates[0], slow));
         worst_of(of_angles.into_iter().chain(of_momentum), |(rate, expected)| {
             let beyond = (rate - expected).abs() - digit / 2.0;
@@ -95,7 +95,7 @@ fn symmetric() -> Result<Measured, String> {
         let scene = Scene { body, s, start: BodyState::from_angles(&body, &angles, &rates) };
         let exact = scene.exact()?;
         let (mean, nutation) = (closed.mean_rates(), TAU / closed.period());
-        // The inclination repeats, so that angles differ by whole turns of the nutation.
+        // The inclination is periodic, so that angles differ by whole turns of the nutation.
         let off = |value: f64, expected: f64| {
             let turns = ((value - expected) / nutation).round();
             (value - expected - turns * nutation).abs()
@@ -125,7 +125,7 @@ fn averages() -> Result<Measured, String> {
     let exact = scene.exact()?;
     worst_of([4800.0, 9600.0], |&span| {
         let motion = scene.problem()?.taylor((0.0, span), 1e-16)?;
-        // Of tp-II the azimuth of L goes round as that of the averaged L.
+        // In tp-II the azimuth of L has the mean rate of the averaged L.
         let slow = mean_rate_of(&motion, span, (4.0 * span) as usize, azimuth_of_momentum)?;
         Ok((slow / exact[0] - 1.0).abs())
     })

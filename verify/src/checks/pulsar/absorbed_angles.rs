@@ -18,14 +18,14 @@ checks! {
     };
     AtMost(1e-13) "largest change of m.n over 40 t_c of tp-I, delta = 0.4, phi_o = 0.7";
     because "rounding of the motion over 60 rad, and of angles that are put in differently";
-    /// with s^XX and s^YY different phi_o is not absorbed in the initial value of alpha: another azimuth is another signal
+    /// if s^XX and s^YY differ, phi_o is not absorbed in the initial value of alpha: another azimuth is another signal
     Regime "observer-azimuth-not-absorbed" [46, 47]:
         || Ok(Measured::new(change_of_signal(&COEFFICIENTS, 0.7, 0.0)?, ""));
     AtLeast(1e-3) "largest change of m.n over 40 t_c of tp-I, phi_o = 0.7";
     because "the potential depends on alpha with the amplitude s^XX - s^YY = 0.01";
 }
 
-/// Largest difference between `m.n` of tp-I with `phi_o` and `delta`, and that of the star turned by them from the start.
+/// Largest difference between `m.n` of tp-I with `phi_o` and `delta`, and that of the star rotated by these angles at the start.
 fn change_of_signal(s: &PrincipalCoefficients<f64>, phi_o: f64, delta: f64) -> Result<f64, Error> {
     let problem = problem_from(s, &paper_examples()[0].initial_values()?)?;
     let given = *problem.initial();

@@ -28,12 +28,12 @@ checks! {
     Regime "pulse-series-mean-rates-tp-1" [51, 52, 56]: mean_rates_of_tp_1;
     AtMost(0.5) "largest root mean square deviation / that of the series from its mean";
     because "as before; DeltaPhi' / alpha' reaches a third, so the first order has a tenth of P to err by";
-    /// with the shifted rates (57) they follow tp-I through one modulation of 40 t_c but not over 400 t_c, where gamma is a radian off
+    /// with the shifted rates (57) they follow tp-I through one modulation of 40 t_c but not over 400 t_c, where gamma is wrong by a radian
     Regime "pulse-series-drift-tp-1" [51, 52, 56, 57]: drift_of_tp_1;
     AtLeast(2.0) "smallest deviation over 400 t_c / largest over 40 t_c";
     because "the rate of gamma in (57) is off by 0.003 per t_c: 0.1 rad over one modulation, more than 1 rad over ten";
-    /// the paper's curves fail for tp-II, whose intervals that are not single turns are left out; so does (56) with the mean rates of the motion,
-    /// and both formulas with (57)
+    /// the paper's curves fail for tp-II, without the intervals that are not single turns; (56) with the mean rates of the motion fails too, and
+    /// so do both formulas with (57)
     Regime "pulse-series-fail-tp-2" [51, 52, 56]: failure_of_tp_2;
     AtLeast(0.5) "smallest root mean square deviation / that of the series from its mean";
     because "'fail to approximate' read as the opposite of 'fit very well': more than half of the modulation is left";
@@ -41,8 +41,8 @@ checks! {
     Regime "period-series-mean-rates-tp-2" [51, 52]: periods_of_tp_2;
     AtMost(0.5) "largest root mean square deviation of (51) and of 2 pi / (alpha' + DeltaPhi') / that of the series from its mean";
     because "as for tp-I";
-    /// where |gamma'| is a ten-thousandth of alpha', but L is tilted against Z by 0.45 rad, towards some azimuths Eq. (51) with the angles and
-    /// rates at the time of each pulse misses the period: free rotation, oblateness 1e-4, the axis 0.7 rad from L
+    /// for free rotation with oblateness 1e-4 and the axis 0.7 rad from L, |gamma'| is a ten-thousandth of alpha', but if L is tilted by 0.45
+    /// rad from Z, for some azimuths of L Eq. (51) with the angles and rates at the time of each pulse misses the period
     Regime "period-formula-tilted-momentum" [51, 52]: tilted_momentum;
     AtLeast(0.3) "largest of eight azimuths of L of the smallest |Eq. (51) / period - 1| over 400 t_c";
     because "the rate of alpha about Z swings by more than half during a turn of n about L, and a pulse always comes at the same phase of it";
@@ -66,7 +66,7 @@ fn drift_of_tp_1() -> Result<Measured, String> {
 
 fn failure_of_tp_2() -> Result<Measured, String> {
     let Fits { instant, mean, .. } = Fits::of("tp-1", SPAN)?;
-    // Formulas with a slip in them would fit nothing: the misfit counts only of those that fit tp-I.
+    // Wrong formulas would fit nothing: the misfit counts only if the same formulas fit tp-I.
     if !(largest(instant) < 0.5 && largest(mean) < 0.5) {
         return Err(format!("the same formulas do not fit tp-I: {instant:.3?}, {mean:.3?}"));
     }
@@ -84,7 +84,7 @@ fn periods_of_tp_2() -> Result<Measured, String> {
     Ok(Measured::new(largest([exact, first_order]), detail))
 }
 
-/// `L` tilted against Z, without Lorentz violation: `gamma'` about Z is small on the mean whatever the tilt.
+/// `L` tilted from Z, without Lorentz violation: the mean of `gamma'` about Z is small at any tilt.
 fn tilted_momentum() -> Result<Measured, String> {
     worst_of((0..8).map(|eighth| f64::from(eighth) * FRAC_PI_4), |&azimuth| Ok(tilted_momentum_in(azimuth)?))
 }
@@ -113,7 +113,7 @@ fn tilted_momentum_in(azimuth: f64) -> Result<Measured, Error> {
 
 /// Deviations of the series of an example from the formulas.
 struct Fits {
-    /// Of periods and lengths from the paper's curves.
+    /// Deviations of periods and lengths from the paper's curves.
     instant: [f64; 2],
     /// With the mean rates of the whole motion: see [`deviations`].
     mean: [f64; 3],
@@ -124,7 +124,7 @@ struct Fits {
 }
 
 impl Fits {
-    /// Of an example up to the time `end`.
+    /// Deviations for an example up to the time `end`.
     fn of(example: &str, end: f64) -> Result<Self, String> {
         let Case { motion, beam, observer, .. } = paper_signal(example, SPAN)?;
         let series = pulse_series(&motion, &beam, &observer, (0.0, end))?;
@@ -150,7 +150,7 @@ fn deviations(series: &PulseSeries, rates: ShiftedRates<f64>) -> Result<[f64; 3]
     ])
 }
 
-/// Root mean square of series minus formula, in units of that of the series from its mean.
+/// Root mean square of series minus formula, in units of the standard deviation of the series.
 fn deviation(series: &[Stamped], formula: impl Fn(f64) -> Result<f64, twofold::Error>) -> Result<f64, twofold::Error> {
     let mean = series.iter().map(|p| p.value).sum::<f64>() / series.len() as f64;
     let (mut missed, mut modulation) = (0.0, 0.0);

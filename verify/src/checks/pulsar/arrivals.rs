@@ -4,7 +4,7 @@ use super::cases::{Case, upright_star, worst_over_random_cases};
 use crate::prelude::*;
 
 checks! {
-    /// there is an arrival for each whole pulse, inside it, and m.n is nowhere larger in the pulse
+    /// there is an arrival for each whole pulse, inside it, and m.n is largest there
     Property "arrival-closest-approach" [44]: highest_in_pulse;
     AtMost(16.0) "largest excess of m.n at 100 times of a pulse over that at the closest approach / 2.2e-16, 600 random trains";
     because "m.n of two times is rounded some ten times each; the maximum is flat";
@@ -16,11 +16,11 @@ checks! {
     /// for chi > beta, where the path of m leaves L outside of one turn; residuals have that period and are not zero
     Oracle "arrival-free-precession" [48, 51]: free_precession;
     AtMost(1e-12) "largest error of a repetition [t_c]; infinite if residuals stay below 1e-3 t_c or a number is wrong";
-    because "phases up to 400 rad and a motion held to 1e-12";
+    because "phases up to 400 rad, and a motion with errors below 1e-12";
     /// residuals are time - epoch - period number, and normal to a constant and to the number: the least squares with weights
     Property "constant-period-fit" [51]: least_squares;
     AtMost(4.0) "largest error / (2.2e-16 times the sum of magnitudes), 200 random sets of 50 points with numbers up to 1e6";
-    because "sums of 50 terms, each rounded a few times in directions that have no reason to agree";
+    because "sums of 50 terms, each rounded a few times, independently of the others";
 }
 
 fn highest_in_pulse() -> Result<Measured, String> {
@@ -49,7 +49,7 @@ fn numbered(found: &[Arrival], time: fn(&Arrival) -> f64) -> Vec<(i64, f64)> {
     found.iter().map(|arrival| (arrival.number, time(arrival))).collect()
 }
 
-/// Arrivals up to the time `end` of a star and an observer that are turned together.
+/// Arrivals up to the time `end`, for a star and an observer that are rotated together.
 fn arrivals_in_any_frame(
     random: &mut Random,
     problem: &Problem<f64>,
@@ -78,7 +78,7 @@ fn steady_rotation() -> Result<Measured, String> {
         let spin = if stars % 2 == 0 { spin } else { -spin };
         let star = upright_star(random.within(0.5, 1.8), spin)?;
         let found = arrivals_in_any_frame(&mut random, &star, 100.0, [chi, rho, theta_o])?;
-        // m.n changes by this much per radian at an edge, and its rate by this much at the maximum.
+        // Change of m.n per radian at an edge, and of its rate per radian at the maximum.
         let across = chi.sin() * theta_o.sin();
         let rounding = |t: f64, slope: f64| f64::EPSILON * (8.0 + spin.abs() * t) * (1.0 + 1.0 / slope) / spin.abs();
         let numbers_in_order = found.iter().enumerate().all(|(i, arrival)| arrival.number == i as i64);
@@ -114,7 +114,7 @@ fn free_precession() -> Result<Measured, String> {
             let errors: Vec<f64> = errors.collect();
             let fit = ConstantPeriod::fit(&numbered(&found, time), None)?;
             let modulation = largest(fit.residuals.iter().map(|r| r.abs()));
-            // Three of four periods have a later one; in the least favourable case they hold four pulses each.
+            // The pulses of the first three of the four periods repeat, at least four in each.
             Ok(if errors.len() >= 12 && modulation > 1e-3 { largest(errors) } else { f64::INFINITY })
         }))
     })
@@ -136,7 +136,7 @@ fn least_squares() -> Result<Measured, String> {
         let (mut sums, mut sizes) = ([0.0; 2], [0.0; 2]);
         for ((&(number, time), weight), residual) in points.iter().zip(&weights).zip(&fit.residuals) {
             let (predicted, offset) = (fit.period * number as f64, (number - first) as f64);
-            // The residuals are rounded as the times are.
+            // The residuals are rounded as much as the times.
             for (k, (factor, size)) in [(1.0, 1.0), (offset, 100.0)].into_iter().enumerate() {
                 sums[k] += weight * residual * factor;
                 sizes[k] += weight * (residual.abs() + time.abs() / 50.0) * size;

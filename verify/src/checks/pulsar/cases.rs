@@ -27,19 +27,19 @@ impl Case {
         Ok(arrivals(&self.motion, &self.beam, &self.observer, &self.train()?)?)
     }
 
-    /// Largest difference of two lists of edges, each over the uncertainty of an edge, that of `m.n` over its slope; infinite if one is longer.
+    /// Largest difference between two lists of edges, in units of `m.n`; infinite if their lengths differ.
     pub(super) fn difference_of_edges(&self, first: &[f64], second: &[f64]) -> f64 {
         if first.len() != second.len() {
             return f64::INFINITY;
         }
-        // Both without an edge agree.
+        // Two lists without edges agree.
         if first.is_empty() {
             return 0.0;
         }
         largest(first.iter().zip(second).map(|(a, b)| (a - b).abs() * self.margin(*a)[1].abs().min(1.0)))
     }
 
-    /// A bound on the rate at which the body turns.
+    /// A bound on the angular velocity of the body.
     pub(super) fn turning(&self, state: &BodyState<f64>) -> f64 {
         state.momentum.norm() / self.motion.spheroid().inertia_zz.min(1.0)
     }
@@ -69,7 +69,7 @@ pub(super) fn worst_over_random_cases<F: Figure>(
     })
 }
 
-/// The edges of the pulses, but for those at which the train is cut.
+/// The edges of the pulses, without those at which the train is cut.
 pub(super) fn edges(train: &PulseTrain) -> Vec<f64> {
     let pulses = train.pulses.iter();
     pulses.flat_map(|p| [(!p.cut_at_start).then_some(p.start), (!p.cut_at_end).then_some(p.end)]).flatten().collect()

@@ -9,9 +9,9 @@ use twofold_scene::pulsar_timing::PulsarScene;
 use twofold_scene::scene_file::PULSARS;
 
 checks! {
-    /// numbers and midpoints of single pulses, looked up in any order over 2000 t_c of an averaged motion, are those of the pulse train, whose
-    /// turns are followed from one half radian to the next: chi less or more than the wobble and its supplement, spins of both signs, L that goes
-    /// round the line of sight or not
+    /// numbers and midpoints of single pulses, looked up in any order over 2000 t_c of an averaged motion, agree with the pulse train, whose
+    /// turns are followed in steps of half a radian: chi less or more than the wobble and its supplement, spins of both signs, L that circles the
+    /// line of sight or not
     Oracle "pulsar-clock-numbers" [44]: || numbers(averaged, PhasedMotion::averaged);
     AtMost(1e-6) "largest error of a midpoint [t_c]; infinite if a number is wrong, 40 random pulsars of 10 pulses or more";
     because "the last step to an edge, some 1e-4 rad, is by derivatives of the exact motion, off by (C |s| I^xx / |L|^2)^2, up to 7e-4; a margin is \
@@ -20,19 +20,19 @@ checks! {
     Oracle "pulsar-clock-torus" [44]: || numbers(taylor, |problem| PhasedMotion::torus(problem, 2000.0));
     AtMost(1e-10) "largest error of a midpoint [t_c]; infinite if a number is wrong, 40 random pulsars of 10 pulses or more";
     because "the Taylor series loses 2e-16 for each radian, 1e-12 in all; a margin is slow at the edges of a short pulse";
-    /// around late times, up to which no turn is followed, numbers and midpoints are those of the pulse train by Taylor series from the state there: the four
-    /// examples of strong violation
+    /// at late times, without following the turns up to them, numbers and midpoints agree with the pulse train by Taylor series from the state there:
+    /// the four examples of strong violation
     Oracle "pulsar-clock-late" [44]: late;
     AtMost(1e-10) "largest error of a midpoint from the time [t_c], 1e6, 1e9 and 1e12 t_c, 300 t_c each; infinite if a number is wrong";
     because "the state is exact to 1e-15, and the Taylor series to 2e-16 for each radian; a margin is slow at the edges of a short pulse";
-    /// however long, a gap has as many turns as the mean rate of m about L gives it, nu', with l' where L does not go
-    /// round the line of sight, and psi' where m is farther from n than L is: the four examples
+    /// the number of turns in a gap of any length is that of the mean rate of m about L: nu', plus l' where L does not
+    /// circle the line of sight, and plus psi' where m is farther from n than L is: the four examples
     Oracle "pulsar-clock-gaps" [44]: gaps;
     AtMost(1.0) "largest difference of the number of a pulse from its time over the mean period, that of the first pulse taken away [turns], 1e6, 1e9, 1e12 t_c";
     because "the azimuth of m about L is at most half a turn from that of its mean turns either way, and the fundamental frequencies are right to 1e-16: \
      1e-4 of a turn";
-    /// of weakly perturbed stars the clocks on the torus and on the averaged motion agree to what the latter states: tp-II with its tensor times 0.1, 0.01, 0.001,
-    /// over 1e5 t_c
+    /// for weakly perturbed stars the clocks on the torus and on the averaged motion agree within the error that the latter states: tp-II with its
+    /// tensor times 0.1, 0.01, 0.001, over 1e5 t_c
     Oracle "pulsar-clock-averaged" [44]: against_averaged;
     AtMost(1.0) "largest difference of a midpoint over the estimated error of the averaged one";
     because "the estimate is that of directions, of which the middle of two edges takes a part";
@@ -47,9 +47,9 @@ checks! {
     AtMost(5e-11) "largest difference of arrival and formula, the best epoch and frequency taken away [s], 500 pulses over 10 years";
     because "arrival times are rounded to 9e-12 s, and the residual to as much; at epsilon = 9e-9 what the formula leaves out (next check) is 1e-12 \
      s";
-    /// what that formula leaves out is of first order in epsilon: a midpoint is not the closest approach, since the angle theta_m of the magnetic
-    /// axis to L changes between both edges and shifts it by theta_m' sin(zeta - theta_m) / (sin zeta sin theta_m phi'^2), zeta the angle of the
-    /// line of sight to L
+    /// the remainder of that formula is of first order in epsilon: a midpoint is not the closest approach, since the angle theta_m of the
+    /// magnetic axis to L changes between both edges and shifts it by theta_m' sin(zeta - theta_m) / (sin zeta sin theta_m phi'^2), zeta the
+    /// angle of the line of sight to L
     Oracle "pulsar-clock-free-precession-order" [44, 48]:
         || order_of_error(&[1e-6, 1e-5, 1e-4, 1e-3], |epsilon| left_of_formula(Some(epsilon)).map(|[left, _]| left));
     Within(0.95, 1.05) "slope of the largest difference over epsilon, 1e-6 to 1e-3, the wobble and the rotation of B1828-11";
@@ -62,7 +62,6 @@ fn any_direction(random: &mut Random) -> Vector3<f64> {
     Vector3::new(across * azimuth.cos(), across * azimuth.sin(), z)
 }
 
-/// A random star in units of `t_c`.
 fn any_star(random: &mut Random) -> Result<Problem<f64>, String> {
     let axis = any_direction(random);
     let size = random.within(1.5, 3.0);
@@ -81,7 +80,7 @@ fn taylor(problem: &Problem<f64>) -> Result<TaylorMotion<f64>, Error> {
     problem.taylor((0.0, 2000.0), 1e-13)
 }
 
-/// Of the motions of random stars.
+/// Compared for random stars.
 fn numbers<M: Motion<f64, State = BodyState<f64>>>(
     motion: impl Fn(&Problem<f64>) -> Result<M, Error>,
     phased: impl Fn(&Problem<f64>) -> Result<PhasedMotion, Error>,
@@ -100,7 +99,7 @@ fn numbers<M: Motion<f64, State = BodyState<f64>>>(
         let train = pulse_train(&motion, &beam, n, motion.span())?;
         let Ok(found) = arrivals(&motion, &beam, n, &train) else { continue };
         let whole: Vec<_> = train.pulses.iter().filter(|pulse| pulse.is_whole()).collect();
-        // Pulses that share their turn with none, and are shorter than half of it.
+        // Pulses that are alone in their turn and shorter than half of it.
         let alone = |i: usize| {
             let differs = |j: Option<&Arrival>| j.is_none_or(|j| j.number != found[i].number);
             differs(i.checked_sub(1).and_then(|j| found.get(j)))
@@ -131,7 +130,7 @@ fn numbers<M: Motion<f64, State = BodyState<f64>>>(
     worst.finish()
 }
 
-/// Name, star and clock on its torus.
+/// Name, star, clock of the motion on the torus.
 type Example = (&'static str, Problem<f64>, PulsarClock);
 
 /// The four examples of strong violation.
@@ -178,7 +177,7 @@ fn gaps() -> Result<Measured, String> {
     for (name, problem, clock) in examples()? {
         let exact = QuasiPeriodicMotion::new(&problem)?;
         let rate = |symbol| exact.frequencies().rate(symbol).ok_or_else(|| format!("{name} has no {symbol}"));
-        // Turns are counted from the line of sight: where L goes round it, that turns with the plane of L and the axis.
+        // Turns are counted from the line of sight. If L circles it, it turns with the plane of L and the axis.
         let (momentum, pole) = (problem.initial().momentum, exact.frequencies().pole);
         let side = momentum.dot(&pole).signum();
         let goes_round = observer().direction.angle(&(pole * side)) < momentum.angle(&(pole * side));
@@ -190,7 +189,7 @@ fn gaps() -> Result<Measured, String> {
         let turns = |late: f64| -> Result<f64, String> {
             let mut tries = (0..1000).map(|k| clock.pulse_near([late, f64::from(k) * clock.period()]));
             let pulse = tries.find_map(Result::transpose).ok_or("no pulse")??;
-            // Whole turns of the time in 32 digits.
+            // Number minus turns of the mean rate, in 32 digits.
             let time = DoubleDouble::sum_of(pulse.midpoint[0], pulse.midpoint[1]);
             let number = DoubleDouble::from_f64(pulse.number as f64);
             Ok((number - time / DoubleDouble::from_f64(period)).high())
@@ -221,7 +220,7 @@ fn against_averaged() -> Result<Measured, String> {
     worst.finish()
 }
 
-/// The same averaged motion with every operation in 31 digits.
+/// The same averaged motion in 31 digits.
 struct Exact {
     mean: AveragedSolution<DoubleDouble>,
     rates: OfRotations<DoubleDouble>,
@@ -267,7 +266,7 @@ impl Exact {
         self.beam.margin(&self.mean.state_at(&phases), &self.line_of_sight)
     }
 
-    /// The edge near a time, by secants.
+    /// The edge near a time, by the secant method.
     fn edge(&self, near: DoubleDouble, width: f64) -> DoubleDouble {
         let mut points = [near, near + DoubleDouble::from_f64(1e-6 * width)];
         for _ in 0..8 {
@@ -281,7 +280,7 @@ impl Exact {
     }
 }
 
-/// A built-in pulsar with another `alpha_2`, which does not slow down.
+/// The built-in pulsars with another `alpha_2`, without slowing down.
 fn pulsars(alpha_2: &str) -> Result<Vec<(String, Scene)>, String> {
     let scene = |built_in: &twofold_scene::scene_file::BuiltIn| {
         let text = built_in.toml.replace("alpha_2 = 1.6e-9", &format!("alpha_2 = {alpha_2}"));
@@ -303,7 +302,7 @@ fn twenty_years() -> Result<Measured, String> {
         let (mut worst, mut seen) = (0.0, 0);
         for k in 0..=400 {
             let t = [f64::from(k - 200) * (0.1 * 31_557_600.0), 1.7e-10];
-            // With |s| of 1e-9 millisecond pulsars turn out of the line of sight and back.
+            // With |s| = 1e-9 the beam of a millisecond pulsar turns out of the line of sight and back.
             let Some(pulse) = pulsar.clock.pulse_near(t)? else { continue };
             seen += 1;
             let middle = DoubleDouble::sum_of(pulse.midpoint[0], pulse.midpoint[1]);
@@ -321,7 +320,7 @@ fn free_precession() -> Result<Measured, String> {
     Ok(Measured::new(left, format!("residuals up to {size:.2e} s")))
 }
 
-/// B1828-11 without Lorentz violation, with its own or another `epsilon` at the same rotation about `L`, which is along Z.
+/// B1828-11 without Lorentz violation, with its own or another `epsilon` at the same rotation about `L`.
 fn free_b1828(epsilon: Option<f64>) -> Result<Scene, String> {
     let (name, scene) =
         pulsars("0.0")?.into_iter().find(|(name, _)| name.starts_with("b1828-11")).ok_or("no such scene")?;
@@ -350,7 +349,7 @@ fn left_of_formula(epsilon: Option<f64>) -> Result<[f64; 2], String> {
     let epochs = epochs.collect::<Result<Vec<_>, _>>()?;
     let timing = pulsar.timed(&epochs, 0)?;
     let period = 1.0 / timing.fit.frequency[0];
-    // The azimuth about L, gamma + (D - gamma), is that of the line of sight: a pulse is late where D falls behind gamma.
+    // The azimuth about L, gamma + (D - gamma), is that of the line of sight: a pulse is late if D is behind gamma.
     let late = |state: &BodyState<f64>| {
         let l = state.momentum.normalize();
         let m = scene.pulsar.map(|p| p.beam().direction(state)).unwrap_or_default();
@@ -361,7 +360,7 @@ fn left_of_formula(epsilon: Option<f64>) -> Result<[f64; 2], String> {
         let behind = sin.atan2(cos) - d;
         period * (behind - (behind / (2.0 * PI)).round() * 2.0 * PI) / (2.0 * PI)
     };
-    // What is left of the difference without its mean and its slope.
+    // The remainder of the difference without its mean and its slope.
     let left = timing.pulses.iter().zip(&timing.fit.residuals);
     let left = left.map(|(timed, residual)| (timed.pulse.number, residual - late(&timed.pulse.state)));
     let fit = ConstantPeriod::fit(&left.collect::<Vec<_>>(), None)?;

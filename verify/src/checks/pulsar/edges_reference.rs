@@ -10,8 +10,8 @@ checks! {
     /// m.n of the numerical motion of ten scenes, as a vector and by Eq. (47) in its Euler angles, is that of the 34-digit states
     Oracle "signal-of-reference-motion" [45, 46, 47]: signal_of_reference_motion;
     AtMost(1e-12) "largest difference of m.n, three magnetic axes and three observers, every listed time";
-    because "the numerical motion is held to 1e-12 of those states";
-    /// the edges of the first 160 whole pulses of tp-I and of tp-II each are the roots along a 34-digit motion, no pulse more or less
+    because "the numerical motion agrees with those states within 1e-12";
+    /// the edges of the first 160 whole pulses of tp-I and of tp-II each are the roots along a 34-digit motion, with no pulse more or less
     Oracle "pulse-edges-reference" [44, 47]: || {
         worst_pulse(|pulse, _, expected| {
             largest([(pulse.start - expected.start).abs(), (pulse.end - expected.end).abs()])
@@ -38,7 +38,7 @@ fn signal_of_reference_motion() -> Result<Measured, String> {
             worst_of(&scene.states, |(t, reference)| {
                 let state = motion.state(*t)?;
                 let theirs = beam.direction(reference).dot(&observer.direction);
-                // On a pole the motion has no angles.
+                // At a pole the motion has no angles.
                 let angles = state.angles().ok();
                 let in_angles = angles.map(|q| axis_along_line_of_sight(&q, chi, delta, theta_o, phi_o));
                 let ours = [beam.direction(&state).dot(&observer.direction)].into_iter().chain(in_angles);
@@ -48,7 +48,7 @@ fn signal_of_reference_motion() -> Result<Measured, String> {
     })
 }
 
-/// The worst error of a pulse, given as found and as it should be.
+/// The largest error of a pulse, from the found and the expected one.
 fn worst_pulse(error: fn(&Pulse, &Arrival, &ReferencePulse) -> f64) -> Result<Measured, String> {
     worst_of(["tp-1", "tp-2"], |name| {
         let expected = reference_pulses(name);

@@ -9,10 +9,10 @@ const SPAN: f64 = 400.0;
 
 checks! {
     /// the width (56) fails for tp-II with any constants: a function of the mean phase of gamma, as it is at constant rates, leaves most of the
-    /// width series, which has the slow period of the angular momentum as well, but little of that of tp-I
+    /// width series, which also has the slow period of the angular momentum, but little of that of tp-I
     Regime "width-series-not-of-gamma-tp-2" [56]: functions_of_gamma;
     AtLeast(3.0) "what the harmonics of the mean phase up to the sixth leave of the widths: tp-II / tp-I";
-    because "three quarters of the modulation of tp-II is most, a quarter of that of tp-I little";
+    because "most is three quarters of the modulation of tp-II, little a quarter of that of tp-I";
 }
 
 fn functions_of_gamma() -> Result<Measured, String> {
@@ -24,8 +24,8 @@ fn functions_of_gamma() -> Result<Measured, String> {
     Ok(Measured::new(width_2 / width_1, detail))
 }
 
-/// What the best sum of harmonics of the mean phase of gamma up to the sixth leaves of the period and the width series, root mean
-/// square in units of that of the series from its mean.
+/// The remainder of the period and the width series after the best sum of harmonics of the mean phase of gamma up to the sixth:
+/// root mean square in units of that of the series from its mean.
 fn left_by_functions_of_gamma(example: &str) -> Result<[f64; 2], String> {
     let Case { motion, beam, observer, .. } = paper_signal(example, SPAN)?;
     let series = pulse_series(&motion, &beam, &observer, (0.0, SPAN))?;

@@ -4,7 +4,7 @@ use super::cases::{Case, edges, worst_over_random_cases};
 use crate::prelude::*;
 
 checks! {
-    /// with cos rho at an extremum of m.n, plus or minus 1e-10 to 1e-12, the short pulse (or gap) is there or is not, and lasts 2 sqrt(2 d /
+    /// with cos rho at an extremum of m.n, plus or minus 1e-10 to 1e-12, the short pulse (or gap) exists or does not, and lasts 2 sqrt(2 d /
     /// |f''|); with cos rho at the extremum, a grazing is reported
     Property "pulse-train-grazing" [44]: grazing_by_construction;
     AtMost(1e-2) "largest relative error of the short duration; infinite for a wrong number of edges";
@@ -33,7 +33,7 @@ fn graze(case: &Case, index: u32) -> Result<Option<f64>, String> {
     }
     let [margin, _, second, _] = case.margin(low);
     let product = margin + case.beam.half_opening.cos();
-    // A flat extremum, or a beam whose cosine rounds its angle, makes another test.
+    // Flat extrema and angles with rounded cosines are left to other tests.
     if second.abs() < 1e-2 || product.abs() > 0.95 {
         return Ok(None);
     }
@@ -47,7 +47,7 @@ fn graze(case: &Case, index: u32) -> Result<Option<f64>, String> {
     }
     largest_if_any([1e-10, 1e-11, 1e-12, -1e-10, -1e-11, -1e-12].map(|offset: f64| {
         let found = edges(&with_offset(offset)?);
-        // Edges near the extremum: two where cos rho is on the side of the extremum's curvature.
+        // Edges near the extremum: two if cos rho lies on the side to which m.n curves.
         let near: Vec<f64> = found.into_iter().filter(|t| (t - low).abs() < 1e-3).collect();
         let crossing = (offset > 0.0) == (second > 0.0);
         Ok(match (crossing, near.as_slice()) {

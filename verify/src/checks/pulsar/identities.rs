@@ -3,8 +3,8 @@
 use crate::prelude::*;
 
 checks! {
-    /// Eq. (47) is the magnetic axis (45) turned by Eq. (9) along the line of sight, the margin of the beam adds -cos rho, the second beam has the
-    /// opposite sign; Eq. (54) is the product of two unit vectors
+    /// Eq. (47) is the component of the magnetic axis (45), rotated by Eq. (9), along the line of sight; the margin of the beam adds -cos rho, the
+    /// second beam has the opposite sign; Eq. (54) is the product of two unit vectors
     beam_along_line_of_sight: Property "axis-along-line-of-sight" [9, 44, 45, 47, 54];
     /// cos Theta is m_Z, the point at the angle alpha + DeltaPhi is (m_X, m_Y), and its tangent is that of Eq. (50) as printed
     direction_of_magnetic_axis: Property "direction-of-magnetic-axis" [45, 49, 50];
@@ -14,7 +14,7 @@ checks! {
     magnetic_azimuth_rate: Autodiff "magnetic-azimuth-rate" [49, 51, 52];
 }
 
-/// The magnetic axis' angles `chi`, `delta` and the observer's `theta_o`, `phi_o` of a point.
+/// The angles `chi`, `delta` of the magnetic axis and the observer's `theta_o`, `phi_o` from a point.
 fn four_angles<F: Scalar>(p: &Point<F>) -> [F; 4] {
     [p.frame.beta, p.frame.gamma, p.frame.alpha, p.numbers[0]]
 }

@@ -13,9 +13,9 @@ checks! {
     Property "beam-margin-bounds" [44]:
         || along_motions(|bounds, _, duals| largest([1, 2, 3].map(|k| duals[k].abs() / bounds[k - 1])));
     AtMost(1.0) "largest derivative / its bound, 40 random motions";
-    because "the meaning of a bound";
-    /// the fourth and the sixth time derivative of m.n stay below their bounds too, by their mean values: the first and third divided differences of
-    /// the third derivative
+    because "the definition of a bound";
+    /// the fourth and the sixth time derivative of m.n also stay below their bounds, by their mean values: the first and third divided differences
+    /// of the third derivative
     Property "beam-margin-high-bounds" [44]: high_rates_within_bounds;
     AtMost(1.0) "largest mean value / its bound, 40 random motions, steps of 0.04 t_c";
     because "a bound of a derivative bounds its mean values; rounding of a third difference is 1e-11";
@@ -52,8 +52,8 @@ fn beam_and_observer(scene: &RandomScene) -> (Beam<f64>, Vector3<f64>) {
     (Beam::new(chi, azimuth, 0.7), Observer::at(theta, chi).direction)
 }
 
-/// The largest figure of the three bounds at the start, the margin and its rates by the kernel, and its first derivatives by
-/// duals, at 25 times of 40 random motions over 20 t_c.
+/// The largest figure from the three bounds at the start, the margin and its rates by the kernel, and its first three
+/// derivatives by duals, at 25 times of 40 random motions over 20 t_c.
 fn along_motions(figure: fn([f64; 3], [f64; 4], [f64; 4]) -> f64) -> Result<Measured, String> {
     worst_over(44, 40, &scenes(), |scene| Ok(of_motion(scene, figure)?))
 }

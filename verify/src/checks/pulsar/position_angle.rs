@@ -10,11 +10,11 @@ use super::identities::spherical;
 use crate::prelude::*;
 
 checks! {
-    /// north on the sky is the projection of Z, east is along Z x (direction in which the observer looks), as right ascension grows, and north x
-    /// east points to the observer: from north to east is counterclockwise for him
+    /// north on the sky is the projection of Z, east is along Z x (direction in which the observer looks), as right ascension increases, and
+    /// north x east points to the observer, who sees the angle from north to east as counterclockwise
     sky_directions: Property "sky-directions" [46, 70];
-    /// the point at the position angle is the projection of m on the sky, as a vector and in (Theta, Phi), and its tangent is minus that printed by
-    /// Radhakrishnan and Cooke (1969)
+    /// the point at the position angle is the projection of m on the sky, as a vector and in (Theta, Phi), and its tangent is minus the one printed
+    /// by Radhakrishnan and Cooke (1969)
     rotating_vector_model: Property "rotating-vector-model" [45, 46, 49, 70];
     /// the derivatives of the position angle by Theta and Phi are those of the point by duals, and the steepest one, at Phi = phi_o, is -sin Theta
     /// / sin(theta_o - Theta)
@@ -27,13 +27,13 @@ checks! {
     Oracle "position-angle-of-upright-star" [45, 46, 70]: upright_star;
     AtMost(4.0) "largest error / (2.2e-16 (4 + phase / |m x n|)), 200 stars at 40 times";
     because "the phase of the motion and that of the formula are rounded by an ulp; near the line of sight it is divided by |m x n|";
-    /// from the state and from Theta, Phi of Eq. (49) the position angle is the same, in every quadrant; along the line of sight both refuse
+    /// from the state and from Theta, Phi of Eq. (49) the position angle is the same, in every quadrant; along the line of sight both return an error
     Property "position-angle-of-precessing-star" [45, 49, 70]: state_and_angles;
     AtMost(16.0) "largest difference x |m x n| / 2.2e-16, 2,000 random orientations";
     because "some ten roundings of unit vectors, azimuths up to 2 pi rounded by 2 x 2.2e-16";
 }
 
-/// `chi, delta`, and the observer's `theta_o, phi_o` of a point.
+/// The angles `chi`, `delta`, and the observer's `theta_o`, `phi_o` from a point.
 fn angles<F: Scalar>(p: &Point<F>) -> [F; 4] {
     [p.numbers[0], p.numbers[1], p.frame.beta, p.frame.alpha]
 }
@@ -44,7 +44,7 @@ fn sky_directions<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let sky = sky_from_inertial(&observer);
     let [north, east, towards] = [0, 1, 2].map(|row| sky.row(row).transpose());
     let (sin, _) = theta_o.sin_cos();
-    // The observer looks along -n; right ascension grows eastwards, as a turn about Z carries the sky.
+    // The observer looks along -n; right ascension increases eastwards, in the sense of a rotation about Z.
     let (z, view) = (Vector3::z(), -observer.direction);
     components![
         sky * sky.transpose() - Matrix3::identity(),
@@ -99,12 +99,12 @@ fn rate_of_position_angle<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let m_rate = moving.map(F::derivative);
     let sky = sky_from_inertial(&observer);
     let (here, there) = (sky * m, sky * m_rate);
-    // Any axis at (theta, phi) with any rates of both.
+    // An arbitrary axis at (theta, phi) with arbitrary rates of both.
     let (theta, phi, theta_rate, phi_rate) = (p.numbers[2], p.numbers[3], p.accelerations.alpha, p.accelerations.beta);
     let (by_theta, by_phi) = rotating_vector_gradient(theta, phi, theta_o, phi_o);
     let axis = spherical::<F::First>(F::first(theta, theta_rate), F::first(phi, phi_rate));
     let (axis, axis_rate) = (axis.map(F::value), axis.map(F::derivative));
-    // A rotation that carries it so.
+    // Angular velocity for this axis rate.
     let omega = axis.cross(&axis_rate);
     vec![
         rate * (here.x * here.x + here.y * here.y) - (here.x * there.y - here.y * there.x),

@@ -9,8 +9,8 @@ checks! {
     Oracle "arrival-numbers-about-z" [49, 50]: numbers_about_z;
     AtMost(0.0) "wrong numbers, and times off by half a period or more, up to 1,000 t_c";
     because "counts";
-    /// a narrower beam, which misses turns, numbers its pulses as the wider beam does the pulses that hold them: tp-II, sp-I, sp-II and 300 random
-    /// stars
+    /// a narrower beam, which misses turns, gives its pulses the same numbers as a wider beam that contains them: tp-II, sp-I, sp-II and 300
+    /// random stars
     Property "arrival-numbers-of-missed-turns" [44]: numbers_of_missed_turns;
     AtMost(0.0) "pulses with another number";
     because "counts";
@@ -26,7 +26,7 @@ fn numbers_about_z() -> Result<Measured, String> {
         let mut first = None;
         for arrival in &found {
             let EulerAngles { alpha, beta, gamma } = angles.at(arrival.closest_approach)?;
-            // For chi < beta the offset swings about -pi/2 and never turns; here beta falls below chi now and then.
+            // For chi < beta the offset swings about -pi/2 and never makes a full turn; here beta falls below chi at times.
             let (x, y) = azimuth_offset_point(beta, gamma, 0.5, 0.0);
             let offset = x.atan2(-y) - FRAC_PI_2;
             let turn = ((alpha + offset) / TAU).round();
@@ -50,12 +50,12 @@ fn numbers_about_z() -> Result<Measured, String> {
     Ok(Measured::new(f64::from(wrong), details.join("; ")))
 }
 
-/// Wrong numbers of the beam and how many turns it missed, beside a wider beam. Leaves the case with the wider one.
+/// Number of wrong pulse numbers of the beam compared with a wider one, and of turns that it missed. The wider beam stays in the case.
 fn compare_beams(case: &mut Case) -> Result<(usize, i64), String> {
     let found = case.arrivals()?;
     case.beam.half_opening = (case.beam.half_opening * 1.5).min(1.5);
     let wider = case.arrivals()?;
-    // The same maximum of m.n; a pulse of the wider beam that has several holds that of one turn.
+    // The pulses are matched by the maximum of m.n. The wider beam may also have a pulse over several turns.
     let mut differences = found.iter().filter_map(|arrival| {
         let same = |other: &&Arrival| (other.closest_approach - arrival.closest_approach).abs() < 1e-9;
         wider.iter().find(same).map(|other| arrival.number - other.number)

@@ -4,16 +4,16 @@ use super::cases::{Case, edges, worst_over_random_cases};
 use crate::prelude::*;
 
 checks! {
-    /// the edges of both beams of 10,000 random stars over 10 t_c are as many as a scan of m.n finds, a point each 0.01 t_c, with each extremum
-    /// between them refined, and inside and outside are the same
+    /// for both beams of 10,000 random stars over 10 t_c there are as many edges as a scan of m.n finds with a point each 0.01 t_c and each
+    /// extremum between them refined, and inside and outside agree
     Oracle "pulse-train-scan" [44, 47]: against_scan;
     AtMost(0.0) "trains with a wrong number of edges, or inside where the scan is outside, of 20,000 random ones";
-    because "a count: the scan misses no pair of edges, since it looks at every extremum and skips only what m cannot reach in time";
+    because "a count: the scan misses no pair of edges, since it evaluates every extremum and skips only intervals in which m cannot reach the edge";
 }
 
 fn against_scan() -> Result<Measured, String> {
     let (mut wrong, mut total, mut trains, mut looks, mut first) = (0, 0, 0, 0, String::new());
-    // Search and scan look at one and the same numerical motion, whatever its error.
+    // Search and scan use the same numerical motion, so that its error does not matter.
     worst_over_random_cases(44, 10_000, (END, 1e-10), |case| {
         let train = case.train()?;
         let mut scan = Scan::of(case);
@@ -45,10 +45,10 @@ const POINTS: u32 = 1024;
 /// A scan of one case. Only values of `m.n` and signs of its rate are used.
 struct Scan<'a> {
     case: &'a Case,
-    /// More than the star turns by in a unit of time.
+    /// More than the largest rotation rate.
     turning: f64,
     edges: usize,
-    /// Times that were looked at, with the margin.
+    /// Evaluated times, with the margin.
     points: Vec<(f64, f64)>,
 }
 
@@ -58,18 +58,17 @@ impl<'a> Scan<'a> {
             let state = case.motion.state(END * f64::from(i) / 20.0).expect("a time of the span");
             angular_velocity(case.motion.spheroid(), &state.axis, &state.momentum).norm()
         };
-        // Half as much again as the fastest of some looks: no bound of the search under test goes into its oracle.
+        // 1.5 times the largest of 21 rates. The oracle does not use a bound of the search that it tests.
         let turning = 1.5 * (0..=20).map(turning).fold(0.0, f64::max);
         Self { case, turning, edges: 0, points: Vec::new() }
     }
 
-    /// Time of a point of the full scan.
     fn time(index: u32) -> f64 {
         END * f64::from(index) / f64::from(POINTS)
     }
 
-    /// Scans between two points: not at all where m is too far from the edge of the beam to reach it, as a whole where they are
-    /// neighbours, and by halves otherwise.
+    /// Scans between two points by bisection. An interval is skipped if m is too far from the edge of the beam to reach it in
+    /// time.
     fn search(&mut self, from: u32, to: u32) {
         let middle = (from + to) / 2;
         if to - from > 1 {
@@ -85,7 +84,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// Counts the edges between neighbours: one where the sides differ, two where an extremum between them is on the other side.
+    /// Counts the edges between neighbours: one if the sides differ, two if an extremum between them is on the other side.
     fn count(&mut self, mut low: f64, mut high: f64) {
         let ([first, rate, ..], [second, next_rate, ..]) = (self.case.margin(low), self.case.margin(high));
         if (first > 0.0) != (second > 0.0) {

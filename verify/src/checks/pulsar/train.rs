@@ -12,7 +12,7 @@ checks! {
     Oracle "pulse-train-closed-form" [44, 51, 53, 56]: against_closed_form;
     AtMost(16.0) "largest error of an edge / (2.2e-16 (1 + t) times the edge's sensitivity); infinite for a wrong number";
     because "the phase of a numerical motion of 100 steps is in error by some ten ulp";
-    /// the opposite beam with the supplement of rho is on exactly between the pulses, and a part of the span gives the same pulses, cut
+    /// the opposite beam with the supplement of rho is on exactly between the pulses, and a part of the span gives the same pulses, cut at its ends
     Property "pulse-train-symmetries" [44]: symmetries;
     AtMost(1e-13) "largest difference of an edge; infinite for a wrong number";
     because "the same roots from other brackets: rounding of t up to 40 t_c, 7e-15, and of m.n over its slope";

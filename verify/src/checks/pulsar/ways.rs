@@ -11,7 +11,7 @@ checks! {
     Property "pulse-train-ways" [44]: ways_agree;
     AtMost(1e-13) "largest difference of an edge times the slope of m.n; infinite for a wrong number";
     because "the same roots from other brackets: rounding of t up to 20 t_c, 4e-15, and of m.n over its slope";
-    /// m.n and its first three time derivatives from the series of a motion are those from its states, and the same whatever was looked at before
+    /// m.n and its first three time derivatives from the series of a motion are those from its states, in whatever order the times are evaluated
     Property "series-projection" [44]: projection_against_states;
     AtMost(8.0) "largest difference / (2.2e-16 (4 + t |Omega|), power of 1 + |Omega|), 25 times of 600 random trains; infinite if not the same";
     because "some roundings of vectors and, for the third angle, of t times its rate; each derivative adds products";
@@ -39,10 +39,10 @@ fn ways_agree() -> Result<Measured, String> {
 
 fn projection_against_states() -> Result<Measured, String> {
     worst_over_random_cases(49, 300, (END, 1e-15), |case| {
-        // A processor without vector instructions has none: nothing to compare.
+        // On a processor without vector instructions there is nothing to compare.
         let Some(projection) = case.motion.projection(&case.beam.axis, &case.observer) else { return Ok(None) };
         let edge = case.beam.half_opening.cos();
-        // Not in order, so that steps behind are looked for as well; again in order, with the same digits.
+        // Times out of order, so that earlier steps are found, too. In order, every digit is the same.
         let times = (0..25_u32).map(|i| 0.3 + 0.8 * f64::from((7 * i) % 25));
         let looks = times.map(|t| projection.at(t).map(|look| (t, look))).collect::<Result<Vec<_>, _>>()?;
         let mut in_order = looks.clone();

@@ -1,4 +1,4 @@
-//! Errors of the closed-form motions relative to the numerical one, by strength of the torque and by time.
+//! Errors of the closed-form motions relative to the numerical one, as functions of the strength of the torque and of time.
 
 use super::perturbation_error::{Case, axis_at};
 use crate::prelude::*;
@@ -10,18 +10,18 @@ const TOLERANCE: f64 = 1e-13;
 /// `s_max - s_min` of the examples.
 const SPREAD: f64 = 0.06;
 
-/// Steps towards a strength: each is nearer by the strength.
+/// Iterations for a strength; each reduces the error by about the strength.
 const ITERATIONS: usize = 8;
 
 /// Samples between two times.
 const SAMPLES: u32 = 10;
 
 checks! {
-    /// n, L and e_x of the averaged motion are off by less than 3 x^2 + 1.5 x^2 t to first order and 3 x^2 + 5 x^3 t to second, t in t_c: L near Z
+    /// n, L and e_x of the averaged motion have errors below 3 x^2 + 1.5 x^2 t to first order and 3 x^2 + 5 x^3 t to second, t in t_c: L near Z
     /// and tilted, single precession, near the separatrix
     Regime "averaged-motion-regimes" [25, 57]: averaged_motions;
     AtMost(1.0) "largest error over that, x from 1e-5 to 1e-2, t to 3,000 t_c";
-    because "the periodic part of second order, and rates of the order after the last, with coefficients of order one";
+    because "the periodic part of second order, and rates of the next order, with coefficients of order one";
 }
 
 fn averaged_motions() -> Result<Measured, String> {
@@ -39,12 +39,12 @@ fn averaged_motions() -> Result<Measured, String> {
     })
 }
 
-/// What a motion is like.
+/// Geometry of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Geometry {
     /// Twofold precession with the angular momentum near Z, as tp-I.
     NearAxis,
-    /// With the angular momentum tilted, as tp-II.
+    /// With tilted angular momentum, as tp-II.
     Tilted,
     /// Single precession, as sp-I.
     Single,
@@ -53,11 +53,11 @@ pub enum Geometry {
 }
 
 impl Geometry {
-    /// All of them.
+    /// All geometries.
     pub const ALL: [Self; 4] = [Self::NearAxis, Self::Tilted, Self::Single, Self::NearSeparatrix];
 
-    /// The comparisons of the perturbation solutions about such motions, printed and corrected, for the examples' `s` scaled by
-    /// `k`. The amplitude `A` of single precession is of the order of `s`.
+    /// The printed and the corrected perturbation solution for such motions, for the examples' `s` scaled by `k`. The amplitude
+    /// `A` of single precession is of the order of `s`.
     fn cases(self, k: f64) -> Option<[Case; 2]> {
         let (kind, amplitude) = match self {
             Self::NearAxis => (Precession::Twofold, 0.0),
@@ -69,20 +69,20 @@ impl Geometry {
     }
 }
 
-/// Errors up to a time; none for a solution that is not about such motions.
+/// Largest errors up to a time; `None` for a solution that does not describe such motions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Errors {
-    /// The time.
+    /// The end of the interval.
     pub time: f64,
-    /// Largest distance between the heads of the true axis and of that by the printed and the corrected perturbation solution.
+    /// Distance between the heads of the true axis and that of the printed perturbation solution.
     pub printed: Option<f64>,
-    /// As `printed`.
+    /// For the corrected solution.
     pub corrected: Option<f64>,
-    /// By the averaged motion of first and second order: of the axis.
+    /// Error of the axis in the averaged motion of first and second order.
     pub averaged: [f64; 2],
-    /// And the largest distance of `n`, `L / |L|` or `e_x`.
+    /// The same for the largest distance of `n`, `L / |L|` or `e_x`.
     pub averaged_state: [f64; 2],
-    /// By the series on the torus: of the axis.
+    /// Error of the axis in the series on the torus.
     pub torus: f64,
 }
 
@@ -92,7 +92,7 @@ pub fn errors(geometry: Geometry, strength: f64, times: &[f64]) -> Result<Vec<Er
         Some([printed, _]) => printed.problem().map(|problem| *problem.initial()),
         None => Ok(by_separatrix()),
     };
-    // The initial L depends on s a little.
+    // The initial L depends weakly on s.
     let mut k = strength;
     for _ in 0..ITERATIONS {
         k = strength * start(k)?.momentum.norm_squared() / SPREAD;
@@ -105,7 +105,7 @@ pub fn errors(geometry: Geometry, strength: f64, times: &[f64]) -> Result<Vec<Er
     let [first, second] = averaged;
     let averaged = [first?, second?];
     let torus = TorusMotion::new(&problem, span, TOLERANCE)?;
-    // Each perturbation solution against the motion from its own initial values.
+    // Each perturbation solution is compared with the motion from its own initial values.
     let mut solutions = Vec::new();
     for case in geometry.cases(k).into_iter().flatten() {
         solutions.push((case.solution()?, case.problem()?.taylor(span, TOLERANCE)?, 0.0));
@@ -143,7 +143,7 @@ pub fn errors(geometry: Geometry, strength: f64, times: &[f64]) -> Result<Vec<Er
     Ok(rows)
 }
 
-/// `L` near the middle axis, on the side of the third, and the axis at 0.7 rad from it.
+/// `L` near the middle axis, displaced towards the third one, and the symmetry axis 0.7 rad from it.
 fn by_separatrix() -> BodyState<f64> {
     // k'^2 = 6 l_3^2 for the examples' s.
     let third = (1e-3_f64 / 6.0).sqrt();

@@ -18,7 +18,7 @@ const SCALE: f64 = 0.02;
 const MOMENTUM: f64 = 1.1;
 const START: f64 = 1e-7;
 
-/// Eigenvalues of the examples with the given one on the axis about which L precesses, and that axis.
+/// Arrangements of the examples' eigenvalues with the given one on the axis about which L precesses, and that axis.
 fn arrangements(on_axis: f64, others: [f64; 2]) -> Vec<(usize, PrincipalCoefficients<f64>)> {
     (0..3)
         .map(|axis| {
@@ -31,7 +31,7 @@ fn arrangements(on_axis: f64, others: [f64; 2]) -> Vec<(usize, PrincipalCoeffici
         .collect()
 }
 
-/// Tilts of L from the coordinate axis with the given index, at times up to `duration`, from a star spinning about L.
+/// Tilts of L from a coordinate axis at times up to `duration`, for a star that starts spinning about L.
 fn tilts(axis: usize, s: &PrincipalCoefficients<f64>, duration: f64) -> Result<Vec<(f64, f64)>, String> {
     let mut l = Vector3::zeros();
     l[axis] = 1.0;

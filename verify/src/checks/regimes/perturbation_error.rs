@@ -3,10 +3,10 @@
 use crate::paper_examples::problem_from;
 use crate::prelude::*;
 
-/// The numbers of one comparison, those of the paper's examples unless changed.
+/// The parameters of one comparison, those of the paper's examples unless changed.
 #[derive(Debug, Clone, Copy)]
 pub struct Case {
-    /// Form of the solution under test.
+    /// Form of the solution.
     pub form: Form,
     /// Its kind of precession.
     pub kind: Precession,
@@ -31,7 +31,7 @@ impl Case {
         Perturbation::new(self.form, self.kind, &spheroid(), &self.s, SPIN, &constants).map_err(String::from)
     }
 
-    /// What moves from the initial values of the solution, with `gamma = 0`.
+    /// The problem with the initial values of the solution and `gamma = 0`.
     pub fn problem(&self) -> Result<Problem<f64>, String> {
         Ok(problem_from(&self.s, &self.solution()?.at(0.0))?)
     }
@@ -46,7 +46,7 @@ impl Case {
         Ok(AveragedMotion::new(&self.problem()?, (0.0, duration))?)
     }
 
-    /// Largest distance of the heads of the axes over one forced period, against the averaged motion: for `s` so small that the
+    /// Largest distance of the heads of the axes over one forced period from the averaged motion, for `s` so small that the
     /// period is long.
     pub fn axis_error_over_forced_period(&self, samples: u32) -> Result<f64, String> {
         let solution = self.solution()?;
@@ -58,7 +58,7 @@ impl Case {
         }))
     }
 
-    /// Largest errors over one forced period `2 pi / |a|`, of 1000 samples.
+    /// Largest errors over one forced period `2 pi / |a|`, from 1000 samples.
     pub fn errors_over_forced_period(&self) -> Result<Errors, String> {
         self.errors(TAU / self.solution()?.rate.abs(), 1000)
     }
@@ -91,9 +91,9 @@ pub fn axis_at(solution: &Perturbation<f64>, t: f64) -> Vector3<f64> {
 /// Largest errors of a solution over a span (rad).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Errors {
-    /// Of the precession angle.
+    /// Error of the precession angle.
     pub alpha: f64,
-    /// Of the inclination.
+    /// Error of the inclination.
     pub beta: f64,
     /// Distance between the heads of the true and the approximate symmetry axis.
     pub axis: f64,

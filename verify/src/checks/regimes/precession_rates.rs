@@ -4,15 +4,15 @@ use crate::mean_rate::{azimuth_of_momentum, mean_rate_of};
 use crate::prelude::*;
 
 checks! {
-    /// forced precession turns the angular momentum in the same sense for both kinds; what is opposite is the shift of the rate of alpha in tp-I, a
-    /// change of its free precession
+    /// forced precession turns the angular momentum in the same sense for both kinds; the shift of the rate of alpha in tp-I, a change of its free
+    /// precession, is opposite
     Regime "forced-precession-direction" [32, 57]: directions;
     AtMost(0.0) "signs that differ from: tp-I alpha +, tp-II azimuth of L -, sp-I azimuth of L -, sp-I alpha -";
     because "signs of numbers that are above 0.02 in size";
     /// the ratio of the mean rates |gamma'| / alpha' is the same in tp-I and tp-II: it does not determine where Eqs. (51), (56) apply
     Regime "rates-of-both-examples" [51, 56, 57]: ratios_of_rates;
     AtMost(0.05) "|ratio of tp-II / ratio of tp-I - 1|";
-    because "a twentieth of what is said to be small in one and not in the other";
+    because "a twentieth of the ratio, which is said to be small in one and not in the other";
     /// the angular momentum precesses about Z at (2 C P2(c) / G) (s^ZZ - s^XX) l_Z with c = n.L/G: its sign reverses where c^2 crosses 1/3
     Regime "momentum-precession-rate" [26, 32]: momentum_rate_across_magic_angle;
     AtMost(0.1) "largest |rate - formula| / (|2 C (s^ZZ - s^XX) / G| k), c^2 from 0.05 to 1, symmetric s scaled by k";

@@ -30,11 +30,11 @@ checks! {
     Within(1.95, 2.05) "slope of log(distance of the axes over one forced period) against log of the ratio, 2.7e-3 to 2.7e-4, s scaled by 1e-8, the \
      one farthest from the integer of beta_0 = 0.3, 0.7, 1.1";
     because "the first omitted terms are squares of the ratio, above 1e-7; terms of the order s are below 1e-9; an integer order measured to 0.05";
-    /// with the s of the examples the correction brings no improvement: the error of sp-I stays within a hundredth, that of sp-II above the unit sphere's
-    /// radius
+    /// with the s of the examples the correction brings no improvement: the error of sp-I changes by less than a hundredth, and that of sp-II stays
+    /// above the unit sphere's radius
     Regime "single-correction-at-full-s" [33]: correction_at_full_s;
     AtMost(0.01) "|1 - corrected / printed| of the distance of the axes over one forced period, sp-I; infinite if that of sp-II corrected is below 1";
-    because "the error of sp-I is of the order s, that of sp-II of the square of (ratio / cos^2 beta_0): neither is the term that is added";
+    because "the error of sp-I is of the order s, that of sp-II of the square of (ratio / cos^2 beta_0): neither is affected by the added term";
 }
 
 /// The paper's numbers with `s` scaled by `k`.
@@ -62,7 +62,7 @@ fn order_in_s() -> Result<Measured, String> {
     farthest_order(0.0, [Form::Printed, Form::Corrected].map(|form| (form, errors(form))))
 }
 
-/// The order farthest from `expected`, of three inclinations.
+/// The measured order farthest from `expected`, of three inclinations.
 fn order_in_asymmetry(form: Form, expected: f64) -> Result<Measured, String> {
     let errors = |beta_0| {
         let points = [0.03, 0.01, 0.003].map(|part| {
@@ -75,7 +75,7 @@ fn order_in_asymmetry(form: Form, expected: f64) -> Result<Measured, String> {
     farthest_order(expected, [0.3, 0.7, 1.1].map(|beta_0| (beta_0, errors(beta_0))))
 }
 
-/// The measured order farthest from `expected`, one that is NaN before all others.
+/// The measured order farthest from `expected`; NaN counts as the farthest.
 fn farthest_order<N: Debug>(
     expected: f64,
     errors: impl IntoIterator<Item = (N, Result<Vec<(f64, f64)>, String>)>,

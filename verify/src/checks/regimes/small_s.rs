@@ -1,4 +1,4 @@
-//! The paper's statements about precession, at the small `s` of real stars over years: with the averaged motion, where integration is not
+//! The paper's statements about precession at the small `s` of real stars over years, from the averaged motion where integration is not
 //! feasible.
 
 use twofold::units::JULIAN_YEAR;
@@ -28,7 +28,7 @@ checks! {
     /// observers, gives sin(beta_0) / sqrt(3) of the combination of s
     Regime "small-s-drift" [40, 41]: drift;
     AtMost(1e-2) "largest |estimate / (combination sin(beta_0) / sqrt 3) - 1|, 40 random stars, beta_0 from 0.2 to 1.1";
-    because "the angle gone, at most 1e-2 rad; rounding is 1e-15 of 1e-6 rad";
+    because "the angle passed, at most 1e-2 rad; rounding is 1e-15 of 1e-6 rad";
 }
 
 /// The examples' single precession, with `s` scaled down.
@@ -45,7 +45,7 @@ fn twofold() -> Result<Measured, String> {
         let solution = case.solution()?;
         let half_turn = PI / case.averaged_motion(0.0)?.mean.rates().slow.abs();
         let motion = case.averaged_motion(half_turn)?;
-        // The axes averaged over the last fast rotation: along L, and free of the fast phase, which A^2 t spoils first.
+        // The axes averaged over the last fast rotation lie along L. The fast phase, which A^2 t spoils first, drops out.
         let mut off = Vector3::zeros();
         for i in 0..16 {
             let t = half_turn - f64::from(i) * TAU / 16.0 / solution.rate.abs();

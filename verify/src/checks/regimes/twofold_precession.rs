@@ -3,7 +3,6 @@
 use super::perturbation_error::Case;
 use crate::prelude::*;
 
-/// A case of twofold precession with the paper's numbers.
 fn paper(form: Form, k: f64, beta_0: f64, amplitude: f64) -> Case {
     Case::paper(form, Precession::Twofold, k, beta_0, amplitude)
 }
@@ -37,10 +36,10 @@ checks! {
     Regime "twofold-corrected-everywhere-better" [33]: corrected_is_better;
     AtMost(0.5) "largest error of beta, corrected / printed, s scaled by 1e-3";
     because "second order against first; only towards beta_0 = 0 and pi/2, where the dropped term vanishes, do they meet";
-    /// where A is not small, as in tp-II, the twofold solution does not follow the motion
+    /// where A is not small, as in tp-II, the twofold solution does not describe the motion
     Regime "twofold-fails-for-large-tilt" [33, 34]: large_tilt;
     AtLeast(0.5) "largest error of beta over 40 t_c of tp-II / swing of beta in the motion";
-    because "the error is as large as what is to be described";
+    because "the error is as large as half of the swing";
 }
 
 fn scale(half_decades: i32) -> f64 {
@@ -52,7 +51,7 @@ fn order_in_s(form: Form, half_decades: std::ops::RangeInclusive<i32>) -> Result
     measured_order(&errors_at(half_decades.map(scale), error)?, ROUNDING)
 }
 
-/// Error of beta over 10 t_c of the homogeneous solution alone. `s` is too small to matter; zero would leave `a^(1)` without a sign.
+/// Error of beta over 10 t_c of the homogeneous solution alone. `s` is negligible; at zero, `a^(1)` would have no sign.
 fn tilt_error(form: Form, amplitude: f64) -> Result<f64, String> {
     Ok(paper(form, 1e-40, 0.7, amplitude).errors(10.0, 400)?.beta)
 }

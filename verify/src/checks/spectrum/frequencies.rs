@@ -7,8 +7,8 @@ use crate::prelude::*;
 use twofold::propagation::ContinuousAngles;
 
 checks! {
-    /// alpha', gamma' and the slow frequency of the four examples equal the mean rates of alpha, gamma and the azimuth of L of integration over 20,000
-    /// t_c with quadruple precision checks
+    /// alpha', gamma' and the slow frequency of the four examples equal the mean rates of alpha, gamma and the azimuth of L from an integration over
+    /// 20,000 t_c, checked in quadruple precision
     Oracle "mean-rates-of-examples" [32, 57]: rates_of_examples;
     AtMost(1e-14) "largest difference beyond half a unit of the reference's last digit [1/t_c]";
     because "the references are given to 1e-11 and 1e-10; the frequencies are right to rounding";
@@ -17,7 +17,7 @@ checks! {
     Oracle "mean-rates-symmetric" [25, 32, 57]: symmetric_motions;
     AtMost(5e-14) "largest difference [1/t_c], 12 random motions of both kinds";
     because "the closed solution is right to some 1e-15, over the thickness of the torus, as for torus-frequencies-symmetric";
-    /// the same motion in the frames X-Y-Z, Y-Z-X and Z-X-Y has the same frequencies about the same principal axis, also where that is X
+    /// the same motion in the frames X-Y-Z, Y-Z-X and Z-X-Y has the same frequencies about the same principal axis, also if that is X
     Property "mean-rates-of-frame" [36]: frames;
     AtMost(2e-14) "largest difference [1/t_c], tp-II and a motion about the axis of the largest eigenvalue";
     because "the initial state is rounded in each frame, and the frequencies change as much";
@@ -32,7 +32,7 @@ fn exact(problem: &Problem<f64>) -> Result<QuasiPeriodicMotion, String> {
 }
 
 fn rates_of_examples() -> Result<Measured, String> {
-    // Rate of alpha, of gamma, of the azimuth of L; unit of the last digit given. The azimuth of L of tp-I counts turns of alpha.
+    // Rates of alpha, gamma and the azimuth of L; unit of the last given digit. In tp-I the azimuth of L has the mean rate of alpha.
     let expected = [
         ("tp-1", 1.51237304762, -0.15557827845, None, 1e-11),
         ("tp-2", 1.39467831103, -0.14421753117, Some(-0.03546436867), 1e-11),
@@ -102,7 +102,7 @@ fn averages() -> Result<Measured, String> {
             alphas.push(at.alpha);
             gammas.push(at.gamma);
         }
-        // The azimuth of L of tp-I counts turns of alpha.
+        // In tp-1 the azimuth of L has the mean rate of alpha.
         let slow = if name == "tp-1" { "alpha'" } else { "l'" };
         let momentum = mean_rate_of(&motion, DURATION, 9600, azimuth_of_momentum)?;
         let mean = |angles: &[f64]| crate::mean_rate::mean_rate(angles, step);

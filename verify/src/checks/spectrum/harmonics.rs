@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::signals::{Example, examples, strongest};
 use crate::prelude::*;
 
-/// Frequencies about the fundamental, the second, third and fourth harmonic, for both examples [1/t_c].
+/// Ranges about the fundamental, the second, third and fourth harmonic, for both examples [1/t_c].
 const FUNDAMENTAL: Range<f64> = 1.0..2.0;
 const SECOND: Range<f64> = 2.5..3.5;
 const THIRD: Range<f64> = 4.0..5.0;
@@ -38,7 +38,7 @@ checks! {
     Oracle "spectra-peaks" [47, 48, 71]: peaks;
     AtMost(1e-14) "largest distance of the highest line between 1 and 2 from the mean rate of alpha, m.n, h_+ and h_x of tp-I and tp-II [1/t_c]";
     because "lines are exact to rounding; 1.438 is 0.04 and 0.07 away";
-    /// the waves of tp-II are not made of harmonics of the mean rate of alpha alone: combinations with the slow frequency hold a share of their power
+    /// the waves of tp-II have not only harmonics of the mean rate of alpha: combinations with the slow frequency have a share of their power
     Oracle "wave-lines-not-harmonics" [71]: not_harmonics;
     AtLeast(0.01) "least share of the sum of squared amplitudes in lines that are no multiple of alpha', h_+ and h_x";
     because "none is claimed by 'all harmonics of the average rate of alpha'; a hundredth is far above the lines' errors";
@@ -49,7 +49,7 @@ checks! {
     because "'decrease rapidly' read as at most a tenth";
 }
 
-/// The amplitude of the highest line about a harmonic over that about another one, of `h_+` and of `h_x`.
+/// The amplitude of the highest line about a harmonic over that about another one, for `h_+` and for `h_x`.
 fn ratios(example: &Example, harmonic: Range<f64>, other: Range<f64>) -> Result<[f64; 2], String> {
     let ratio = |list: &LineList| {
         Ok::<_, String>(strongest(list, harmonic.clone())?.amplitude / strongest(list, other.clone())?.amplitude)
@@ -57,7 +57,7 @@ fn ratios(example: &Example, harmonic: Range<f64>, other: Range<f64>) -> Result<
     Ok([ratio(&example.plus)?, ratio(&example.cross)?])
 }
 
-/// The smallest or the largest of two numbers, of `h_+` and `h_x`.
+/// The smallest or the largest of the values for `h_+` and `h_x`.
 fn extreme(of: fn([f64; 2]) -> f64, values: [f64; 2]) -> Measured {
     Measured::new(of(values), format!("h_+ {:.3}, h_x {:.3}", values[0], values[1]))
 }

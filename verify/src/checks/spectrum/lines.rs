@@ -33,8 +33,8 @@ checks! {
     Oracle "slow-line-tp-2" [47, 57]: slow_line_of_tp_2;
     AtMost(1e-11) "|frequency of the strongest line there - |mean rate|| [1/t_c]; infinite if it is below a tenth of the highest line";
     because "the mean rate is a weighted average over 2,400 t_c, right to that";
-    /// m.n of tp-I shows no such line: the azimuth of L counts turns of alpha, and the slow frequency, 0.0280 / t_c, is there all the same with
-    /// less than a hundredth of the highest amplitude
+    /// m.n of tp-I shows no such line: the azimuth of L has the mean rate of alpha, and the line at the slow frequency, 0.0280 / t_c, has less
+    /// than a hundredth of the highest amplitude
     Oracle "slow-line-tp-1" [47, 57]: slow_line_of_tp_1;
     AtMost(0.01) "largest amplitude between 0.01 and 0.1 / that of the highest line; infinite unless L and alpha have one mean rate and the line is \
      that of the averaged L";
@@ -106,7 +106,7 @@ fn random_motions() -> Result<Measured, String> {
         let exact = QuasiPeriodicMotion::new(&problem)?;
         let motion = problem.taylor((0.0, 200.0), 1e-15)?;
         let lists = lines_of_signals(&problem, &exact)?;
-        // Nothing is hidden under a floor.
+        // The lists are complete down to a small amplitude.
         if lists.iter().any(|list| !(list.least < 2e-11 && list.left < 1e-9)) {
             return Ok(f64::INFINITY);
         }
@@ -167,7 +167,7 @@ fn slow_line_of_tp_1() -> Result<Measured, String> {
     let locked = (azimuth_rate_of("tp-1")? - example.rate("alpha'")?).abs() < 1e-11;
     let line = strongest(&example.pulsar, SLOW)?;
     let ratio = line.amplitude / example.pulsar.lines[0].amplitude;
-    // Of L averaged over the fast rotation, which turns at a rate of its own.
+    // The slow frequency is that of L averaged over the fast rotation.
     let there = (line.frequency - example.rate("l'")?.abs()).abs() < 1e-14;
     let figure = if locked && there { ratio } else { f64::INFINITY };
     Ok(Measured::new(

@@ -17,7 +17,7 @@ checks! {
     because "'about 180' read as 170 to 190";
 }
 
-/// Period of gamma in the series of both examples: that whose first four multiples fit best.
+/// Period of gamma in the series of both examples: the one whose first four multiples fit best.
 fn period_of_gamma() -> Result<Measured, String> {
     worst_of(examples()?, |example| {
         let rate = example.rate("gamma'")?;
@@ -36,7 +36,7 @@ fn period_of_slow_precession() -> Result<Measured, String> {
     let (mut differences, mut details) = (Vec::new(), Vec::new());
     for (name, values) in series(example)? {
         let of_gamma = explained(&values, &gamma);
-        // What a frequency adds to the multiples of gamma's. Where it is one of them the columns depend on each other: it adds nothing.
+        // Variance explained by a frequency besides the multiples of gamma's: zero if it is one of them, as the columns are then dependent.
         let added = |w: f64| {
             let beside = gamma.iter().all(|g| (w - g.abs()).abs() > 4.0 * GRID);
             if beside { explained(&values, &[&gamma[..], &[w]].concat()) - of_gamma } else { 0.0 }
@@ -80,10 +80,10 @@ const GRID: f64 = 0.0005;
 /// Length of the series [t_c].
 const SERIES: f64 = 3000.0;
 
-/// Part of the variance of a series that a constant and waves of the given frequencies fit by least squares.
+/// Share of the variance of a series explained by a least-squares fit of a constant and waves of the given frequencies.
 ///
-/// A Fourier sum will not do: in tp-II many turns have no pulse, always at the same phases of its motion, so that the times are not in
-/// equal steps and the waves not orthogonal on them. NaN where the waves are not independent.
+/// A Fourier sum would be wrong: in tp-II many turns have no pulse, always at the same phases of its motion, so that the times are not
+/// equally spaced and the waves not orthogonal on them. NaN if the waves are dependent.
 fn explained(values: &[Stamped], frequencies: &[f64]) -> f64 {
     let waves = DMatrix::from_fn(values.len(), 1 + 2 * frequencies.len(), |row, column| {
         let phase = column.checked_sub(1).map_or(0.0, |i| frequencies[i / 2] * values[row].time);

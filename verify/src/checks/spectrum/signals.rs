@@ -10,7 +10,7 @@ const THETA_O: f64 = 0.8;
 const CHI: f64 = 0.5;
 const RHO: f64 = 0.6;
 
-/// Least amplitude of a line, as a part of the strongest one.
+/// Smallest amplitude of a line, relative to the strongest one.
 pub(super) const LEAST: f64 = 1e-12;
 
 /// A twofold example with its signals.
@@ -32,7 +32,6 @@ pub(crate) struct Example {
 crate::reference::named!(Example);
 
 impl Example {
-    /// `h_+` and `h_x`.
     pub fn waves(&self) -> [(&'static str, &LineList); 2] {
         [("h_+", &self.plus), ("h_x", &self.cross)]
     }

@@ -12,7 +12,7 @@ checks! {
     AtMost(1e-8) "largest difference / (|kappa| (s1 - s3)), 24 random cases, Runge-Kutta integration";
     because "step 0.02 in that unit: the phase error of the fourth-order method is 0.02^4 / 120 = 1.3e-9 times powers of the anharmonicity";
     /// with two equal eigenvalues the formula is kappa times their distance from the third times the cosine of the inclination to its axis, and
-    /// zero with three
+    /// with three it is zero
     Property "slow-precession-limits" [26, 32]: limits;
     AtMost(16.0) "largest relative error / 2.2e-16";
     because "some fifteen roundings of half an ulp";
@@ -20,7 +20,7 @@ checks! {
     Regime "slow-frequency-formula" [57]: formula_of_tp_2;
     AtMost(0.06) "|formula / measured - 1|, the larger of L and n averaged over the fast rotation and L and n at the start";
     because "the formula is of first order in s, whose largest difference is 0.06";
-    /// its relative error falls with s as of first order, and the slow frequency is proportional to s to that order
+    /// its relative error is of first order in s, and the slow frequency is proportional to s to that order
     Regime "slow-precession-order" [57]:
         || order_of_error(&[1.0, 0.5, 0.25], |k| slow_frequency(k).map(|[formula, measured]| (formula / measured - 1.0).abs()));
     Within(0.75, 1.4) "order of the relative error in s: tp-II with s scaled by 1, 1/2, 1/4";
@@ -103,7 +103,7 @@ fn slow_frequency(k: f64) -> Result<[f64; 2], String> {
     let problem = Problem::new(scene.spheroid, s.tensor(), scene.initial())?;
     let motion = problem.taylor((0.0, 24.0), 1e-12)?;
     let measured = rate(&QuasiPeriodicMotion::new(&problem)?, "l'")?;
-    // Averages over 24 t_c, five turns of n about L: of the direction of L and of its size.
+    // Averages over 24 t_c, five turns of n about L, of the direction and the size of L.
     let count = 96;
     let weights = kaiser(count, 14.0);
     let (mut direction, mut g) = (Vector3::zeros(), 0.0);

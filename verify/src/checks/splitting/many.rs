@@ -8,7 +8,7 @@ use crate::prelude::*;
 const SEED: u8 = 31;
 const COUNT: usize = 90;
 
-/// Times of the samples of one motion: of one to four intervals, every third motion backwards, some times twice or at the start.
+/// Sample times of one motion: in one to four intervals, every third motion backwards, some times twice or at the start.
 fn times(i: usize) -> Vec<f64> {
     let sign = if i.is_multiple_of(3) { -1.0 } else { 1.0 };
     let mut times: Vec<_> = (0..1 + i % 4).map(|k| 0.5 + sign * (3.0 + 11.3 * k as f64 + 0.37 * i as f64)).collect();
@@ -45,7 +45,7 @@ fn same(a: &Found, b: &Found) -> bool {
     }
 }
 
-/// Number of motions that are others alone, in reversed order, or among every third.
+/// Number of motions that change if computed alone, in reversed order, or with every third one.
 pub(super) fn neighbours() -> Result<Measured, String> {
     let (scenes, times) = (drawn(SEED, COUNT, &scenes())?, (0..COUNT).map(times).collect::<Vec<_>>());
     let all = motions(&scenes, &times);
@@ -63,8 +63,8 @@ pub(super) fn neighbours() -> Result<Measured, String> {
     Ok(Measured::new(f64::from(different as u32), format!("{COUNT} motions of seed {SEED}")))
 }
 
-/// The largest difference from the Taylor motion over the tolerance and that motion's estimate. A motion that only one of both
-/// refuses fails.
+/// The largest difference from the Taylor motion over the tolerance plus that motion's estimate. It is an error if only one of
+/// the two is refused.
 pub(super) fn tolerance() -> Result<Measured, String> {
     let (scenes, times) = (drawn(SEED, COUNT, &scenes())?, (0..COUNT).map(times).collect::<Vec<_>>());
     let all = motions(&scenes, &times);

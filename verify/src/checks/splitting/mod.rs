@@ -30,22 +30,22 @@ checks! {
     Property "splitting-time-reversal" [25]: time_reversal;
     AtMost(1e-11) "largest component of the difference";
     because "rounding of 600 steps, at most 10,200 stages of 1e-16 added up at random and grown with a phase of 700 rad";
-    /// n, L and e_x of the ten reference scenes are those of a 34-digit integration, forced to small steps
+    /// n, L and e_x of the ten reference scenes are those of a 34-digit integration, at small imposed steps
     Oracle "splitting-reference" [25]: against_reference;
     AtMost(2e-12) "largest error of a component";
     because "truncation at steps of 0.1 t_c (5.7e-12 were measured at 0.15, sp-II at 400 t_c, and it falls with the sixth power), rounding grown \
      with a phase of 600 rad";
-    /// n, L and e_x of 200 random motions by the chosen scheme, n and L by a forced one, are those of the Taylor motion, within steps and backwards
-    /// too
+    /// n, L and e_x of 200 random motions by the chosen scheme, n and L by a prescribed one, agree with the Taylor motion, also within steps and
+    /// backwards
     Oracle "splitting-taylor-motion" [25]: against_taylor_motion;
     AtMost(1.0) "largest difference / sum of the two error estimates";
     because "the same motion, computed in two ways; each states its error";
-    /// the numbers and errors of 90 random motions side by side do not depend on their neighbours: alone, in other company, in another order, at
+    /// values and errors of 90 random motions side by side do not depend on their neighbours: alone, with other motions, in another order, at
     /// several times, backwards
     Property "splitting-many-motions" [25]: many::neighbours;
     AtMost(0.0) "number of motions with other bits";
-    because "no operation mixes two lanes";
-    /// 90 random motions side by side are those of the Taylor motion to the tolerances asked, from 1e-3 to 1e-14
+    because "no operation combines two lanes";
+    /// 90 random motions side by side agree with the Taylor motion to the requested tolerances, from 1e-3 to 1e-14
     Oracle "splitting-many-accuracy" [25]: many::tolerance;
     AtMost(1.0) "largest difference / (tolerance + error estimate of the Taylor motion)";
     because "the error may reach the tolerance; where rounding is larger, it is as large as that of the Taylor motion, which its estimate counts";
@@ -55,7 +55,7 @@ fn tp_2() -> Problem<f64, AxisState<f64>> {
     reference_motion("tp-2").problem().reduced()
 }
 
-/// The step taken, and the largest error of `scheme` at 20 times up to 10 t_c of tp-II with s multiplied by `factor`.
+/// The step taken by `scheme`, and its largest error at 20 times up to 10 t_c of tp-II with s multiplied by `factor`.
 fn error_of(scheme: &'static Scheme, factor: f64, step: f64) -> Result<(f64, f64), Error> {
     let tp_2 = tp_2();
     let problem = Problem::new(*tp_2.spheroid(), tp_2.coefficients() * factor, *tp_2.initial())?;

@@ -3,11 +3,11 @@
 use crate::prelude::*;
 use twofold::propagation::splitting::{Ends, SCHEMES, Scheme};
 
-/// Longest words kept: the degrees below the highest order, 10.
+/// Maximum length of words: one less than the highest order, 10.
 const LENGTH: usize = 9;
 
-/// A series in words of two letters up to [`LENGTH`]: the coefficient of the word with the bits `w` (first letter highest, zero is A) and
-/// length `n` stands at `2^n + w`.
+/// A series in words of two letters up to [`LENGTH`]. The coefficient of the word with the bits `w` (first letter highest, zero is A) and
+/// length `n` has the index `2^n + w`.
 #[derive(Clone)]
 struct Series(Vec<f64>);
 
@@ -68,7 +68,7 @@ impl Series {
         rest.sum_of_powers(|k| if k == 0 { 0.0 } else { (if k % 2 == 1 { 1.0 } else { -1.0 }) / k as f64 })
     }
 
-    /// The part of one length with a given number of letters B.
+    /// The part with a given length and a given number of letters B.
     fn part(&self, length: usize, kicks: u32) -> Vec<f64> {
         (0..1_usize << length)
             .filter(|word| word.count_ones() == kicks)
@@ -98,7 +98,7 @@ fn step(scheme: &Scheme) -> Series {
     product
 }
 
-/// The ideal of `[B,[B,[B,A]]]`, which vanishes here: its elements by nested brackets.
+/// The ideal of `[B,[B,[B,A]]]`, which vanishes for these flows: its elements as nested brackets.
 fn vanishing() -> Vec<Series> {
     let (a, b) = (Series::letter(false), Series::letter(true));
     let first = b.bracket(&b.bracket(&b.bracket(&a)));
@@ -115,7 +115,7 @@ fn vanishing() -> Vec<Series> {
     all
 }
 
-/// What is left of `vector` outside the span of `others` (Gram and Schmidt).
+/// The part of `vector` outside the span of `others` (Gram-Schmidt).
 fn outside(mut vector: Vec<f64>, others: &[Vec<f64>]) -> Vec<f64> {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
     let mut basis: Vec<Vec<f64>> = Vec::new();
@@ -138,7 +138,7 @@ fn outside(mut vector: Vec<f64>, others: &[Vec<f64>]) -> Vec<f64> {
     vector
 }
 
-/// The largest coefficient of the logarithm of a step, less A + B, among the terms that the claimed orders say vanish.
+/// The largest coefficient of the logarithm of a step minus A + B, among the terms that vanish according to the claimed orders.
 pub(super) fn residuals() -> Result<Measured, String> {
     let ideal = vanishing();
     let words: Vec<_> = (1..=LENGTH).flat_map(|length| (0..=length as u32).map(move |kicks| (length, kicks))).collect();

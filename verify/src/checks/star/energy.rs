@@ -9,7 +9,7 @@ checks! {
     /// C, U^xx and U^zz of uniform spheroids, oblate and prolate, agree with the multipole quadrature of their densities
     Oracle "star-c-by-multipoles" [12, 17, 75]: c_by_multipoles;
     AtMost(0.2) "largest error of C, U^xx / 2, U^zz / 2 / the quadrature's own estimate of the error of C";
-    because "the estimate is the tail that extrapolation removes; what is left is O(degree^-2) of it, 0.03 to 0.06 seen";
+    because "the estimate is the tail that extrapolation removes; the remainder is O(degree^-2) of it, 0.03 to 0.06 as measured";
     /// the multipole quadrature of C converges as degree^-5, and to 1e-5 at degree 32
     Regime "star-multipole-order" [12]: multipole_order;
     Within(4.3, 5.7) "lowest measured order from degree 16 to 32, less one where 1e-5 is missed";
@@ -19,7 +19,7 @@ checks! {
     AtMost(16.0) "largest relative error (of C: in units of U^xx) / 2.2e-16";
     because "sums of 48 x 48 positive terms; the rules are exact to rounding";
     /// for rho = 1 - m^2 on similar spheroids C and U^ij are 4/21 of those of the uniform spheroid (Roberts' theorem for similar strata; the factor
-    /// is that of the sphere)
+    /// is the same as for the sphere)
     Oracle "star-stratified-density" [12, 15, 17]: stratified_density;
     AtMost(1.0) "largest error of C, U^xx / 2, U^zz / 2 / the quadrature's own estimate of the error of C";
     because "for a density that vanishes at the surface the tail decreases faster than the extrapolation takes it to, so that nearly all it adds, \
@@ -42,7 +42,7 @@ fn c_by_multipoles() -> Result<Measured, String> {
     })
 }
 
-/// Largest error of `C`, `U^xx / 2` and `U^zz / 2` over the estimated error of `C`, for integrals that are those of a star times a factor.
+/// Largest error of `C`, `U^xx / 2` and `U^zz / 2` over the estimated error of `C`, for integrals that should be those of a star times a factor.
 fn over_estimate(found: &AxisymmetricIntegrals<f64>, star: &UniformSpheroid<f64>, factor: f64) -> f64 {
     let (u, exact) = (found.potential_energy_tensor, star.potential_energy_tensor());
     // U^xx - U^zz is 2 C, so their errors are within twice that of C.
@@ -115,7 +115,7 @@ fn point([a, b, c]: [f64; 3], q: f64) -> [f64; 3] {
     [varpi * phi.cos(), varpi * phi.sin(), q * r * mu]
 }
 
-/// A tensor `s^ij` tilted to the axis of the spheroid.
+/// A tensor `s^ij` whose axes are tilted to that of the spheroid.
 fn tilted() -> Matrix3<f64> {
     Matrix3::new(0.3, -0.2, 0.5, -0.2, 0.1, 0.4, 0.5, 0.4, -0.9)
 }

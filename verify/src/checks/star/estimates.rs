@@ -27,7 +27,7 @@ checks! {
     because "the nearest power of ten";
     /// I^zz / C of the uniform spheroid is its estimate times 1 + (5/7) eps + O(eps^2), and t_c^2 that over 1 + eps
     Regime "star-estimate-regime" [35, 43, 58, 79]: estimate_regime;
-    Within(1.95, 2.05) "measured order of what is left, between eps = 0.02 and 0.01, farthest from 2";
+    Within(1.95, 2.05) "measured order of the remainder, between eps = 0.02 and 0.01, farthest from 2";
     because "the next term changes the order by about eps";
     /// the oblateness of a Maclaurin spheroid is 5/4 of |Omega|^2 R^3 / M at small rates
     Regime "star-centrifugal-regime" [20, 77, 79]: centrifugal_regime;
@@ -90,7 +90,7 @@ fn estimate_regime() -> Result<Measured, String> {
         let t_c = star.time_unit()?;
         let estimated_t_c = time_unit_estimate(1.0, eps)?;
         let first = 1.0 + 5.0 / 7.0 * eps;
-        // The quotient of the two first-order factors differs from 1 + (5/7 - 1) eps at second order, as wanted here.
+        // The quotient of the two first-order factors differs from 1 + (5/7 - 1) eps only at second order, which is allowed here.
         Ok::<_, String>([ratio - first, (t_c / estimated_t_c).powi(2) - (1.0 - 2.0 / 7.0 * eps)])
     };
     let (coarse, fine) = (left(0.02)?, left(0.01)?);

@@ -23,7 +23,6 @@ fn coefficients_by_ellip([a1, a2, a3]: [f64; 3]) -> Result<[f64; 3], String> {
     Ok([rd(y, z, x)?, rd(z, x, y)?, rd(x, y, z)?])
 }
 
-/// Relative difference.
 fn relative(value: f64, reference: f64) -> f64 {
     ((value - reference) / reference).abs()
 }

@@ -76,7 +76,7 @@ fn digits(decimal: &str) -> (i128, i32) {
     (mantissa.replace('.', "").parse().expect("digits"), exponent - fraction as i32)
 }
 
-/// The largest error of some of the four functions.
+/// The largest error of the given ones of the four functions.
 fn against_table(functions: &[usize]) -> Result<Measured, String> {
     worst_of(table(), |row| {
         let values = four(row.shape()?)?;

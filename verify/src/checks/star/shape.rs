@@ -6,11 +6,11 @@ use super::unit_spheroid;
 use crate::prelude::*;
 
 checks! {
-    /// (I^zz - I^xx) / I^xx is e^2 / (2 - e^2), and a spheroid built from it has it
+    /// (I^zz - I^xx) / I^xx is e^2 / (2 - e^2), and a spheroid built from this oblateness has it
     Property "star-oblateness" [19, 72, 79]: oblateness;
     AtMost(8.0) "largest error / 2.2e-16";
     because "the difference of two inertias of order one, each to three roundings";
-    /// a spheroid built from mass and mean radius has them, and the C of the one built from its semi-axes
+    /// a spheroid built from mass and mean radius has these, and the C of one built from its semi-axes
     Property "star-mass-and-radius" [10, 75]: mass_and_radius;
     AtMost(32.0) "largest relative error / 2.2e-16, that of C x min(1, |e^2|)";
     because "a3 is known to an ulp, so e^2 to an ulp of one; C is of the fifth order in the lengths";

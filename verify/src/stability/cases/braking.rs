@@ -4,7 +4,7 @@ use twofold::spin_down::{Precession as FreePrecession, TorqueHarmonics};
 
 use super::parts::*;
 
-/// Wobble, angle of the magnetic axis, damping; the rate is one.
+/// Wobble, angle of the magnetic axis, damping. The rate is one.
 fn precession<S: Real>(x: &[S]) -> FreePrecession<S> {
     FreePrecession::new([x[0], x[1], S::one()], S::one(), x[2])
 }

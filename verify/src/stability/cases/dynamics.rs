@@ -27,7 +27,7 @@ functions! {
         vec![anisotropic_potential_of_axis(x[9], &symmetric(x), &vector(&x[6..]))]
     }
     TorqueOnAxis: "torque_on_axis", (x) { joined(&[torque_on_axis(x[9], &symmetric(x), &vector(&x[6..]))]) }
-    // As a product of the matrix with the axis normal to it.
+    // As a product of the matrix with its normal axis.
     PotentialOfBody: "anisotropic_potential_of_body", (x) {
         vec![anisotropic_potential_of_body(&symmetric(x), &symmetric(&x[6..]))]
     }
@@ -75,7 +75,7 @@ functions! {
         let (alpha, beta) = euler_angle_accelerations(&body(&x[5..]), &principal(&x[8..]), x[4], &axis_angles(x));
         vec![alpha, beta]
     }
-    /// With the force along alpha divided by the square of the sine, as Eq. (25) has it.
+    /// The force along alpha is divided by the square of the sine, as in Eq. (25).
     NaiveAccelerations(x) {
         let (spheroid, q) = (body(&x[5..]), axis_angles(x));
         let (sb, cb) = q.beta.sin_cos();
@@ -132,7 +132,7 @@ functions! {
     FreeWave: "free_inertia_acceleration".beside::<NaiveFreeWave>("sin 2b tan b"), (x) {
         entries(&free_inertia_acceleration(&body(&x[3..]), x[1], x[0], x[2]))
     }
-    /// With `sin 2b tan b`, as Eq. (68) has it.
+    /// With `sin 2b tan b`, as in Eq. (68).
     NaiveFreeWave(x) {
         let spheroid = body(&x[3..]);
         let (sb, cb) = x[0].sin_cos();

@@ -50,7 +50,7 @@ functions! {
     }
     RfOfRoots: "rf_of_roots".composite(), (x) { vec![rf_of_roots(x[1], x[0], x[2])] }
     RjOfRoots: "rj_of_roots".composite(), (x) { vec![rj_of_roots(x[1], x[0], x[2], x[3])] }
-    /// `u` in quarter periods times the complementary parameter.
+    /// `u` in quarter periods, and the complementary parameter.
     Jacobi: "jacobi".against::<ExactJacobi>().composite().vector().natural_derivatives(), (x) {
         joined(jacobi(x[1], x[0]))
     }
@@ -143,7 +143,7 @@ functions! {
     }
 }
 
-/// The derivative of `theta_4` and `theta_1` to `theta_4` (DLMF 20.2.1 to 20.2.4) at the argument of a sine, by as many terms as `q < 0.9` needs.
+/// The derivative of `theta_4`, and `theta_1`, ..., `theta_4` (DLMF 20.2.1 to 20.2.4) from the sine of the argument; enough terms for `q < 0.9`.
 fn theta_sums<S: Real>(q: S, sin: S) -> [S; 5] {
     let z = sin.atan2((S::one() - sin * sin).sqrt());
     let [mut slope, mut one, mut two] = [S::zero(); 3];

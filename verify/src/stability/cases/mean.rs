@@ -92,7 +92,7 @@ functions! {
         let rates = [x[3] / x[4], (x[4] - x[5]) * x[1] * x[3] / (x[4] * x[5])];
         rates.map(|rate| fraction(rate * x[0] / turn)).to_vec()
     }
-    /// Newton's method in as many digits.
+    /// Newton's method with the same number of digits.
     ExactGrowth(x) {
         // c, I^zz / I^xx, s (3), |L|
         let three = S::from_f64(3.0);
@@ -123,12 +123,12 @@ functions! {
 }
 
 fn energy_and_spin<S: Real>(x: &[S]) -> (S, S) {
-    // As given to the kernel: products of the inputs.
+    // As in the kernel: products of the inputs.
     let spin = x[0] * x[5];
     (x[5] * x[5] / 2.0, spin)
 }
 
-/// The rest of a number of turns, in two steps: 31 digits of some 1e15 turns have more than a double of the rest.
+/// The remainder of a number of turns, in two steps: 31 digits of 1e15 turns leave more of it than a double has.
 fn fraction<S: Real>(turns: S) -> S {
     let rest = turns - S::from_f64(turns.re().round());
     rest - S::from_f64(rest.re().round())

@@ -16,7 +16,7 @@ mod torus;
 use super::{Case, measure};
 use crate::prelude::*;
 
-/// A family of cases: one check each.
+/// A family of cases, with one check.
 #[derive(Debug, Clone, Copy)]
 pub struct Family {
     /// One word.
@@ -25,11 +25,11 @@ pub struct Family {
     pub check: &'static str,
     /// Equation numbers.
     pub equations: &'static [u8],
-    /// In words.
+    /// Description.
     pub subject: &'static str,
     /// Its cases.
     pub cases: fn() -> Vec<Case>,
-    /// The largest error of its cases over the bound.
+    /// The largest error of its cases relative to the bound.
     pub measure: fn() -> Result<Measured, String>,
 }
 

@@ -25,7 +25,7 @@ fn width<S: Real>(width: PulseWidth<S>) -> Vec<S> {
     }
 }
 
-/// Colatitude and azimuth.
+/// Unit vector from colatitude and azimuth.
 fn on_sphere<S: Real>(x: &[S]) -> Vector3<S> {
     let ((st, ct), (sp, cp)) = (x[0].sin_cos(), x[1].sin_cos());
     Vector3::new(st * cp, st * sp, ct)
@@ -51,7 +51,7 @@ fn speed_along_motion<S: Real>(r: S, alpha: S, beta: S) -> S {
     let middle = (s2 - s3) * l3 - (s1 - s2) * l1;
     let complement = (s1 - s3) * middle / ((s2 - s3) * first);
     let zero = S::zero();
-    // R_D and R_F are not differentiable at zero: a number far below the smallest parameter.
+    // R_D and R_F are not differentiable at zero: the argument is far below the smallest parameter.
     let tiny = zero;
     let mean = rd_at_zero(complement, tiny);
     last * (first - (s1 - s2) * mean) * 4.0
@@ -150,7 +150,6 @@ functions! {
     AzimuthRateOnSphere: "azimuth_rate".composite().beside::<NaiveAzimuthRate>("over 1 - m_z^2"), (x) {
         vec![azimuth_rate(&on_sphere(x), &vector(&x[2..]))]
     }
-    /// Over `1 - m_z^2`.
     NaiveAzimuthRate(x) {
         let (m, omega) = (on_sphere(x), vector(&x[2..]));
         vec![(omega.z - omega.dot(&m) * m.z) / (S::one() - m.z * m.z)]
@@ -253,13 +252,13 @@ functions! {
     }
 }
 
-/// The observer of a case of the position angle: its basis is that of the frame.
+/// The observer in the position-angle cases: its basis is that of the frame.
 fn observer_along_z<S: Real>(_: &[S]) -> Observer<S> {
     let (o, l) = (S::zero(), S::one());
     Observer { direction: Vector3::new(o, o, l), theta_hat: Vector3::new(l, o, o), phi_hat: Vector3::new(o, l, o) }
 }
 
-/// Times of an edge and of the closest approach by the derivatives of the margin, in double-double as well.
+/// Times of an edge and of the closest approach from the derivatives of the margin, also in double-double numbers.
 fn times<S: Real>(x: &[S]) -> Vec<S> {
     let beam = Beam::new(x[1], x[2], x[0]);
     let (spheroid, s, state, sight) = (body(&x[21..]), symmetric(&x[3..]), state(&x[9..]), vector(&x[18..]));
@@ -284,7 +283,7 @@ fn epoch(x: &[f64]) -> Option<Epoch> {
 }
 
 fn seconds(x: &[f64]) -> Vec<f64> {
-    // From the start of the day, where the fraction is that of the seconds.
+    // From the start of the day, where the fraction is given by the seconds.
     let start = Epoch::new(50_000, 0.0).expect("a date");
     let end = start.after([x[0], 0.0]).expect("a date");
     let [high, low] = end.seconds_since(&start);

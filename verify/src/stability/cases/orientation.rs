@@ -13,13 +13,13 @@ functions! {
     EulerRates: "euler_rates", (x) {
         euler_rates(&angles(&[x[1], x[0], x[2]]), &vector(&x[3..])).map_or(none(3), |rates| of_rates(&rates))
     }
-    /// With the third row and column of a rotation, as far as the angles ask for it.
+    /// The third row and column of a rotation, as far as the angles need them.
     Angles: "angles_from_rotation", (x) {
         let o = S::zero();
         let rotation = Matrix3::new(o, o, x[3], o, o, x[4], x[0], x[1], x[2]);
         angles_from_rotation(&rotation).map_or(none(3), |angles| of_angles(&angles))
     }
-    /// By the arc cosine.
+    /// With sqrt(1 - z^2), as in an arc cosine.
     NaiveAngles(x) {
         let z = x[2];
         vec![x[0].atan2(-x[1]), ((S::one() - z * z).sqrt()).atan2(z), x[3].atan2(x[4])]

@@ -14,12 +14,12 @@ pub(super) fn vector<S: Scalar>(x: &[S]) -> Vector3<S> {
     Vector3::new(x[0], x[1], x[2])
 }
 
-/// Six numbers: diagonal, then xy, xz, yz.
+/// Symmetric matrix: diagonal, then xy, xz, yz.
 pub(super) fn symmetric<S: Scalar>(x: &[S]) -> Matrix3<S> {
     Matrix3::new(x[0], x[3], x[4], x[3], x[1], x[5], x[4], x[5], x[2])
 }
 
-/// Nine numbers, row by row.
+/// Matrix from nine numbers, row by row.
 pub(super) fn matrix<S: Scalar>(x: &[S]) -> Matrix3<S> {
     Matrix3::from_row_slice(&x[..9])
 }
@@ -41,7 +41,7 @@ pub(super) fn principal<S: Scalar>(x: &[S]) -> PrincipalCoefficients<S> {
     PrincipalCoefficients { xx: x[0], yy: x[1], zz: x[2] }
 }
 
-/// Row by row.
+/// Entries row by row.
 pub(super) fn entries<S: Scalar>(matrix: &Matrix3<S>) -> Vec<S> {
     matrix.transpose().iter().copied().collect()
 }
@@ -58,12 +58,12 @@ pub(super) fn joined<S: Scalar>(vectors: &[Vector3<S>]) -> Vec<S> {
     vectors.iter().flat_map(|v| v.iter().copied()).collect()
 }
 
-/// So many results that are not numbers.
+/// `count` results that are NaN.
 pub(super) fn none<S: Scalar>(count: usize) -> Vec<S> {
     vec![S::from_f64(f64::NAN); count]
 }
 
-/// One result, not a number where there is none.
+/// One result, NaN if there is none.
 pub(super) fn result<S: Scalar>(value: Result<S, Error>) -> Vec<S> {
     value.map_or(none(1), |value| vec![value])
 }

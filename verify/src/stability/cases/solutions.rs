@@ -77,7 +77,7 @@ functions! {
     Single: "Perturbation: new, new_unchecked, at", (x) { all_of(perturbation(Form::Printed, Precession::Single, x), x[8]) }
     Corrected(x) { all_of(perturbation(Form::Corrected, Precession::Twofold, x), x[8]) }
     CorrectedSingle(x) { all_of(perturbation(Form::Corrected, Precession::Single, x), x[8]) }
-    /// With `s^ZZ` first, then `s^XX`, `s^YY`, constants, spin, time, body.
+    /// The same with `s^ZZ` first, then `s^XX`, `s^YY`, constants, spin, time, body.
     SingleByZ: "Perturbation: new, new_unchecked, at".composite(), (x) { Single::of(&by_z(x)) }
     TwofoldByZ: "Perturbation: new, new_unchecked, at".composite(), (x) { Twofold::of(&by_z(x)) }
     CorrectedByZ: "Perturbation: new, new_unchecked, at".composite(), (x) { Corrected::of(&by_z(x)) }
@@ -136,7 +136,7 @@ fn found_constants<S: Real>(form: Form, kind: Precession, x: &[S]) -> Vec<S> {
         .map_or(none(4), |found| vec![found.alpha_0, found.beta_0, found.amplitude, found.phase])
 }
 
-/// Without a series for small angles.
+/// Rotation without a series for small angles.
 fn rotation<S: Real>(turn: &Vector3<S>, v: &Vector3<S>) -> Vector3<S> {
     let square = turn.dot(turn);
     let angle = square.sqrt();

@@ -98,7 +98,7 @@ fn exact_spheroid<S: Real>([q, q2, e2]: [S; 3], a1: S, density: S) -> Vec<S> {
     ]
 }
 
-/// Newton's method from the double.
+/// Cube root by Newton's method from the double.
 fn cube_root<S: Real>(x: S) -> S {
     let mut root = S::from_f64(x.re().cbrt());
     for _ in 0..4 {
@@ -187,7 +187,7 @@ functions! {
         let radius = x[2];
         vec![radius / cube_root(x[0]), radius / cube_root(x[0]) * x[0]]
     }
-    /// The mass and the mean radius that were given, and the density.
+    /// Mass, mean radius and density of a spheroid from mass and mean radius.
     MassOf: "UniformSpheroid: from_mass, mean_radius".against::<ExactMassOf>().composite().values_only(), (x) {
         let shape = SpheroidShape::from_axis_ratio(x[0]).expect("a shape");
         let body = UniformSpheroid::from_mass(x[1], x[2], shape).expect("a spheroid");

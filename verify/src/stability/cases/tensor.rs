@@ -34,7 +34,7 @@ fn values<S: Real>(s: &PrincipalCoefficients<S>) -> Vec<S> {
 
 functions! {
     ExactValues(x) { eigenvalues(&symmetric(x)).to_vec() }
-    /// What the rotation leaves beside the diagonal, and the eigenvalues.
+    /// The eigenvalues, and zeros for the off-diagonal elements after the rotation.
     ExactFrame(x) {
         let mut all = eigenvalues(&symmetric(x)).to_vec();
         all.extend([S::zero(); 3]);
@@ -58,7 +58,7 @@ functions! {
     }
 }
 
-/// The rotated tensor in double-double numbers, so that what is seen is the rotation's error.
+/// The tensor is rotated in double-double numbers, so that only the error of the rotation matrix shows.
 fn frame(x: &[f64]) -> Vec<f64> {
     let tensor = symmetric(x);
     principal_frame(&tensor).map_or(none(6), |found| {
@@ -101,7 +101,7 @@ pub(super) fn cases() -> Vec<Case> {
         ("any tensor", general),
     ] {
         cases.push(Case::of_doubles::<ExactFrame>("principal_frame", limit, &inputs, frame).composite().vector());
-        // Of entries of any sizes two gaps are equal within rounding, and which pair is nearest is open.
+        // Two gaps can be equal within rounding: the nearest pair is then undetermined.
         if limit != ANY {
             cases.push(Case::of_doubles::<ExactSymmetry>("SymmetryOfTensor::of", limit, &inputs, symmetry).except(
                 64.0,

@@ -10,7 +10,7 @@ fn wide(x: f64) -> Wide {
 }
 
 functions! {
-    // energy, spin, K of a state of these angles and rates, as they were asked for
+    // Energy, spin and K of the state with these angles and rates, as requested.
     Asked(x) {
         let (spheroid, s, state) = scene(x);
         integrals(&spheroid, &s, &state)
