@@ -44,15 +44,20 @@ impl QuasiPeriodicMotion {
         let start = motion.turns([0.0; 2]).map(|turns| turns.fraction);
         let rate_error = (motion.error_estimate(PART * longest) - motion.error_estimate(0.0)) / (PART * longest);
         let mut rates = motion.turns_per_time();
+        let state = |turns| motion.state_at(sum(start, turns));
+        let mut frequencies = FundamentalFrequencies::of(state, rates, &motion.pole());
         // The rotation about n due to the rounding of L.n would have a period of some 1e16 rotations.
         let rounding = NO_SPIN * problem.initial().momentum.norm();
-        if problem.initial().momentum.dot(&problem.initial().axis).abs() <= rounding
-            && TAU * rates[2].high.abs() <= rounding / spheroid.inertia_xx.min(spheroid.inertia_zz)
+        let about_axis = frequencies.all.iter().find(|of| of.symbol == "psi'").map(|of| of.turns);
+        if let Some(turns) = about_axis.filter(|turns| turns[2].abs() == 1)
+            && problem.initial().momentum.dot(&problem.initial().axis).abs() <= rounding
         {
-            rates[2] = DoubleDouble::from(0.0);
+            let rate = turns_of(&rates, turns);
+            if TAU * rate.high.abs() <= rounding / spheroid.inertia_xx.min(spheroid.inertia_zz) {
+                rates[2] -= rate * f64::from(turns[2]);
+                frequencies = FundamentalFrequencies::of(state, rates, &motion.pole());
+            }
         }
-        let state = |turns| motion.state_at(sum(start, turns));
-        let frequencies = FundamentalFrequencies::of(state, rates, &motion.pole());
         Ok(Self { motion, start, rates, rate_error, frequencies })
     }
 
@@ -61,7 +66,7 @@ impl QuasiPeriodicMotion {
         self.motion.state_at(sum(self.start, turns))
     }
 
-    /// Rates of the three angles (rad per unit of time). The third one, about `n`, is zero if `L.n` is, up to rounding.
+    /// Rates of the three angles (rad per unit of time). If `L.n` is zero up to rounding, they add up to no rotation about `n`.
     pub fn rates(&self) -> [f64; 3] {
         self.rates.map(|rate| rate.high * TAU)
     }

@@ -43,6 +43,9 @@ const THIN: [f64; 2] = [1e-3, 1e-7];
 /// Paths at a smaller angle, in terms of the change of `n` and `L`, are parallel.
 const PARALLEL: f64 = 1e-4;
 
+/// Part of the motion of the whole body that is added to that of `L`.
+const SMALL_PART: f64 = 1e-12;
+
 /// Half orbits end within this distance of the half turn of their start.
 const HALF_TURN: f64 = 1e-4;
 
@@ -87,6 +90,21 @@ fn along(metric: &Vector2<f64>, a: &Vector2<f64>, b: &Vector2<f64>) -> f64 {
     a.component_mul(metric).dot(b)
 }
 
+/// Paths that span the same lattice and are shortest in a metric, the shorter one first: Gauss' reduction.
+fn reduced(metric: &Vector2<f64>, mut a: Vector2<f64>, mut b: Vector2<f64>) -> [Vector2<f64>; 2] {
+    for _ in 0..100 {
+        if along(metric, &a, &a) > along(metric, &b, &b) {
+            (a, b) = (b, a);
+        }
+        let whole = (along(metric, &a, &b) / along(metric, &a, &a)).round();
+        if whole == 0.0 {
+            break;
+        }
+        b -= a * whole;
+    }
+    [a, b]
+}
+
 enum Walked {
     Lattice(Lattice),
     Thin,
@@ -104,7 +122,7 @@ struct Walk<'a> {
     /// Sum over these states of the squared changes of `n` and `L` and of the squared rotation of the body, per time along
     /// each flow.
     metric: Vector2<f64>,
-    /// The same sum for the changes of `L` alone.
+    /// The same sum for the changes of `L` alone, with a small part of the whole one, so that no path has the length zero.
     metric_of_momentum: Vector2<f64>,
     /// States in the plane, and the times from the start to them.
     found: Vec<(Vector2<f64>, Axes<f64>)>,
@@ -191,8 +209,9 @@ impl<'a> Walk<'a> {
         self.seen += 1.0;
         for flow in 0..2 {
             let tangent = step.tangents.column(flow);
-            self.metric[flow] += tangent.norm_squared() + turns[flow].norm_squared();
-            self.metric_of_momentum[flow] += tangent.rows(3, 3).norm_squared();
+            let whole = tangent.norm_squared() + turns[flow].norm_squared();
+            self.metric[flow] += whole;
+            self.metric_of_momentum[flow] += tangent.rows(3, 3).norm_squared() + SMALL_PART * whole;
         }
         let length = step.length();
         let predicted = times + step.change;
@@ -264,27 +283,16 @@ impl<'a> Walk<'a> {
         let first = *ways.first()?;
         let sine = |way: &Vector2<f64>| first.perp(way).abs() * unit / (self.length(&first) * self.length(way));
         let second = ways.iter().find(|way| sine(way) > PARALLEL)?;
-        Some(self.reduced(first, *second))
-    }
-
-    /// Shorter paths that span the same lattice: Gauss' reduction.
-    fn reduced(&self, mut a: Vector2<f64>, mut b: Vector2<f64>) -> [Vector2<f64>; 2] {
-        for _ in 0..100 {
-            if self.length(&a) > self.length(&b) {
-                (a, b) = (b, a);
-            }
-            let whole = (along(&self.metric, &a, &b) / along(&self.metric, &a, &a)).round();
-            if whole == 0.0 {
-                break;
-            }
-            b -= a * whole;
-        }
-        [a, b]
+        Some(reduced(&self.metric, first, *second))
     }
 
     /// Which of two paths and their sum leads to the half turn of the start, and which of the others is the fast one.
     fn named(&self, [a, b]: [Vector2<f64>; 2]) -> Option<Lattice> {
         let (to_plane, plane) = self.found[0];
+        // L moves least along the fast orbit; along others it circles the axis.
+        let of_momentum = &self.metric_of_momentum;
+        let [a, b] = reduced(of_momentum, a, b);
+        let b = b - a * (along(&self.metric, &a, &b) / along(&self.metric, &a, &a)).round();
         let ends = [a, b, a + b].map(|way| (way, self.integrals.moved(way.into(), &plane)));
         let turned = [(plane.map(|v| half_turn(&v)), false), (plane.map(|v| about_x(&v)), true)];
         let gaps =
@@ -298,8 +306,6 @@ impl<'a> Walk<'a> {
         let less = |way: Vector2<f64>, by: Vector2<f64>, metric: &Vector2<f64>| {
             way - by * (2.0 * (along(metric, &way, &by) / along(metric, &by, &by) / 2.0).round())
         };
-        // Of the other two, the one along which L moves less: the slow period moves L about the axis.
-        let of_momentum = &self.metric_of_momentum;
         let others = (0..3).filter(|i| *i != place).map(|i| less(ends[i].0, slow, of_momentum));
         let fast = others.min_by(|a, b| along(of_momentum, a, a).total_cmp(&along(of_momentum, b, b)))?;
         let slow = less(slow, fast, &self.metric);
