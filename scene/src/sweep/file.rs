@@ -282,7 +282,9 @@ fn law(section: &Section<'_>) -> Result<Law, Fault> {
         section.only("distribution mean deviation")?;
         let mean = section.required("mean", "mean")?.number()?;
         let entry = section.required("deviation", "standard deviation")?;
-        let deviation = entry.number_where("a number above zero", |x| x > 0.0)?;
+        // No draw is 64 deviations away.
+        let is_finite = |x: f64| x > 0.0 && (mean.abs() + 64.0 * x).is_finite();
+        let deviation = entry.number_where("a number above zero, so small that every draw is finite", is_finite)?;
         return Normal::new(mean, deviation).map(Law::Normal).map_err(|error| entry.refuse_because(&error.to_string()));
     }
     section.only("distribution from to")?;
