@@ -182,43 +182,55 @@ fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<()
     let mut parts: Vec<(String, Box<dyn BufRead>)> = Vec::new();
     let output = OutputFile::beside(&args.out, args.force)?;
     let errors_output = OutputFile::beside(&errors_beside(&args.out), args.force)?;
-    let mut errors = BufWriter::new(errors_output.file());
-    let cannot = |error: io::Error| Failure::Failed(format!("the table of errors cannot be written: {error}"));
-    errors.write_all(&csv_line(&sweep.errors_header())).map_err(cannot)?;
-    let mut any_failed = false;
     for path in &args.merge {
         let file = File::open(path).map_err(|error| bad(path, error))?;
         parts.push((format!("--merge {}", path.display()), Box::new(BufReader::new(file))));
-        let part = match File::open(errors_beside(path)) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
-            part => part.map_err(|error| bad(&errors_beside(path), error))?,
-        };
-        let name = format!("--merge {}", errors_beside(path).display());
-        merge_errors(sweep, &name, BufReader::new(part), &mut errors).map_err(Failure::BadInput)?;
-        any_failed = true;
     }
-    errors.flush().map_err(cannot)?;
-    drop(errors);
-    match format {
+    let failed = match format {
         Format::Csv => {
             let mut writer = BufWriter::new(output.file());
-            merge(sweep, &mut parts, &mut writer).map_err(Failure::BadInput)?;
+            let failed = merge(sweep, &mut parts, &mut writer).map_err(Failure::BadInput)?;
             writer.flush().map_err(|error| Failure::Failed(format!("{}: {error}", args.out.display())))?;
+            failed
         }
         Format::Parquet => {
             let cannot = |error: io::Error| Failure::Failed(format!("a temporary file: {error}"));
             let mut whole = tempfile::tempfile().map_err(cannot)?;
-            merge(sweep, &mut parts, BufWriter::new(&whole)).map_err(Failure::BadInput)?;
+            let failed = merge(sweep, &mut parts, BufWriter::new(&whole)).map_err(Failure::BadInput)?;
             whole.rewind().map_err(cannot)?;
             convert(whole, output.file(), &args.out)?;
+            failed
+        }
+    };
+    let mut errors = BufWriter::new(errors_output.file());
+    let cannot = |error: io::Error| Failure::Failed(format!("the table of errors cannot be written: {error}"));
+    errors.write_all(&csv_line(&sweep.errors_header())).map_err(cannot)?;
+    let mut missing = Vec::new();
+    for (path, &failed) in args.merge.iter().zip(&failed) {
+        let path = errors_beside(path);
+        let name = format!("--merge {}", path.display());
+        match File::open(&path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                missing.extend((failed > 0).then(|| path.display().to_string()));
+            }
+            Err(error) => return Err(bad(&path, error)),
+            Ok(part) => {
+                merge_errors(sweep, &name, failed, BufReader::new(part), &mut errors).map_err(Failure::BadInput)?;
+            }
         }
     }
+    errors.flush().map_err(cannot)?;
+    drop(errors);
+    let any_failed = failed.iter().any(|failed| *failed > 0);
     if any_failed {
         errors_output.complete()?;
     } else {
         errors_output.nothing()?;
     }
     output.complete()?;
+    if !missing.is_empty() {
+        note(&format!("there is no {}: why these scenes failed is not known", missing.join(", ")));
+    }
     if any_failed { Err(some_failed(&args.out)) } else { Ok(()) }
 }
 
