@@ -10,7 +10,7 @@ use super::interrupt::stop_on_request;
 use super::output_file::{OutputFile, free_name};
 use super::progress::Progress;
 use super::run::note_size;
-use super::{Failure, note};
+use super::{Failure, also_read, is_same_file, note};
 use twofold_scene::sweep::{
     Done, Identity, Shard, Spool, SpoolError, SpoolFiles, Sweep, SweepText, compute, csv_line, errors_beside,
     is_beginning_of, merge, merge_errors,
@@ -43,6 +43,9 @@ pub(crate) struct SweepArgs {
 
 pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     let text = SweepText::read(&args.file)?;
+    if text.scene.as_ref().is_some_and(|(scene, _)| is_same_file(&args.out, Path::new(scene))) {
+        return Err(Failure::BadInput(also_read(&args.out)));
+    }
     let sweep = Sweep::new(&text)?;
     sweep.cautions.iter().for_each(|caution| note(&format!("{}: {caution}", args.file)));
     let format = Format::of(&args.out)?;
