@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::interrupt::stop_on_request;
-use super::output_file::{OutputFile, free_name};
+use super::output_file::{OutputFile, free_name, refuse_dash};
 use super::progress::Progress;
 use super::run::note_size;
 use super::{Failure, also_read, is_same_file, note};
@@ -28,13 +28,13 @@ pub(crate) struct SweepArgs {
     #[arg(long)]
     pub(crate) force: bool,
     /// Start over and discard any partial table
-    #[arg(long)]
+    #[arg(long, conflicts_with = "merge")]
     pub(crate) restart: bool,
     /// Compute only part i of n; parts are consecutive scenes, so that their tables in order make up the whole
     #[arg(long, value_name = "I/N", conflicts_with = "merge")]
     pub(crate) shard: Option<Shard>,
     /// Number of threads; all cores if not given
-    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(1..=4096), conflicts_with = "merge")]
     pub(crate) threads: Option<u16>,
     /// Compute nothing; merge the CSV tables of all shards, given in order, into one table
     #[arg(long, value_name = "PART", num_args = 1..)]
@@ -42,6 +42,7 @@ pub(crate) struct SweepArgs {
 }
 
 pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
+    refuse_dash(&args.out, "")?;
     let text = SweepText::read(&args.file)?;
     if text.scene.as_ref().is_some_and(|(scene, _)| is_same_file(&args.out, Path::new(scene))) {
         return Err(Failure::BadInput(also_read(&args.out)));
@@ -57,6 +58,7 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     // A link is followed: the table grows beside what it points to.
     let target = fs::canonicalize(&args.out).unwrap_or_else(|_| args.out.clone());
     let files = SpoolFiles::of(&target);
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if args.restart {
         files.discard().map_err(|error| Failure::BadInput(format!("{}: {error}", files.rows.display())))?;
     }
@@ -78,6 +80,11 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
         // A disk that is full is no fault of the input.
         match &error {
             SpoolError::File(_, error) if is_full(error.kind()) => Failure::Failed(why),
+            SpoolError::File(_, error) if !folder.is_dir() => Failure::BadInput(format!(
+                "--out {}: no file can be made in {}: {error}",
+                args.out.display(),
+                folder.display()
+            )),
             _ => Failure::BadInput(why),
         }
     };
@@ -241,5 +248,6 @@ fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<()
 fn note_rate(computed: u64, all: u64, elapsed: Duration, failed: u64) {
     let seconds = elapsed.as_secs_f64();
     let rate = computed as f64 / seconds.max(1e-9);
-    note(&format!("{computed} scenes in {seconds:.2} s, {rate:.4e} scenes/s; {failed} of {all} failed"));
+    let s = if computed == 1 { "" } else { "s" };
+    note(&format!("{computed} scene{s} in {seconds:.2} s, {rate:.4e} scenes/s; {failed} of {all} failed"));
 }
