@@ -36,10 +36,16 @@ fn on_request() -> MutexGuard<'static, OnRequest> {
 /// Handles requests to end from now on. Called before any other work.
 #[cfg(unix)]
 pub(super) fn watch() -> io::Result<()> {
-    use signal_hook::consts::SIGUSR1;
+    use signal_hook::consts::{SIGUSR1, SIGXFSZ};
     let mut signals = signal_hook::iterator::Signals::new(heeded(ignored()))?;
     signals.handle().add_signal(SIGUSR1)?;
-    let heed = |signal| if signal == SIGUSR1 { PROGRESS.store(true, Ordering::Relaxed) } else { requested() };
+    // A file that would be too large is an error of its write.
+    signals.handle().add_signal(SIGXFSZ)?;
+    let heed = |signal| match signal {
+        SIGUSR1 => PROGRESS.store(true, Ordering::Relaxed),
+        SIGXFSZ => {}
+        _ => requested(),
+    };
     let thread = std::thread::Builder::new().name("signals".to_owned());
     thread.spawn(move || signals.forever().for_each(heed)).map(drop)
 }

@@ -26,7 +26,7 @@ mod verify;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
@@ -178,7 +178,7 @@ pub fn main() -> ExitCode {
     }
     match Cli::try_parse() {
         Ok(cli) => match out_that_is_read(std::env::args_os()) {
-            Some(out) => end(2, &format!("--out {}: it is also read: allowed is another file", out.display())),
+            Some(out) => end(2, &also_read(&out)),
             None => run_command(cli.command.unwrap_or(Command::Verify(verify::VerifyArgs::default()))),
         },
         Err(misuse) if misuse.use_stderr() => {
@@ -201,10 +201,17 @@ fn out_that_is_read(arguments: impl Iterator<Item = OsString>) -> Option<PathBuf
         }
         is_next = text == "--out";
     }
-    let file = |path: &PathBuf| std::fs::canonicalize(path).ok().filter(|path| path.is_file());
-    let same = out.as_ref().and_then(file)?;
-    let is_read = others.iter().any(|other| file(other).as_ref() == Some(&same));
-    out.filter(|_| is_read)
+    out.filter(|out| others.iter().any(|other| is_same_file(out, other)))
+}
+
+/// Whether two paths, links followed, lead to one file.
+fn is_same_file(one: &Path, other: &Path) -> bool {
+    let file = |path: &Path| std::fs::canonicalize(path).ok().filter(|path| path.is_file());
+    file(one).is_some_and(|one| file(other) == Some(one))
+}
+
+fn also_read(out: &Path) -> String {
+    format!("--out {}: it is also read: allowed is another file", out.display())
 }
 
 /// Runs a command and returns its exit status.

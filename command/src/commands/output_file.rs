@@ -8,12 +8,16 @@ use tempfile::NamedTempFile;
 use super::Failure;
 use super::interrupt::unfinished;
 
+/// Refuses `-` as the name of an output; `other` is another advice than the name.
+pub(super) fn refuse_dash(path: &Path, other: &str) -> Result<(), Failure> {
+    let why = format!("--out -: is not standard output here: {other}write ./- for that name");
+    if path == Path::new("-") { Err(Failure::BadInput(why)) } else { Ok(()) }
+}
+
 /// The path of an output, unless it is taken. A link is followed: the file it points to is replaced.
 pub(super) fn free_name(path: &Path, replace: bool) -> Result<PathBuf, Failure> {
     let refuse = |why: &str| Err(Failure::BadInput(format!("--out {}: {why}", path.display())));
-    if path == Path::new("-") {
-        return refuse("is not standard output here: omit --out, or write ./- for a file");
-    }
+    refuse_dash(path, "omit --out, or ")?;
     match fs::metadata(path) {
         Ok(found) if !found.is_file() => return refuse("exists and is not a regular file"),
         Ok(_) if !replace => return refuse("exists; --force replaces it"),

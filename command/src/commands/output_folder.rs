@@ -8,6 +8,7 @@ use tempfile::{TempDir, TempPath};
 
 use super::Failure;
 use super::interrupt::{hold_requests, unfinished};
+use super::output_file::refuse_dash;
 
 /// A folder that is being filled.
 pub(super) struct OutputFolder {
@@ -24,6 +25,7 @@ impl OutputFolder {
     /// accepts, unless files may be replaced; anything but a file is never replaced.
     pub(super) fn at(path: &Path, replace: bool, would_write: impl Fn(&str) -> bool) -> Result<Self, Failure> {
         let refuse = |why: String| Failure::BadInput(format!("--out {}: {why}", path.display()));
+        refuse_dash(path, "")?;
         let new = !path.exists();
         if new {
             if path.is_symlink() {

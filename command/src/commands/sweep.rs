@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::interrupt::stop_on_request;
-use super::output_file::{OutputFile, free_name};
+use super::output_file::{OutputFile, free_name, refuse_dash};
 use super::progress::Progress;
 use super::run::note_size;
-use super::{Failure, note};
+use super::{Failure, also_read, is_same_file, note};
 use twofold_scene::sweep::{
     Done, Identity, Shard, Spool, SpoolError, SpoolFiles, Sweep, SweepText, compute, csv_line, errors_beside,
     is_beginning_of, merge, merge_errors,
@@ -28,13 +28,13 @@ pub(crate) struct SweepArgs {
     #[arg(long)]
     pub(crate) force: bool,
     /// Start over and discard any partial table
-    #[arg(long)]
+    #[arg(long, conflicts_with = "merge")]
     pub(crate) restart: bool,
     /// Compute only part i of n; parts are consecutive scenes, so that their tables in order make up the whole
     #[arg(long, value_name = "I/N", conflicts_with = "merge")]
     pub(crate) shard: Option<Shard>,
     /// Number of threads; all cores if not given
-    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(1..=4096), conflicts_with = "merge")]
     pub(crate) threads: Option<u16>,
     /// Compute nothing; merge the CSV tables of all shards, given in order, into one table
     #[arg(long, value_name = "PART", num_args = 1..)]
@@ -42,7 +42,11 @@ pub(crate) struct SweepArgs {
 }
 
 pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
+    refuse_dash(&args.out, "")?;
     let text = SweepText::read(&args.file)?;
+    if text.scene.as_ref().is_some_and(|(scene, _)| is_same_file(&args.out, Path::new(scene))) {
+        return Err(Failure::BadInput(also_read(&args.out)));
+    }
     let sweep = Sweep::new(&text)?;
     sweep.cautions.iter().for_each(|caution| note(&format!("{}: {caution}", args.file)));
     let format = Format::of(&args.out)?;
@@ -54,6 +58,7 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     // A link is followed: the table grows next to its target.
     let target = fs::canonicalize(&args.out).unwrap_or_else(|_| args.out.clone());
     let files = SpoolFiles::of(&target);
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if args.restart {
         files.discard().map_err(|error| Failure::BadInput(format!("{}: {error}", files.rows.display())))?;
     }
@@ -75,6 +80,11 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
         // A full disk is not an error of the input.
         match &error {
             SpoolError::File(_, error) if is_full(error.kind()) => Failure::Failed(why),
+            SpoolError::File(_, error) if !folder.is_dir() => Failure::BadInput(format!(
+                "--out {}: no file can be made in {}: {error}",
+                args.out.display(),
+                folder.display()
+            )),
             _ => Failure::BadInput(why),
         }
     };
@@ -182,43 +192,55 @@ fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<()
     let mut parts: Vec<(String, Box<dyn BufRead>)> = Vec::new();
     let output = OutputFile::beside(&args.out, args.force)?;
     let errors_output = OutputFile::beside(&errors_beside(&args.out), args.force)?;
-    let mut errors = BufWriter::new(errors_output.file());
-    let cannot = |error: io::Error| Failure::Failed(format!("the table of errors cannot be written: {error}"));
-    errors.write_all(&csv_line(&sweep.errors_header())).map_err(cannot)?;
-    let mut any_failed = false;
     for path in &args.merge {
         let file = File::open(path).map_err(|error| bad(path, error))?;
         parts.push((format!("--merge {}", path.display()), Box::new(BufReader::new(file))));
-        let part = match File::open(errors_beside(path)) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
-            part => part.map_err(|error| bad(&errors_beside(path), error))?,
-        };
-        let name = format!("--merge {}", errors_beside(path).display());
-        merge_errors(sweep, &name, BufReader::new(part), &mut errors).map_err(Failure::BadInput)?;
-        any_failed = true;
     }
-    errors.flush().map_err(cannot)?;
-    drop(errors);
-    match format {
+    let failed = match format {
         Format::Csv => {
             let mut writer = BufWriter::new(output.file());
-            merge(sweep, &mut parts, &mut writer).map_err(Failure::BadInput)?;
+            let failed = merge(sweep, &mut parts, &mut writer).map_err(Failure::BadInput)?;
             writer.flush().map_err(|error| Failure::Failed(format!("{}: {error}", args.out.display())))?;
+            failed
         }
         Format::Parquet => {
             let cannot = |error: io::Error| Failure::Failed(format!("a temporary file: {error}"));
             let mut whole = tempfile::tempfile().map_err(cannot)?;
-            merge(sweep, &mut parts, BufWriter::new(&whole)).map_err(Failure::BadInput)?;
+            let failed = merge(sweep, &mut parts, BufWriter::new(&whole)).map_err(Failure::BadInput)?;
             whole.rewind().map_err(cannot)?;
             convert(whole, output.file(), &args.out)?;
+            failed
+        }
+    };
+    let mut errors = BufWriter::new(errors_output.file());
+    let cannot = |error: io::Error| Failure::Failed(format!("the table of errors cannot be written: {error}"));
+    errors.write_all(&csv_line(&sweep.errors_header())).map_err(cannot)?;
+    let mut missing = Vec::new();
+    for (path, &failed) in args.merge.iter().zip(&failed) {
+        let path = errors_beside(path);
+        let name = format!("--merge {}", path.display());
+        match File::open(&path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                missing.extend((failed > 0).then(|| path.display().to_string()));
+            }
+            Err(error) => return Err(bad(&path, error)),
+            Ok(part) => {
+                merge_errors(sweep, &name, failed, BufReader::new(part), &mut errors).map_err(Failure::BadInput)?;
+            }
         }
     }
+    errors.flush().map_err(cannot)?;
+    drop(errors);
+    let any_failed = failed.iter().any(|failed| *failed > 0);
     if any_failed {
         errors_output.complete()?;
     } else {
         errors_output.nothing()?;
     }
     output.complete()?;
+    if !missing.is_empty() {
+        note(&format!("there is no {}: why these scenes failed is not known", missing.join(", ")));
+    }
     if any_failed { Err(some_failed(&args.out)) } else { Ok(()) }
 }
 
@@ -226,5 +248,6 @@ fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<()
 fn note_rate(computed: u64, all: u64, elapsed: Duration, failed: u64) {
     let seconds = elapsed.as_secs_f64();
     let rate = computed as f64 / seconds.max(1e-9);
-    note(&format!("{computed} scenes in {seconds:.2} s, {rate:.4e} scenes/s; {failed} of {all} failed"));
+    let s = if computed == 1 { "" } else { "s" };
+    note(&format!("{computed} scene{s} in {seconds:.2} s, {rate:.4e} scenes/s; {failed} of {all} failed"));
 }

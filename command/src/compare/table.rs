@@ -43,6 +43,8 @@ pub(super) fn read(path: &Path, known: &KnownFile) -> Result<Table, String> {
 
 pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, String> {
     let fault = |line: usize, column: usize, message: String| Err(format!("{file}:{line}:{column}: {message}"));
+    // Without the mark with which some programs begin a text, and blank lines at the end.
+    let text = text.trim_start_matches('\u{feff}').trim_end_matches([' ', '\t', '\r', '\n']);
     let (rows_wanted, columns) = (known.rows, known.columns());
     let width = columns.len() + 1;
     let mut rows: Vec<Vec<f64>> = Vec::new();
@@ -119,8 +121,11 @@ mod tests {
         let known = KnownFile { rows: 2, ..*known };
         let table = parse("x.dat", "0 2\n1100\t-4e-1\n", &known).expect("two rows");
         assert_eq!((&table.rows, table.last_time()), (&vec![vec![0.0, 2.0], vec![1100.0, -0.4]], 1100.0));
+        let ended = parse("x.dat", "\u{feff}0 2\r\n1100\t-4e-1\r\n\r\n \n", &known).expect("two rows");
+        assert_eq!(ended.rows, table.rows);
         for (text, fault) in [
             ("", "x.dat: is empty"),
+            ("\n", "x.dat: is empty"),
             ("1 2\n", "x.dat:1:4: truncated: ends after 1 rows, the published file has 2"),
             ("1 2\n\n3 4\n", "x.dat:2:1: an empty line: 0 of 2 numbers"),
             ("1 2\n3\n", "x.dat:2:2: a truncated row: 1 of 2 numbers"),

@@ -52,7 +52,7 @@ fn out<'a>(args: &[&'a str]) -> Vec<&'a str> {
 fn a_full_disk_leaves_nothing_under_the_final_name() {
     for (args, blocks) in WRITERS {
         let folder = scenes();
-        let failed = shell(&folder, &format!("trap '' XFSZ; ulimit -f {blocks}"), &out(args));
+        let failed = shell(&folder, &format!("ulimit -f {blocks}"), &out(args));
         let message = stderr(&failed);
         assert_eq!(failed.status.code(), Some(1), "{args:?}: {message}");
         assert!(message.contains("written: "), "{args:?}: {message}");

@@ -379,6 +379,22 @@ fn bad_sweeps_are_refused_before_anything_is_written() {
     assert!(files.len() >= 70, "only {} bad sweeps found", files.len());
 }
 
+/// Nor through a link.
+#[cfg(unix)]
+#[test]
+fn the_scene_of_a_sweep_is_not_replaced_by_its_table() {
+    let folder = Folder::with(&[
+        ("sub/sweep.toml", &SWEEP.replace("\"tp-2\"", "\"star.toml\"")),
+        ("sub/star.toml", &two_times()),
+    ]);
+    std::os::unix::fs::symlink("sub/star.toml", folder.at("link")).expect("a link");
+    for out in ["sub/star.toml", "link"] {
+        let refused = folder.run(&["sweep", "sub/sweep.toml", "--out", out, "--force"]);
+        is_refused(&refused, &[&format!("--out {out}: it is also read: allowed is another file")]);
+    }
+    assert_eq!(folder.read("sub/star.toml"), two_times());
+}
+
 #[cfg(not(feature = "parquet"))]
 #[test]
 fn parquet_is_refused_with_the_name_of_its_feature() {

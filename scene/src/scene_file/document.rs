@@ -11,6 +11,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::fault::{Fault, SceneError};
 use super::names::{did_you_mean, listed, nearest, shortened};
+use crate::sweep::SWEEPS;
 use crate::text_file::read_text;
 
 type Names = fn() -> Vec<&'static str>;
@@ -33,6 +34,11 @@ impl FileFormat {
             return Err(refuse(format!("is a directory: {name} is a TOML file{or}")));
         }
         let file = File::open(path).map_err(|error| {
+            if SWEEPS.iter().any(|sweep| sweep.name == path) {
+                return refuse(format!(
+                    "is a built-in sweep: `twofold scenes --print {path} > {path}.toml` writes its file"
+                ));
+            }
             let Some((names, _)) = self.built_in else {
                 return refuse(format!("is not a readable file ({error})"));
             };
@@ -234,9 +240,20 @@ impl<'a> Entry<'a> {
 
     /// Refuses the value for a reason elsewhere in the scene.
     pub(crate) fn refuse_because(&self, why: &str) -> Fault {
-        let written = shortened(self.text.get(self.span.clone()).unwrap_or(""));
-        let value = self.replaced.get(&self.key).map_or(written, |number| format!("{number:?}"));
-        Fault::at(self.span.clone(), format!("`{}` = {value}: {why}", self.key))
+        Fault::at(self.span.clone(), format!("`{}` = {}: {why}", self.key, self.shown()))
+    }
+
+    /// The value with the numbers that replace those in it, or as it is written.
+    fn shown(&self) -> String {
+        let inside = format!("{}[", self.key);
+        if let Some(number) = self.replaced.get(&self.key) {
+            format!("{number:?}")
+        } else if self.replaced.keys.iter().any(|key| key.starts_with(&inside)) {
+            let entries = self.list("").into_iter().flatten().map(|entry| entry.shown());
+            format!("[{}]", entries.collect::<Vec<_>>().join(", "))
+        } else {
+            shortened(self.text.get(self.span.clone()).unwrap_or(""))
+        }
     }
 
     pub(crate) fn number(&self) -> Result<f64, Fault> {

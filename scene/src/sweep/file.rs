@@ -127,7 +127,12 @@ impl<'t> Sweep<'t> {
         let cautions = own.map_or_else(|| scene.cautions.clone(), |own| own.cautions);
         let varied = VARIED_SECTIONS.iter().filter_map(|name| base.document().section(name).ok().flatten());
         let known: Vec<_> = varied.flat_map(|section| section.numbers()).collect();
-        let parameters = parameters(&section, &known).map_err(in_sweep)?;
+        let in_degrees = |key: &str| {
+            let (name, key) = key.split_once('.').filter(|(name, _)| VARIED_SECTIONS.contains(name))?;
+            let entry = base.document().section(name).ok()??.optional(key)?;
+            entry.string().ok().filter(|text| text.ends_with("deg")).map(|_| ())
+        };
+        let parameters = parameters(&section, &known, |key| in_degrees(key).is_some()).map_err(in_sweep)?;
         let outputs = outputs(&section, &mut scene, times).map_err(in_sweep)?;
         // Means over the span and pulses follow every turn.
         let mut needed = outputs.outputs();
@@ -178,7 +183,11 @@ fn times(document: &Section<'_>) -> Result<Times, Fault> {
     Ok(Times::Listed { start, times: vec![end] })
 }
 
-fn parameters(document: &Section<'_>, known: &[String]) -> Result<Parameters, Fault> {
+fn parameters(
+    document: &Section<'_>,
+    known: &[String],
+    in_degrees: impl Fn(&str) -> bool,
+) -> Result<Parameters, Fault> {
     let mut found = Parameters { keys: Vec::new(), sources: Vec::new(), lengths: Vec::new(), seed: 0 };
     let mut groups: Vec<(&str, usize)> = Vec::new();
     let mut streams = 0;
@@ -186,6 +195,9 @@ fn parameters(document: &Section<'_>, known: &[String]) -> Result<Parameters, Fa
         section.only("parameter values grid random together")?;
         section.not_both(&[("values", "grid"), ("values", "random"), ("grid", "random"), ("together", "random")])?;
         let parameter = section.required("parameter", "dotted key of a number of the scene")?;
+        if parameter.string().is_ok_and(&in_degrees) {
+            return Err(parameter.refuse_because("the scene has it as a text: allowed is a number there, in rad"));
+        }
         found.keys.push(parameter_key(&parameter, known, &found.keys)?);
         let (length, source) = match source(&section, streams)? {
             (None, source) => {
@@ -282,7 +294,9 @@ fn law(section: &Section<'_>) -> Result<Law, Fault> {
         section.only("distribution mean deviation")?;
         let mean = section.required("mean", "mean")?.number()?;
         let entry = section.required("deviation", "standard deviation")?;
-        let deviation = entry.number_where("a number above zero", |x| x > 0.0)?;
+        // No draw is 64 deviations away.
+        let is_finite = |x: f64| x > 0.0 && (mean.abs() + 64.0 * x).is_finite();
+        let deviation = entry.number_where("a number above zero, so small that every draw is finite", is_finite)?;
         return Normal::new(mean, deviation).map(Law::Normal).map_err(|error| entry.refuse_because(&error.to_string()));
     }
     section.only("distribution from to")?;

@@ -84,8 +84,19 @@ fn grid_point(from: f64, to: f64, logarithmic: bool, i: u64, last: u64) -> f64 {
     match i {
         0 => from,
         i if i == last => to,
-        _ if logarithmic => from * (to / from).powf(part),
+        _ if logarithmic => in_equal_ratios(from, to, part),
         _ => from * (1.0 - part) + to * part,
+    }
+}
+
+/// The number that is a `part` of the way from `from` to `to`, which have the same sign, in equal ratios.
+fn in_equal_ratios(from: f64, to: f64, part: f64) -> f64 {
+    let ratio = to / from;
+    if ratio.is_normal() {
+        from * ratio.powf(part)
+    } else {
+        // The ratio over- or underflows, these do not.
+        from.signum() * from.abs().powf(1.0 - part) * to.abs().powf(part)
     }
 }
 
@@ -103,7 +114,7 @@ impl Law {
                 let part = part();
                 from * (1.0 - part) + to * part
             }
-            Law::LogUniform { from, to } => from * (to / from).powf(part()),
+            Law::LogUniform { from, to } => in_equal_ratios(from, to, part()),
             Law::Normal(normal) => normal.sample(&mut stream_of_parameter),
         }
     }
@@ -130,6 +141,28 @@ mod tests {
         assert_eq!(rows[2], [1.0, 100.0, -1.0]);
         assert_eq!(rows[5], [2.0, 100.0, -2.0]);
         assert_eq!(parameters(vec![], vec![u64::MAX, 2]).count(), None);
+    }
+
+    /// Between ends whose ratio is no normal number: each logarithm is a few roundings off, of up to 745.
+    #[test]
+    fn equal_ratios_go_through_all_doubles() {
+        for (from, to, middle) in [
+            (1e-300, 1e300, 1.0),
+            (-1e300, -1e-300, -1.0),
+            (f64::MAX, f64::MIN_POSITIVE, 2.0),
+            (1e160, 1e-160, 1.0),
+            (f64::from_bits(1), 4.0, 2.0_f64.powi(-536)),
+        ] {
+            let grid = parameters(vec![(0, Source::Grid { from, to, logarithmic: true })], vec![3]);
+            let points: Vec<_> = (0..3).flat_map(|k| grid.of_scene(k)).collect();
+            assert_eq!([points[0], points[2]], [from, to]);
+            assert!((points[1] / middle - 1.0).abs() < 1e-12, "{points:?}");
+            for scene in 0..1000 {
+                let drawn = Law::LogUniform { from, to }.draw(5, 0, scene);
+                let (least, most) = (from.min(to), from.max(to));
+                assert!(least <= drawn && drawn <= most, "{drawn} from {from} to {to}");
+            }
+        }
     }
 
     /// Moments of 40,000 draws within five standard errors, and literal numbers: a sweep's rows never change.
