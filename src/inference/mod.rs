@@ -70,7 +70,7 @@ pub use least_squares::{Fit, Residuals};
 pub use long_span::check_span;
 pub use model::{Model, Unknown};
 pub use observables::{Datum, Noise, Observable, Place, data_of};
-pub use signal::{Event, Signal};
+pub use signal::{Event, Signal, time_for_a_pulse};
 pub use symmetry::Symmetry;
 pub use timing::{MeasuredArrival, MeasuredWidth, Prior, TimingData, fit_timing, timing_fisher, timing_nonlinearity};
 pub use wobble_limit::{WobbleLimit, wobble_limits};

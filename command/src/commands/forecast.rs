@@ -2,9 +2,10 @@
 
 use super::measurement::{Measurement, readable, write_csv};
 use super::{Failure, FisherArgs, ForecastArgs, note, print};
-use twofold::inference::{Observable, check_span, forecast, scaling};
+use twofold::inference::{Observable, check_span, forecast, scaling, time_for_a_pulse};
 use twofold::parameters::Parameter;
 use twofold_scene::estimated_error::as_printed;
+use twofold_scene::significant::significant;
 
 pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
     let FisherArgs { measurement, output } = &args.fisher;
@@ -18,16 +19,29 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
     if measurement.noise.iter().any(|(observable, _)| *observable == Observable::Periods) {
         return Err(refuse("--observe periods: allowed for a forecast are observables of a single pulse".into()));
     }
-    let unit = measurement.scene.units.time;
+    let (unit, time) = (measurement.scene.units.time, measurement.scene.units.time_name);
     let spans = match &args.spans {
         Some(spans) => spans.clone(),
-        None => (0..4).map(|k| measurement.end * unit * f64::from(1 << k)).collect(),
+        None => {
+            // To the digits that are printed.
+            let span: f64 = format!("{:.11e}", measurement.end * unit).parse().expect("a number");
+            (0..4).map(|k| span * f64::from(1 << k)).collect()
+        }
     };
     for &span in &spans {
         if !(span > 0.0 && span.is_finite()) {
             return Err(refuse(format!("--spans {span:?}: allowed are numbers above zero")));
         }
         if measurement.sees_pulses() {
+            let least = time_for_a_pulse(&measurement.parameters);
+            if span / unit <= least {
+                return Err(refuse(if least.is_finite() {
+                    let least = significant(least * unit, 3);
+                    format!("--spans {span:?}: allowed for pulses are spans above 2.2 turns, {least} {time}")
+                } else {
+                    "the star is at rest at the start: allowed are forecasts of strains alone".to_owned()
+                }));
+            }
             check_span(&measurement.parameters, span / unit)
                 .map_err(|why| refuse(format!("--spans {span:?}: {why}")))?;
         }
@@ -40,7 +54,6 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
     let found = forecast(&measurement.parameters, noise, unknowns, target, &in_tc, &args.epochs)
         .map_err(|error| measurement.refused(error))?;
     let (factor, target_unit) = measurement.unit(target);
-    let time = measurement.scene.units.time_name;
     let header = [
         format!("span [{time}]"),
         "epochs".to_owned(),
