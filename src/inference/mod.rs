@@ -67,7 +67,7 @@ pub use fit::{fit, nonlinearity};
 pub use forecast::{Forecast, forecast, scaling};
 pub use jacobian::{Jacobian, jacobian};
 pub use least_squares::{Fit, Residuals};
-pub use long_span::check_span;
+pub use long_span::{check_span, is_long};
 pub use model::{Model, Unknown};
 pub use observables::{Datum, Noise, Observable, Place, data_of};
 pub use signal::{Event, Signal, time_for_a_pulse};

@@ -6,8 +6,8 @@ use super::output_file::OutputFile;
 use super::run::read_scene;
 use super::{Failure, MeasurementArgs, TableArgs, note};
 use crate::text_table::text_table;
+use twofold::Error;
 use twofold::inference::{Fisher, InferenceError, Model, Signal, Unknown};
-use twofold_scene::Refusal;
 use twofold_scene::measurements;
 use twofold_scene::scene_file::Columns;
 use twofold_scene::significant::significant;
@@ -30,10 +30,7 @@ impl Measurement {
     pub(super) fn read(args: &MeasurementArgs) -> Result<Self, Failure> {
         let scene = read_scene(&args.scene, Columns::Unused)?;
         let of = measurements::Measurement::new(scene, &args.observe, args.parameters.as_deref());
-        let of = of.map_err(|error| match error {
-            Refusal::Input(why) => Failure::BadInput(format!("{why} ({})", args.scene)),
-            Refusal::Model(error) => error.into(),
-        })?;
+        let of = of.map_err(|why| Failure::BadInput(format!("{why} ({})", args.scene)))?;
         Ok(Self { name: args.scene.clone(), of })
     }
 
@@ -51,8 +48,8 @@ impl Measurement {
 
     pub(super) fn refused(&self, error: InferenceError) -> Failure {
         match error {
-            InferenceError::Model(error) => error.into(),
-            error @ (InferenceError::Rounding { .. } | InferenceError::TooFew { .. }) => {
+            InferenceError::Model(error @ (Error::Unsupported { .. } | Error::NotConverged { .. })) => error.into(),
+            error @ (InferenceError::Rounding { .. } | InferenceError::TooFew { .. } | InferenceError::Model(_)) => {
                 Failure::BadInput(format!("{}: {error}", self.name))
             }
             error => Failure::Failed(format!("{}: {error}", self.name)),
