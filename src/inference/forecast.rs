@@ -6,6 +6,9 @@ use crate::error::Error;
 use crate::numerics::straight_line::{Slope, slope};
 use crate::parameters::{Parameter, Parameters};
 
+/// What a forecast may be of, in words.
+pub const ALLOWED_IN_FORECASTS: &str = "allowed for a forecast are arrivals, closest_approaches, widths, h_plus, h_cross and strain, which need no second pulse";
+
 /// The expected result of an observing campaign.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Forecast {
@@ -35,8 +38,7 @@ pub fn forecast(
     epochs: &[usize],
 ) -> Result<Vec<Forecast>, InferenceError> {
     if noise.iter().any(|(observable, _)| *observable == Observable::Periods) {
-        let why = "allowed for a forecast are observables of a single pulse, such as arrivals and widths";
-        return Err(Error::Unsupported { what: Observable::Periods.key(), why }.into());
+        return Err(Error::Unsupported { what: Observable::Periods.key(), why: ALLOWED_IN_FORECASTS }.into());
     }
     let has_pulses = noise.iter().any(|(observable, _)| observable.is_of_pulses());
     let margin = if has_pulses { time_for_a_pulse(parameters) } else { 0.0 };

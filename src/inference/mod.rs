@@ -64,7 +64,7 @@ pub use degenerate::Direction;
 pub use error::InferenceError;
 pub use fisher::Fisher;
 pub use fit::{fit, nonlinearity};
-pub use forecast::{Forecast, forecast, scaling};
+pub use forecast::{ALLOWED_IN_FORECASTS, Forecast, forecast, scaling};
 pub use jacobian::{Jacobian, jacobian};
 pub use least_squares::{Fit, Residuals};
 pub use long_span::{check_span, is_long};

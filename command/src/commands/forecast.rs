@@ -2,7 +2,7 @@
 
 use super::measurement::{Measurement, readable, write_csv};
 use super::{Failure, FisherArgs, ForecastArgs, note, print};
-use twofold::inference::{Observable, check_span, forecast, scaling, time_for_a_pulse};
+use twofold::inference::{ALLOWED_IN_FORECASTS, Observable, check_span, forecast, scaling, time_for_a_pulse};
 use twofold::parameters::Parameter;
 use twofold_scene::estimated_error::as_printed;
 use twofold_scene::significant::significant;
@@ -11,13 +11,15 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
     let FisherArgs { measurement, output } = &args.fisher;
     let measurement = Measurement::read(measurement)?;
     let refuse = |why: String| Failure::BadInput(format!("{}: {why}", measurement.name));
-    let target =
-        Parameter::named(&args.of).filter(|target| measurement.unknowns.contains(target)).ok_or_else(|| {
-            let keys: Vec<_> = measurement.unknowns.iter().map(|unknown| unknown.key()).collect();
-            refuse(format!("--of {}: allowed is one of the parameters, {}", args.of, keys.join(", ")))
-        })?;
+    let named = Parameter::FITTED.into_iter().find(|parameter| parameter.key() == args.of);
+    let target = named.filter(|target| measurement.unknowns.contains(target)).ok_or_else(|| {
+        let keys: Vec<_> = measurement.unknowns.iter().map(|unknown| unknown.key()).collect();
+        let keys = keys.join(", ");
+        let of = named.map_or(String::new(), |target| format!("; for {} add it to --parameters", target.key()));
+        refuse(format!("--of {}: allowed is one of the unknown parameters, {keys}{of}", args.of))
+    })?;
     if measurement.noise.iter().any(|(observable, _)| *observable == Observable::Periods) {
-        return Err(refuse("--observe periods: allowed for a forecast are observables of a single pulse".into()));
+        return Err(refuse(format!("--observe periods: {ALLOWED_IN_FORECASTS}")));
     }
     let (unit, time) = (measurement.scene.units.time, measurement.scene.units.time_name);
     let spans = match &args.spans {
@@ -60,18 +62,17 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
         "data of each".to_owned(),
         format!("sigma_{} [{target_unit}]", target.key()),
     ];
-    let mut rows = vec![header.to_vec()];
+    let [mut rows, mut all] = [vec![header.to_vec()], vec![header.to_vec()]];
     for (row, forecast) in found.iter().enumerate() {
         let sigma = forecast.sigma * factor;
-        let sigma = if sigma.is_finite() { format!("{sigma:.6e}") } else { String::new() };
-        rows.push(vec![
-            format!("{:?}", spans[row / args.epochs.len()]),
-            forecast.epochs.to_string(),
-            forecast.data.to_string(),
-            sigma,
-        ]);
+        let [short, sigma] = [format!("{sigma:.6e}"), format!("{sigma:e}")]
+            .map(|digits| if sigma.is_finite() { digits } else { String::new() });
+        let cells =
+            [format!("{:?}", spans[row / args.epochs.len()]), forecast.epochs.to_string(), forecast.data.to_string()];
+        rows.push([&cells[..], &[short]].concat());
+        all.push([&cells[..], &[sigma]].concat());
     }
-    write_csv(output, &rows)?;
+    write_csv(output, &all)?;
     let unknown = found.iter().filter(|forecast| !forecast.sigma.is_finite()).count();
     if unknown > 0 {
         note(&format!(
