@@ -94,15 +94,18 @@ fn chosen(known: &[Recipe], names: &[String]) -> Result<Vec<Recipe>, Failure> {
     };
     if let Some(unknown) = names.iter().find(|name| !known.iter().any(|recipe| meant(recipe, name))) {
         let all = known.iter().map(|recipe| recipe.name).collect::<Vec<_>>();
-        return Err(Failure::BadInput(format!(
-            "no figure is called `{unknown}`.{} There are {}{}.",
-            did_you_mean(unknown, &all),
-            all.join(", "),
-            if known.iter().any(|recipe| recipe.paper_figure.is_some()) {
-                ", or the number of a figure of the paper"
-            } else {
-                ""
+        let last = RECIPES.iter().filter_map(|recipe| recipe.paper_figure).max().unwrap_or(0);
+        let numbers = match known.iter().any(|recipe| recipe.paper_figure.is_some()) {
+            true => format!(", or 1 to {last}, the number of a figure of the paper"),
+            false if unknown.parse::<i64>().is_ok() => {
+                ". A number is that of a figure of the paper, which is of the paper's own scenes: without --scene".to_owned()
             }
+            false => String::new(),
+        };
+        return Err(Failure::BadInput(format!(
+            "no figure is called `{unknown}`.{} There are {}{numbers}.",
+            did_you_mean(unknown, &all),
+            all.join(", ")
         )));
     }
     let wanted = |recipe: &&Recipe| names.is_empty() || names.iter().any(|name| meant(recipe, name));
