@@ -182,7 +182,7 @@ fn shifted(points: impl Iterator<Item = (f64, f64)>, by: f64) -> Vec<(f64, f64)>
 }
 
 fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
-    let text = |part| sentences("pulse-series", part, &[]);
+    let text = |part| sentences("pulse-series", part, &[("kind", subjects[0].kind().to_owned())]);
     let ranges = subjects.iter().zip(series).map(|(subject, Series { pulses, .. })| {
         let name = &subject.name;
         let unit = format!(" {}", subject.scale.time_unit());
@@ -305,7 +305,7 @@ mod tests {
             "{}",
             told.parameters
         );
-        let text = |part| sentences("pulse-series", part, &[]);
+        let text = |part| sentences("pulse-series", part, &[("kind", "numerical".to_owned())]);
         let rest = |said: &str, part| said.strip_prefix(&text(part)).expect("the text").to_owned();
         let says = told.says.replace(&text("formulas"), "<formulas>").replace(&text("modulation"), "<modulation>");
         [

@@ -74,10 +74,14 @@ pub(super) fn sentence(clauses: &str) -> String {
     letters.next().map_or(String::new(), |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))
 }
 
-/// Words for captions: unit of frequencies, mean rates.
-pub(super) fn of_rates(subjects: &[&Subject]) -> Result<[(&'static str, String); 2], String> {
+/// Words for captions: unit of frequencies, mean rates, and the motion that has the lines.
+pub(super) fn of_rates(subjects: &[&Subject]) -> Result<[(&'static str, String); 3], String> {
+    let motion = match subjects[0].kind() {
+        "averaged" => "averaged motion",
+        _ => "exact motion, from a Fourier series on its torus",
+    };
     let rates = subjects.iter().map(|subject| rates(subject)).collect::<Result<Vec<_>, _>>()?.join("; ");
-    Ok([("unit", subjects[0].scale.frequency_unit().to_owned()), ("rates", rates)])
+    Ok([("unit", subjects[0].scale.frequency_unit().to_owned()), ("rates", rates), ("motion", motion.to_owned())])
 }
 
 fn rates(subject: &Subject) -> Result<String, String> {
@@ -129,7 +133,7 @@ mod tests {
     #[test]
     fn rates_of_free_precession_are_those_of_eq_48() {
         let [slow, fast] = [0.01, 1.0].map(|spin| star("a", spin, [0.0; 3], CONSTANTS));
-        let [unit, rates] = of_rates(&[&slow, &fast]).unwrap();
+        let [unit, rates, _] = of_rates(&[&slow, &fast]).unwrap();
         assert_eq!(unit, ("unit", "rad/*t*_{c}".to_owned()));
         let told = "a: *α* = 0.01438205, *γ* = \u{2212}0.001, *ν* = 0.01438205; a: *α* = 1.438205, *γ* = \u{2212}0.1, *ν* = 1.438205";
         assert_eq!(rates, ("rates", told.to_owned()));
@@ -142,7 +146,7 @@ mod tests {
     /// 57 Hz times `1.001 / cos 0.3` and `-0.001`.
     #[test]
     fn rates_of_a_physical_star_are_in_hertz() {
-        let [unit, (_, rates)] = of_rates(&[&tone(1.0, 1.0)]).unwrap();
+        let [unit, (_, rates), _] = of_rates(&[&tone(1.0, 1.0)]).unwrap();
         assert_eq!(unit.1, "Hz");
         assert_eq!(rates, "tone: *α* = 59.72451, *γ* = \u{2212}0.057, *ν* = 59.72451");
     }

@@ -111,6 +111,11 @@ impl Subject {
         Ok(Self { scale, printed, corrected, observer: scene.observer, pulsar: scene.pulsar, ..motion })
     }
 
+    /// How the motion is found, in a word.
+    pub(super) fn kind(&self) -> &'static str {
+        if self.problem.bulge() == 0.0 { "numerical" } else { "averaged" }
+    }
+
     /// `Omega^z`.
     pub(super) fn spin(&self) -> f64 {
         let BodyState { axis, momentum, .. } = self.problem.initial();
