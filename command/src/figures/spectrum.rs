@@ -1,7 +1,7 @@
 //! Common parts of the two figures of spectra: the lines of an observable, their table and their names.
 
 use twofold::dynamics::BodyState;
-use twofold::observables::spectrum::{Combination, SpectralLine};
+use twofold::observables::spectrum::{Combination, FundamentalFrequency, SpectralLine};
 
 use super::drawing::*;
 use super::number::significant;
@@ -38,7 +38,16 @@ pub(super) fn name(combination: &Combination) -> String {
     if let Some(rest) = name.strip_prefix('-') {
         name = format!("\u{2212}{rest}");
     }
-    let symbols = [("alpha'", "*α*"), ("gamma'", "*γ*"), ("nu'", "*ν*"), ("psi'", "*ψ*"), ("l'", "*l*")];
+    let symbols = [
+        ("alpha'", "*α*"),
+        ("gamma'", "*γ*"),
+        ("nu'", "*ν*"),
+        ("psi'", "*ψ*"),
+        ("theta_1'", "*θ*_{1}"),
+        ("theta_2'", "*θ*_{2}"),
+        ("theta_3'", "*θ*_{3}"),
+        ("l'", "*l*"),
+    ];
     symbols.iter().fold(name, |name, (plain, symbol)| name.replace(plain, symbol))
 }
 
@@ -50,6 +59,7 @@ pub(super) fn symbols_in(names: &[String]) -> String {
         ("*l*", "of the slow precession"),
         ("*ν*", "of nutation"),
         ("*ψ*", "of the rotation about the symmetry axis"),
+        ("*θ*", "of the angles of the torus"),
     ];
     let named = meanings.iter().filter(|(symbol, _)| names.iter().any(|name| name.contains(symbol)));
     named.map(|(symbol, meaning)| format!("{symbol} {meaning}")).collect::<Vec<_>>().join(", ")
@@ -86,13 +96,17 @@ pub(super) fn of_rates(subjects: &[&Subject]) -> Result<[(&'static str, String);
 
 fn rates(subject: &Subject) -> Result<String, String> {
     let frequencies = subject.quasi_periodic()?.frequencies();
-    let named = [("*α*", "alpha'"), ("*γ*", "gamma'"), ("*l*", "l'"), ("*ν*", "nu'")].into_iter().filter_map(
-        |(name, symbol)| {
-            let rate = frequencies.rate(symbol).filter(|rate| *rate != 0.0)?;
-            Some(format!("{name} = {}", significant(subject.scale.frequency(rate), 7)))
-        },
-    );
-    Ok(format!("{}: {}", subject.name, named.collect::<Vec<_>>().join(", ")))
+    let is_told = |of: &&FundamentalFrequency| of.rate != 0.0 && of.symbol != "psi'";
+    let mut told: Vec<_> = frequencies.all.iter().filter(is_told).collect();
+    if told.is_empty() {
+        told.extend(frequencies.basis.iter().filter(is_told));
+    }
+    let in_words = |of: &FundamentalFrequency| {
+        let name = name(&Combination { terms: vec![(1, of.symbol)] });
+        format!("{name} = {}", significant(subject.scale.frequency(of.rate), 7))
+    };
+    let told: Vec<_> = told.into_iter().map(in_words).collect();
+    Ok(format!("{}: {}", subject.name, told.join(", ")))
 }
 
 /// The highest frequency in a figure, in its unit: a multiple of the rate of rotation, rounded up to half of its first digit.

@@ -32,7 +32,7 @@ pub struct Shown {
 /// A motion with everything that its figures need.
 #[derive(Debug, Clone)]
 pub struct Subject {
-    /// Name in headings, `tp-I`.
+    /// Name in headings, `tp-I`; markup.
     pub name: String,
     /// The star, `s^IJ` and the state at the start, in the paper's units: `I^xx = C = 1`, time in `t_c`.
     pub problem: Problem<f64>,
