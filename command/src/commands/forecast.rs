@@ -1,6 +1,6 @@
 //! `twofold forecast`.
 
-use super::measurement::{Measurement, readable, write_csv};
+use super::measurement::{Measurement, counted, readable, write_csv};
 use super::{Failure, FisherArgs, ForecastArgs, note, print};
 use twofold::inference::{ALLOWED_IN_FORECASTS, Observable, check_span, forecast, scaling, time_for_a_pulse};
 use twofold::parameters::Parameter;
@@ -76,8 +76,8 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
     let unknown = found.iter().filter(|forecast| !forecast.sigma.is_finite()).count();
     if unknown > 0 {
         note(&format!(
-            "{unknown} of {} rows have no sigma: too few data, or data that do not determine {}; longer spans or more epochs may help",
-            found.len(),
+            "without a sigma: {unknown} of {}: too few data, or data that do not determine {}; longer spans or more epochs may help",
+            counted(found.len(), "row"),
             target.key()
         ));
     }
