@@ -77,7 +77,7 @@ impl fmt::Display for InferenceError {
                 write!(f, "\nleave out one of each, or add data of another kind")
             }
             Self::TooFew { data, least } => {
-                write!(f, "{data} data: allowed are {least} or more for so many unknowns")
+                write!(f, "the number of data is {data}: allowed is {least} or more for so many unknowns")
             }
             Self::NoPulse { turn, near } => write!(
                 f,

@@ -21,13 +21,14 @@ fn events_as_counted(signal: &Signal, turns: &BTreeMap<i64, f64>) -> Result<Vec<
 
 /// Residuals (data of the star minus measured data, in standard deviations) and the pulses of the star.
 fn compared(parameters: &Parameters<f64>, data: &[Datum], end: f64) -> Result<(Vec<f64>, Vec<Event>), InferenceError> {
-    let turn = std::f64::consts::TAU / turning_rate(parameters);
-    let signal = Signal::new(parameters, end + 2.0 * turn)?;
     let of_pulses = data.iter().filter_map(|datum| match datum.place {
         Place::Turn { number, near } => Some((number, near)),
         Place::Time(_) => None,
     });
     let turns: BTreeMap<i64, f64> = of_pulses.collect();
+    // A pulse may come two turns late; a star at rest has an infinite turn, and strains.
+    let late = if turns.is_empty() { 0.0 } else { 2.0 * std::f64::consts::TAU / turning_rate(parameters) };
+    let signal = Signal::new(parameters, end + late)?;
     let events = if signal.is_long {
         signal.events_of_turns(&turns.into_iter().collect::<Vec<_>>())?
     } else {
@@ -120,6 +121,7 @@ fn rounding_of_all(fit: &Fit, data: &[Datum], end: f64) -> Result<Option<(Observ
 mod tests {
     use super::*;
     use crate::inference::{Residuals, data_of, stars};
+    use crate::parameters::ThirdRate;
 
     const OF_PULSES: [(Observable, f64); 4] = [
         (Observable::Arrivals, 1e-6),
@@ -192,6 +194,21 @@ mod tests {
             star.moved(&[Parameter::AlphaRate, Parameter::Spin], &[rate, star.spin() * rate / star.alpha_rate]);
         let told = compared(&slower, &data, last.end).expect_err("beyond two turns");
         assert!(matches!(told, InferenceError::NoPulse { turn, .. } if turn == last.turn), "{told:?}");
+    }
+
+    #[test]
+    fn strains_of_a_star_at_rest_are_fitted() {
+        let star =
+            Parameters { alpha_rate: 0.0, beta_rate: 0.0, third_rate: ThirdRate::Spin(0.0), ..stars::precessing() };
+        let signal = Signal::new(&star, 20.0).expect("a motion");
+        let data = data_of(&signal, &[], &[0.0, 7.0, 13.0, 20.0], &[(Observable::StrainPlus, 1e-4)]).expect("data");
+        let unknowns = [Parameter::Oblateness, Parameter::Beta];
+        let found = fit(&star.moved(&unknowns, &[1e-5, -1e-5]), &data, &unknowns, 20.0).expect("a fit");
+        let errors: Vec<f64> = found.fisher.values().iter().zip(star.values(&unknowns)).map(|(a, b)| a - b).collect();
+        assert!(
+            errors.iter().zip(found.fisher.sigmas()).all(|(error, sigma)| error.abs() < 0.01 * sigma),
+            "{errors:?}"
+        );
     }
 
     #[test]

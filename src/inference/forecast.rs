@@ -1,9 +1,13 @@
 //! Forecasts: the standard deviation of an unknown as a function of span, number of data and their errors.
 
+use super::signal::time_for_a_pulse;
 use super::{Datum, Fisher, InferenceError, Noise, Observable, Signal, data_of};
 use crate::error::Error;
 use crate::numerics::straight_line::{Slope, slope};
 use crate::parameters::{Parameter, Parameters};
+
+/// What a forecast may be of, in words.
+pub const ALLOWED_IN_FORECASTS: &str = "allowed for a forecast are arrivals, closest_approaches, widths, h_plus, h_cross and strain, which need no second pulse";
 
 /// The expected result of an observing campaign.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,10 +23,12 @@ pub struct Forecast {
     pub sigma: f64,
 }
 
-/// The standard deviation of `target` for every pair of a span and a number of epochs.
+/// The standard deviation of `target` for every pair of a span and a number of epochs. The epochs are equally spaced from the start to the end of the
+/// span or, where pulses are observed, to [`time_for_a_pulse`] before its end.
 ///
 /// # Errors
-/// A motion that cannot be computed; [`Error::Unsupported`] for periods: each epoch of a forecast has one pulse, and a period requires two.
+/// A motion that cannot be computed; a span with no time for a pulse, if pulses are observed; [`Error::Unsupported`] for periods: each epoch of a
+/// forecast has one pulse, and a period requires two.
 pub fn forecast(
     parameters: &Parameters<f64>,
     noise: &[Noise],
@@ -32,17 +38,17 @@ pub fn forecast(
     epochs: &[usize],
 ) -> Result<Vec<Forecast>, InferenceError> {
     if noise.iter().any(|(observable, _)| *observable == Observable::Periods) {
-        let why = "allowed for a forecast are observables of a single pulse, such as arrivals and widths";
-        return Err(Error::Unsupported { what: Observable::Periods.key(), why }.into());
+        return Err(Error::Unsupported { what: Observable::Periods.key(), why: ALLOWED_IN_FORECASTS }.into());
     }
+    let has_pulses = noise.iter().any(|(observable, _)| observable.is_of_pulses());
+    let margin = if has_pulses { time_for_a_pulse(parameters) } else { 0.0 };
     let mut found = Vec::new();
     for &span in spans {
+        Error::ensure(span > margin, "span of a forecast", span, "more than 2.2 turns for pulses, and above zero")?;
         let signal = Signal::new(parameters, span)?;
+        let last = span - margin;
         for &count in epochs {
-            // The last pulse must end within the span.
-            let last = (span - 2.2 * signal.turn()).max(0.0);
-            let times: Vec<f64> = (0..count).map(|k| last * k as f64 / (count - 1).max(1) as f64).collect();
-            let has_pulses = noise.iter().any(|(observable, _)| observable.is_of_pulses());
+            let times: Vec<f64> = (0..count).map(|k| last * (k as f64 / (count - 1).max(1) as f64)).collect();
             let events = if has_pulses { signal.events_after(&times)? } else { Vec::new() };
             let data: Vec<Datum> = data_of(&signal, &events, &times, noise)?;
             let sigma = match Fisher::of(parameters, &events, &data, unknowns) {
@@ -87,10 +93,11 @@ pub fn scaling(forecasts: &[Forecast]) -> [Option<Slope>; 2] {
 mod tests {
     use super::*;
     use crate::inference::stars;
+    use crate::parameters::ThirdRate;
 
-    /// Epochs are equally spaced from the start to 2.2 turns before the end; in a shorter span all are at the start.
+    /// Epochs of strains are equally spaced from the start to the end, in a span of any length.
     #[test]
-    fn epochs_of_a_forecast_end_before_its_span() {
+    fn epochs_of_strains_fill_the_span() {
         let star = stars::slow();
         let noise = [(Observable::StrainPlus, 1e-3), (Observable::StrainCross, 2e-3)];
         let unknowns = [Parameter::Spin, Parameter::Beta];
@@ -99,17 +106,14 @@ mod tests {
         let found = forecast(&star, &noise, &unknowns, Parameter::Spin, &spans, &[3, 7]).expect("forecasts");
         assert_eq!(found.len(), 4);
         for (place, (span, epochs)) in spans.into_iter().flat_map(|span| [(span, 3), (span, 7)]).enumerate() {
-            let last = (span - 2.2 * turn).max(0.0);
-            let times: Vec<f64> = (0..epochs).map(|k| last * f64::from(k) / f64::from(epochs - 1)).collect();
+            let times: Vec<f64> = (0..epochs).map(|k| span * f64::from(k) / f64::from(epochs - 1)).collect();
             let signal = Signal::new(&star, span).expect("a motion");
             let data = data_of(&signal, &[], &times, &noise).expect("data");
             let sigma = Fisher::of(&star, &[], &data, &unknowns).expect("derivatives").sigma(Parameter::Spin);
             let Forecast { span: of, epochs: counted, data: different, sigma: told } = found[place];
             assert_eq!((of, counted, different), (span, epochs as usize, epochs as usize));
             let sigma = sigma.expect("one of the unknowns");
-            // At the start alone the strain does not separate the spin from the tilt.
-            let undetermined = last == 0.0 && told.is_nan() && sigma.is_nan();
-            assert!(undetermined || (told / sigma - 1.0).abs() < 1e-9, "{told:e} {sigma:e}");
+            assert!((told / sigma - 1.0).abs() < 1e-9, "{told:e} {sigma:e}");
         }
         // The scale of the strain, determined by each: at the start alone, and by two epochs at both ends.
         let of_strain = |epochs: usize| {
@@ -120,14 +124,35 @@ mod tests {
             let h = |(kind, sigma)| signal.strain(kind, t).expect("a strain") / sigma;
             h(noise[0]).powi(2) + h(noise[1]).powi(2)
         };
-        let end = spans[1] - 2.2 * turn;
         for (found, weights) in of_strain(1)
             .into_iter()
             .zip([weight(0.0); 2])
-            .chain(of_strain(2).into_iter().zip([2.0 * weight(0.0), weight(0.0) + weight(end)]))
+            .chain(of_strain(2).into_iter().zip(spans.map(|end| weight(0.0) + weight(end))))
         {
             assert!((found.sigma * weights.sqrt() - 1.0).abs() < 1e-9, "{found:?}");
         }
+    }
+
+    /// The last pulse of a forecast ends within the span: its epoch is 2.2 turns before the end.
+    #[test]
+    fn a_span_without_time_for_a_pulse_is_refused() {
+        let star = stars::precessing();
+        let least = time_for_a_pulse(&star);
+        let of = |star: &Parameters<f64>, span: f64| {
+            let noise = [(Observable::Arrivals, 1e-6), (Observable::StrainPlus, 1e-3)];
+            forecast(star, &noise, &[Parameter::Spin], Parameter::Spin, &[span], &[5])
+        };
+        assert!(of(&star, 2.0 * least).is_ok());
+        match of(&star, 0.999 * least) {
+            Err(InferenceError::Model(Error::Domain { value, .. })) => assert_eq!(value, 0.999 * least),
+            other => panic!("{other:?}"),
+        }
+        let at_rest = Parameters { alpha_rate: 0.0, beta_rate: 0.0, third_rate: ThirdRate::Spin(0.0), ..star };
+        assert!(time_for_a_pulse(&at_rest).is_infinite() && of(&at_rest, 50.0).is_err());
+        let noise = [(Observable::StrainPlus, 1e-3)];
+        let found = forecast(&at_rest, &noise, &[Parameter::Beta], Parameter::Beta, &[5.0, 50.0], &[9]);
+        let [short, long] = found.expect("forecasts")[..] else { panic!("two spans") };
+        assert!(short.sigma.is_finite() && (long.sigma / short.sigma - 1.0).abs() > 0.01, "{short:?} {long:?}");
     }
 
     /// A few epochs for very many pulses each give a different one; if a pulse is the next one of several epochs, it is

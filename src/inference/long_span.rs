@@ -17,8 +17,8 @@ const LARGEST_ERROR: f64 = 1e-3;
 /// Maximum number of corrections to the time of a turn with a given number.
 const MOST_CORRECTIONS: usize = 8;
 
-/// Whether a span from the start to `end` is too long to be followed turn by turn.
-pub(super) fn is_long(parameters: &Parameters<f64>, end: f64) -> bool {
+/// Whether a span from the start to `end` is too long to be followed turn by turn: one of more than 1e5 rad of rotation.
+pub fn is_long(parameters: &Parameters<f64>, end: f64) -> bool {
     end * turning_rate(parameters) > LARGEST_FOLLOWED
 }
 

@@ -38,6 +38,11 @@ impl Observable {
         }
     }
 
+    /// Whether data of this kind need every turn to be followed, which is possible for up to 1e5 rad of rotation.
+    pub fn is_of_every_turn(self) -> bool {
+        matches!(self, Self::ClosestApproaches | Self::Periods)
+    }
+
     /// Whether data of this kind are times taken from the pulses of a beam.
     pub fn is_of_pulses(self) -> bool {
         !matches!(self, Self::StrainPlus | Self::StrainCross)
@@ -82,9 +87,8 @@ pub struct Datum {
 /// A motion that cannot be evaluated at a sample; closest approaches and periods over a [long](Signal::is_long) span.
 pub fn data_of(signal: &Signal, events: &[Event], samples: &[f64], noise: &[Noise]) -> Result<Vec<Datum>, Error> {
     let mut data = Vec::new();
-    let of_every_turn = [Observable::ClosestApproaches, Observable::Periods];
     Error::ensure(
-        !(signal.is_long && noise.iter().any(|(kind, _)| of_every_turn.contains(kind))),
+        !(signal.is_long && noise.iter().any(|(kind, _)| kind.is_of_every_turn())),
         "span for closest approaches and periods",
         signal.end,
         "one of at most 1e5 rad of rotation; arrivals and widths may have any",

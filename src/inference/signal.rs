@@ -71,6 +71,12 @@ pub(super) fn turning_rate(parameters: &Parameters<f64>) -> f64 {
     parameters.state().momentum.norm() / parameters.spheroid.inertia_xx
 }
 
+/// Time within which the pulse of an epoch ends, 2.2 turns: the span of a [forecast](super::forecast()) of pulses is longer. It is infinite for a star
+/// at rest.
+pub fn time_for_a_pulse(parameters: &Parameters<f64>) -> f64 {
+    2.2 * (std::f64::consts::TAU / turning_rate(parameters))
+}
+
 /// One polarization of the strain for a star in a state with these vectors.
 pub(super) fn strain<S: Scalar>(
     parameters: &Parameters<S>,
@@ -131,7 +137,7 @@ impl Signal {
             return long_span::pulses_near(&self.parameters, self.end, times);
         }
         let mut found: Vec<Event> = Vec::new();
-        let window = 2.2 * self.turn();
+        let window = time_for_a_pulse(&self.parameters);
         for (place, &time) in times.iter().enumerate() {
             let Some(&event) = self.events_in((time, (time + window).min(self.end)))?.first() else { continue };
             // One pulse is one datum, even if it is the next pulse of several epochs.

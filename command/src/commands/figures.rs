@@ -7,9 +7,8 @@ use super::output_folder::OutputFolder;
 use super::progress::on_all_processors;
 use super::run::read_scene;
 use super::{Failure, note, print, tell};
-use crate::figures::{self, Figure, OF_A_SCENE, RECIPES, Recipe, Subject};
-use twofold_scene::scene_file::Columns;
-use twofold_scene::scene_file::did_you_mean;
+use crate::figures::{self, Figure, OF_A_SCENE, RECIPES, Recipe, Subject, literal};
+use twofold_scene::scene_file::{Columns, did_you_mean, shortened};
 
 #[derive(Args)]
 pub(crate) struct FiguresArgs {
@@ -62,7 +61,7 @@ pub(super) fn figures(args: &FiguresArgs) -> Result<(), Failure> {
 fn motion_of(scene: &str) -> Result<Subject, Failure> {
     let read = read_scene(scene, Columns::Unused)?;
     let name = Path::new(scene).file_stem().map_or_else(|| scene.into(), |stem| stem.to_string_lossy());
-    Subject::of_scene(&name, &read).map_err(Failure::Failed)
+    Subject::of_scene(&literal(&shortened(&name)), &read).map_err(Failure::Failed)
 }
 
 /// Omits the figures for which the scene lacks something; a figure requested by name is refused.
@@ -94,15 +93,19 @@ fn chosen(known: &[Recipe], names: &[String]) -> Result<Vec<Recipe>, Failure> {
     };
     if let Some(unknown) = names.iter().find(|name| !known.iter().any(|recipe| meant(recipe, name))) {
         let all = known.iter().map(|recipe| recipe.name).collect::<Vec<_>>();
-        return Err(Failure::BadInput(format!(
-            "no figure is called `{unknown}`.{} There are {}{}.",
-            did_you_mean(unknown, &all),
-            all.join(", "),
-            if known.iter().any(|recipe| recipe.paper_figure.is_some()) {
-                ", or the number of a figure of the paper"
-            } else {
-                ""
+        let last = RECIPES.iter().filter_map(|recipe| recipe.paper_figure).max().unwrap_or(0);
+        let numbers = match known.iter().any(|recipe| recipe.paper_figure.is_some()) {
+            true => format!(", or 1 to {last}, the number of a figure of the paper"),
+            false if unknown.parse::<i64>().is_ok() => {
+                ". A number is that of a figure of the paper, which is of the paper's own scenes: without --scene"
+                    .to_owned()
             }
+            false => String::new(),
+        };
+        return Err(Failure::BadInput(format!(
+            "no figure is called `{unknown}`.{} There are {}{numbers}.",
+            did_you_mean(unknown, &all),
+            all.join(", ")
         )));
     }
     let wanted = |recipe: &&Recipe| names.is_empty() || names.iter().any(|name| meant(recipe, name));

@@ -3,7 +3,7 @@
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 
-use super::measurement::{Measurement, note_nonlinearity, readable, uncertainties, write_csv};
+use super::measurement::{Measurement, counted, note_nonlinearity, readable, uncertainties, write_csv};
 use super::{Failure, FitArgs, note, print};
 use twofold::inference::{Fisher, InferenceError, Residuals, fit, nonlinearity};
 use twofold_scene::measurements::{DataFile, LeftOut, beside, with_noise};
@@ -34,11 +34,11 @@ pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
             let LeftOut { first_turn, shared_turns } = left_out;
             if first_turn > 0 {
                 note(&format!(
-                    "{first_turn} of the data are left out, since the pulse of the first turn may be cut in another model"
+                    "left out: {first_turn} of the data, since the pulse of the first turn may be cut in another model"
                 ));
             }
             if shared_turns > 0 {
-                note(&format!("{shared_turns} of the pulses are left out, since they share a turn with another"));
+                note(&format!("left out: {shared_turns} of the pulses, since they share a turn with another"));
             }
             data
         }
@@ -58,12 +58,12 @@ pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
     let [short, all] = uncertainties(&found.fisher, |unknown| measurement.unit(unknown));
     write_csv(&args.output, &all)?;
     note(&format!(
-        "{} data, {} unknowns, {} steps; chi^2 = {} of {} degrees of freedom",
+        "{} data, {}, {}; chi^2 = {} of {} of freedom",
         data.len(),
-        unknowns.len(),
-        found.iterations,
+        counted(unknowns.len(), "unknown"),
+        counted(found.iterations, "step"),
         significant(found.chi_squared, 4),
-        found.degrees
+        counted(found.degrees, "degree")
     ));
     let size = significant(found.root_mean_square(), 2);
     match found.judged() {

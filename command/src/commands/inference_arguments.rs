@@ -20,7 +20,7 @@ pub(crate) struct MeasurementArgs {
 
 #[derive(Args)]
 pub(crate) struct TableArgs {
-    /// Also write the table, with every digit and all correlations, to this file as CSV
+    /// Also write the table to this file as CSV, with every digit and, of error bars, all correlations
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
     /// Replace the file if it exists

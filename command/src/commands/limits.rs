@@ -17,7 +17,7 @@ use twofold_scene::pulsar_timing::{PulsarScene, decimal};
 use twofold_scene::scene_file::Columns;
 use twofold_scene::significant::significant;
 
-use super::measurement::{note_nonlinearity, readable, uncertainties, write_csv};
+use super::measurement::{counted, note_nonlinearity, readable, uncertainties, write_csv};
 use super::run::read_with_spin_down;
 use super::timing::days_apart;
 use super::{Failure, TableArgs, note, print};
@@ -206,20 +206,15 @@ fn read(args: &LimitsArgs, pulsar: &PulsarScene, start: &TimingModel) -> Result<
     Ok(TimingData { priors: args.prior.clone(), ..data })
 }
 
-/// A count with its noun: `1 prior` or `2 priors`.
-fn counted(number: usize, noun: &str) -> String {
-    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
-}
-
 fn tell_fit(found: &Fit<TimingModel>, data: &TimingData, pulsar: &PulsarScene) {
     note(&format!(
-        "{}, {}, {}, {} steps; chi^2 = {} of {} degrees of freedom",
+        "{}, {}, {}, {}; chi^2 = {} of {} of freedom",
         counted(data.arrivals.len(), "arrival"),
         counted(data.widths.len(), "width"),
         counted(data.priors.len(), "prior"),
-        found.iterations,
+        counted(found.iterations, "step"),
         significant(found.chi_squared, 4),
-        found.degrees
+        counted(found.degrees, "degree")
     ));
     note(&format!("f0 = {} Hz at MJD {}", decimal(found.fisher.parameters.frequency()), pulsar.epoch));
     let size = significant(found.root_mean_square(), 2);

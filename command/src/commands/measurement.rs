@@ -6,8 +6,8 @@ use super::output_file::OutputFile;
 use super::run::read_scene;
 use super::{Failure, MeasurementArgs, TableArgs, note};
 use crate::text_table::text_table;
+use twofold::Error;
 use twofold::inference::{Fisher, InferenceError, Model, Signal, Unknown};
-use twofold_scene::Refusal;
 use twofold_scene::measurements;
 use twofold_scene::scene_file::Columns;
 use twofold_scene::significant::significant;
@@ -30,10 +30,7 @@ impl Measurement {
     pub(super) fn read(args: &MeasurementArgs) -> Result<Self, Failure> {
         let scene = read_scene(&args.scene, Columns::Unused)?;
         let of = measurements::Measurement::new(scene, &args.observe, args.parameters.as_deref());
-        let of = of.map_err(|error| match error {
-            Refusal::Input(why) => Failure::BadInput(format!("{why} ({})", args.scene)),
-            Refusal::Model(error) => error.into(),
-        })?;
+        let of = of.map_err(|why| Failure::BadInput(format!("{why} ({})", args.scene)))?;
         Ok(Self { name: args.scene.clone(), of })
     }
 
@@ -51,8 +48,8 @@ impl Measurement {
 
     pub(super) fn refused(&self, error: InferenceError) -> Failure {
         match error {
-            InferenceError::Model(error) => error.into(),
-            error @ (InferenceError::Rounding { .. } | InferenceError::TooFew { .. }) => {
+            InferenceError::Model(error @ (Error::Unsupported { .. } | Error::NotConverged { .. })) => error.into(),
+            error @ (InferenceError::Rounding { .. } | InferenceError::TooFew { .. } | InferenceError::Model(_)) => {
                 Failure::BadInput(format!("{}: {error}", self.name))
             }
             error => Failure::Failed(format!("{}: {error}", self.name)),
@@ -92,6 +89,11 @@ pub(super) fn write_csv(args: &TableArgs, rows: &[Vec<String>]) -> Result<(), Fa
     output.complete()
 }
 
+/// A count with its noun: `1 prior` or `2 priors`.
+pub(super) fn counted(number: usize, noun: &str) -> String {
+    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
+}
+
 /// A table for reading: the first row is its header; the first column is aligned left, the others right.
 pub(super) fn readable(rows: &[Vec<String>]) -> String {
     text_table(rows, |column| column > 0, false) + "\n"
@@ -106,6 +108,11 @@ pub(super) fn uncertainties<M: Model>(
 ) -> [Vec<Vec<String>>; 2] {
     let (unknowns, values, sigmas) = (&fisher.unknowns, fisher.values(), fisher.sigmas());
     let correlations = fisher.correlations();
+    // To two digits of sigma, as far as a double has them.
+    let digits = |value: f64, sigma: f64| {
+        let [first, of_sigma] = [value.abs(), sigma].map(|x| x.log10().floor());
+        (first - of_sigma + 2.0).clamp(10.0, 17.0) as usize
+    };
     let mut short = vec![["", "value", "sigma", "sigma/|value|", "unit", "correlated most"].map(String::from).to_vec()];
     let mut all = vec![["parameter", "value", "sigma", "unit"].map(String::from).to_vec()];
     all[0].extend(unknowns.iter().map(|unknown| format!("correlation_{}", unknown.key())));
@@ -119,7 +126,7 @@ pub(super) fn uncertainties<M: Model>(
             let relative = if value == 0.0 { String::new() } else { format!("{:.1e}", sigma / value.abs()) };
             vec![
                 unknown.symbol().to_owned(),
-                significant(value, 10),
+                significant(value, digits(value, sigma)),
                 format!("{sigma:.2e}"),
                 relative,
                 unit.clone(),
@@ -189,6 +196,11 @@ mod tests {
         assert_eq!(found, expected.map(|row| row.map(String::from).to_vec()));
         // A parameter with the value zero has no relative error.
         let fisher = Fisher { unknowns: vec![F2], covariance: dmatrix![4e-30], ..fisher };
+        // Two digits of each sigma, at least ten and at most seventeen in all.
+        for (sigma, digits) in [(3e-9, "0.2500000000"), (3e-11, "0.250000000000"), (3e-20, "0.25000000000000000")] {
+            let fisher = Fisher { unknowns: vec![Wobble], covariance: dmatrix![sigma * sigma], ..fisher.clone() };
+            assert_eq!(uncertainties(&fisher, |_| (1.0, String::new()))[0][1][1], digits, "{sigma:e}");
+        }
         assert_eq!(uncertainties(&fisher, |_| (1.0, String::new()))[0][1][2..4], ["2.00e-15", ""]);
         // Names are aligned left, numbers right.
         let page = readable(&short);

@@ -80,7 +80,7 @@ pub(crate) enum Command {
     Timing(timing::TimingArgs),
     /// Find the spectral lines of a column of a scene, identify them by the fundamental frequencies of the motion, write them as CSV
     ///
-    /// All lines are found, from the exact motion: the scene's [time] does not matter. Notes on standard error give the fundamental
+    /// All lines are found, from the exact motion or, of a star with a bulge, the averaged one: the scene's [time] does not matter. Notes on standard error give the fundamental
     /// frequencies, the constant term and the largest residual of the lines.
     Spectrum(spectrum::SpectrumArgs),
     /// Compute many scenes (grids, lists or random draws of the parameters of one), and write a table with one row for each

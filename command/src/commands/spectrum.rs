@@ -50,6 +50,8 @@ fn note_lines(column: &Column, summary: &LinesSummary) {
     }
     let [x, y, z] = summary.pole;
     if z < 1.0 {
+        // Without the sign of a zero.
+        let [x, y, z] = [x, y, z].map(|part| if part.abs() < 5e-7 { 0.0 } else { part });
         note(&format!(
             "these are rates of angles about the axis ({x:.6}, {y:.6}, {z:.6}), about which L precesses, not about Z"
         ));

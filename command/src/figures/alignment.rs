@@ -62,7 +62,7 @@ fn caption(subjects: &[&Subject], tables: &[Table]) -> Caption {
     Caption {
         shows: text("shows", &[("pulses", pulses.to_owned())]),
         parameters: parameters(&line_of_sight(subjects, true), subjects),
-        method: text("method", &[]),
+        method: text("method", &[("kind", subjects[0].kind().to_owned())]),
         says: format!("The line of sight is inside the beam {}.", parts.join(", ")),
     }
 }
@@ -88,7 +88,7 @@ mod tests {
             [
                 "Cosine of the angle between",
                 "*θ*_{o} = 0.8, *φ*_{o} = 0, *χ* = 0.5, *δ* = 0, *ρ* = 0.6. *ε* = 0.1",
-                "Numerical motion; **m** by Eq. (45)",
+                "Along the numerical motion; **m** by Eq. (45)",
                 "The line of sight is inside the beam at none of the 3 times drawn for a, all the time for b, 33 % of the time for c.",
             ],
         );

@@ -3,7 +3,7 @@
 use super::drawing::*;
 use twofold::observables::spectrum::SpectralLine;
 
-use super::spectrum;
+use super::{plain, spectrum};
 
 /// Range of amplitudes; above the strongest line there is room for names.
 const AMPLITUDES: (f64, f64) = (1e-5, 40.0);
@@ -35,13 +35,33 @@ fn panel(subject: &Subject, i: usize, count: usize, highest: f64) -> Panel {
     Panel::new(GRID.frame(0, i), if i + 1 == count { x } else { x.bare() }, y)
 }
 
+/// The size of names.
+const SIZE: f64 = 7.0;
+
+/// The baseline of the vertical name above a line at `x`, clear of the ticks at the left.
+fn baseline(panel: &Panel, x: f64) -> f64 {
+    (x + 2.5).max(panel.frame.left + 10.5)
+}
+
+/// About the length of a name: the widths of its letters in the font.
+fn length(name: &str) -> f64 {
+    let width = |letter: char| match letter {
+        ' ' => 0.28,
+        'l' => 0.23,
+        _ => 0.59,
+    };
+    SIZE * plain(name).chars().filter(|letter| *letter != '_').map(width).sum::<f64>()
+}
+
 /// The names above lines with their places, the strongest first, as far as there is room.
 fn names(panel: &Panel, lines: &[SpectralLine], highest: f64) -> Vec<([f64; 2], String)> {
     let mut names: Vec<([f64; 2], String)> = Vec::new();
     for line in lines.iter().filter(|line| line.amplitude > NAMED && line.frequency < highest) {
         let [x, y] = panel.at(line.frequency, line.amplitude);
-        if names.iter().all(|([other, _], _)| (x - other).abs() > 8.4) {
-            names.push(([x, y], spectrum::name(&line.combination)));
+        let name = spectrum::name(&line.combination);
+        let is_apart = |other: f64| (baseline(panel, x) - baseline(panel, other)).abs() > 8.4;
+        if names.iter().all(|([other, _], _)| is_apart(*other)) && y - 3.0 - length(&name) > panel.frame.top {
+            names.push(([x, y], name));
         }
     }
     names
@@ -57,9 +77,8 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[Vec<SpectralLine>], highes
         }
         spectrum::draw_lines(&mut page, &panel, lines, AMPLITUDES.0, solid(BLACK, 0.7));
         for ([x, y], name) in names(&panel, lines, highest) {
-            // Vertical, clear of the ticks at the left.
-            let baseline = (x + 2.5).max(panel.frame.left + 10.5);
-            page.turned_text([baseline, y - 3.0], -90.0, Anchor::Start, 7.0, BLACK, &name);
+            let at = [baseline(&panel, x), y - 3.0];
+            page.turned_text(at, -90.0, Anchor::Start, SIZE, BLACK, &name);
         }
         panel.draw_frame(&mut page);
         panel.letter(&mut page, i, count, &subject.name);

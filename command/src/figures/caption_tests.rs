@@ -267,7 +267,10 @@ fn captions_tell_of_what_is_drawn() {
                 // Points of a motion without curves are joined if there are two.
                 let has_curves = |name: &str| figure.tables.iter().any(|table| table.name == format!("{name}-curves"));
                 let is_joined = figure.tables.iter().any(|table| {
-                    table.name.strip_suffix("-lengths").is_some_and(|name| !has_curves(name)) && table.rows.len() > 1
+                    table.name.strip_suffix("-lengths").is_some_and(|name| {
+                        let gaps = figure.tables.iter().find(|table| table.name == format!("{name}-gaps"));
+                        !has_curves(name) && table.rows.len() > 1 + gaps.map_or(0, |gaps| gaps.rows.len())
+                    })
                 });
                 told(4, caption.shows.contains("Thin grey lines join points"), is_joined);
             }

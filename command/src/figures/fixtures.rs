@@ -83,7 +83,7 @@ pub(super) fn figure(name: &str) -> &'static Figure {
 /// The scenes with their names, in the order in which their figures follow those of the paper.
 pub(super) fn scenes() -> Vec<(&'static str, Scene)> {
     let built_in = SCENES.iter().map(|name| (*name, Scene::named(name).unwrap()));
-    let files = [("tilted", TILTED), ("tone", TONE), ("askew", ASKEW)];
+    let files = [("tilted", TILTED), ("tone", TONE), ("askew", ASKEW), ("at-rest", AT_REST), ("spinless", SPINLESS)];
     built_in.chain(files.map(|(name, text)| (name, Scene::from_toml(name, text).unwrap()))).collect()
 }
 
@@ -116,6 +116,26 @@ initial = { kind = "twofold", alpha_0 = 0.3, beta_0 = 0.7, amplitude = 0.001, ph
 observer = { theta_o = 1.5, phi_o = 0.0, distance = 1.0 }
 pulsar = { chi = 0.1, rho = 0.05 }
 time = { span = 5.0, samples = 3 }
+"#;
+
+/// A star at rest, which librates; its lines are named by the angles of the torus.
+const AT_REST: &str = r#"
+star = { inertia_ratio = 1.1, spin = 0.0 }
+lorentz_violation.eigenvalues = [0.02, 0.01, -0.04]
+initial = { alpha = 1.2, beta = 0.7, gamma = 0.3, alpha_rate = 0.0, beta_rate = 0.0 }
+observer = { theta_o = 0.8, phi_o = 0.2 }
+pulsar = { chi = 0.5, delta = 0.1, rho = 0.6 }
+time = { span = 100.0, samples = 101 }
+"#;
+
+/// A star that does not turn about its symmetry axis.
+const SPINLESS: &str = r#"
+star = { inertia_ratio = 1.1, spin = 0.0 }
+lorentz_violation.eigenvalues = [0.02, 0.01, -0.04]
+initial = { alpha = 1.2, beta = 0.7, gamma = 0.3, alpha_rate = 1.4, beta_rate = 0.1 }
+observer = { theta_o = 0.8, phi_o = 0.2 }
+pulsar = { chi = 0.5, delta = 0.1, rho = 0.6 }
+time = { span = 100.0, samples = 101 }
 "#;
 
 /// Runs of more methods than exist.

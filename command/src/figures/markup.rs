@@ -1,4 +1,4 @@
-//! The light markup of labels and captions: `*t*` italic, `**m**` bold, `_{c}` and `^{-1}` below and above the line.
+//! The light markup of labels and captions: `*t*` italic, `**m**` bold, `_{c}` and `^{-1}` below and above the line; what follows a backslash is itself.
 //!
 //! Labels in pictures become `<tspan>`s, captions Markdown or HTML; a name in a table loses its markup.
 
@@ -8,6 +8,8 @@ pub(super) struct Run {
     pub(super) italic: bool,
     pub(super) bold: bool,
     pub(super) level: Level,
+    /// A character that stands after a backslash.
+    pub(super) is_literal: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,9 +21,16 @@ pub(super) enum Level {
 
 pub(super) fn runs(text: &str) -> Vec<Run> {
     let mut runs = Vec::new();
-    let mut run = Run { text: String::new(), italic: false, bold: false, level: Level::Line };
+    let mut run = Run { text: String::new(), italic: false, bold: false, level: Level::Line, is_literal: false };
     let mut rest = text;
     while let Some(first) = rest.chars().next() {
+        if let Some(literal) = rest.strip_prefix('\\').and_then(|rest| rest.chars().next()) {
+            let before = std::mem::take(&mut run.text);
+            let parts = [(before, false), (literal.to_string(), true)].into_iter().filter(|(text, _)| !text.is_empty());
+            runs.extend(parts.map(|(text, is_literal)| Run { text, is_literal, ..run.clone() }));
+            rest = &rest[1 + literal.len_utf8()..];
+            continue;
+        }
         let mut next = run.clone();
         let taken = if rest.starts_with("**") {
             next.bold = !run.bold;
@@ -83,7 +92,8 @@ pub fn html(text: &str) -> String {
 pub fn markdown(text: &str) -> String {
     let mut markdown = String::new();
     for run in runs(text) {
-        let (mark, inner) = (["", "*", "**", "***"][usize::from(run.italic) + 2 * usize::from(run.bold)], &run.text);
+        let mark = ["", "*", "**", "***"][usize::from(run.italic) + 2 * usize::from(run.bold)];
+        let inner = if run.is_literal { format!("\\{}", run.text) } else { run.text };
         markdown += &match run.level {
             Level::Line => format!("{mark}{inner}{mark}"),
             Level::Below => format!("<sub>{mark}{inner}{mark}</sub>"),
@@ -91,6 +101,12 @@ pub fn markdown(text: &str) -> String {
         };
     }
     markdown
+}
+
+/// A text that is not markup, with a backslash before what would be some here or in Markdown.
+pub fn literal(text: &str) -> String {
+    let is_mark = |c: &char| "\\`*_^{}<>[]&".contains(*c);
+    text.chars().flat_map(|c| Some('\\').filter(|_| is_mark(&c)).into_iter().chain([c])).collect()
 }
 
 /// The text with the special characters of XML and HTML replaced.
@@ -118,6 +134,16 @@ mod tests {
         assert_eq!(html(text), "<i>a</i><sup>(1)</sup> &lt; <i>t</i><sub>c</sub><sup>-1</sup>, <b>m</b>·<b>n</b>");
         assert_eq!(markdown(text), "*a*<sup>(1)</sup> < *t*<sub>c</sub><sup>-1</sup>, **m**·**n**");
         assert_eq!(plain("a } b { c"), "a } b { c");
+    }
+
+    #[test]
+    fn what_is_no_markup_stays_as_it_is() {
+        let name = r"my*star*_{x}^{<b>}\&`[";
+        let text = format!("*a* {} **b**", literal(name));
+        assert_eq!(plain(&text), format!("a {name} b"));
+        assert_eq!(html(&text), format!("<i>a</i> {} <b>b</b>", escaped(name)));
+        assert_eq!(markdown(&text), r"*a* my\*star\*\_\{x\}\^\{\<b\>\}\\\&\`\[ **b**");
+        assert_eq!([literal("tp-1"), plain("a\\")], ["tp-1", "a\\"]);
     }
 
     #[test]

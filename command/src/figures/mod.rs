@@ -64,7 +64,7 @@ mod work_precision;
 pub(crate) use caption::Caption;
 pub(crate) use examples::examples;
 pub use golden::golden_tables;
-pub(crate) use markup::{html, markdown, plain};
+pub(crate) use markup::{html, literal, markdown, plain};
 pub(crate) use png::png;
 use rayon::prelude::*;
 pub use readme::readme_picture;

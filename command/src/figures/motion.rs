@@ -132,7 +132,7 @@ fn caption(subject: &Subject, angles: &Table) -> Caption {
             format!("*β* is {}. No perturbation solution is drawn: {why}.", inclination.in_words(" rad"))
         }
         (Some(_), Ok(_)) => {
-            format!("Differences from the numerical motion over the span shown: {}.", errors.join("; "))
+            format!("Differences from the {} motion over the span shown: {}.", subject.kind(), errors.join("; "))
         }
     };
     let solutions = match (subject.printed, subject.corrected) {
@@ -148,9 +148,7 @@ fn caption(subject: &Subject, angles: &Table) -> Caption {
     Caption {
         shows: sentences("motion", "shows", &words),
         parameters: parameters("", &[subject]),
-        method: format!(
-            "Numerical: Taylor series of the regular equations of motion, Eq. (25) without its poles.{solutions}"
-        ),
+        method: sentences("motion", subject.kind(), &[]) + solutions,
         says,
     }
 }

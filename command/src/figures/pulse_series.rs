@@ -149,7 +149,7 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
             let points = pairs(points);
             panel.marks(&mut page, &points, Mark::Disc, 1.4, BLACK);
             if points.is_empty() {
-                panel.remark(&mut page, "no whole pulse");
+                panel.remark(&mut page, if series.pulses.lengths.is_empty() { "no whole pulse" } else { "no period" });
             }
             panel.draw_frame(&mut page);
             if let Some(reference) = reference {
@@ -182,7 +182,7 @@ fn shifted(points: impl Iterator<Item = (f64, f64)>, by: f64) -> Vec<(f64, f64)>
 }
 
 fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
-    let text = |part| sentences("pulse-series", part, &[]);
+    let text = |part| sentences("pulse-series", part, &[("kind", subjects[0].kind().to_owned())]);
     let ranges = subjects.iter().zip(series).map(|(subject, Series { pulses, .. })| {
         let name = &subject.name;
         let unit = format!(" {}", subject.scale.time_unit());
@@ -198,7 +198,7 @@ fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
             0 => String::new(),
             count => format!(" ({count} of {} intervals left out)", count + pulses.periods.len()),
         };
-        let periods = range(&pulses.periods).map_or(String::new(), |range| format!(", periods {range}{left_out}"));
+        let periods = range(&pulses.periods).map_or(String::new(), |range| format!(", periods {range}")) + &left_out;
         let lengths = range(&pulses.lengths).map_or(String::new(), |range| format!(", lengths {range}"));
         format!("{name}: {whole}{periods}{lengths}.")
     });
@@ -221,7 +221,9 @@ fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
         [false, true] => " Of the lengths the differences from the *W* given in the panel are drawn.",
         [false, false] => "",
     };
-    let is_joined = |series: &&Series| series.curves.is_none() && series.pulses.lengths.len() > 1;
+    let is_joined = |series: &&Series| {
+        series.curves.is_none() && series.pieces(&series.pulses.lengths).any(|piece| piece.len() > 1)
+    };
     if series.iter().any(|series| is_joined(&series)) {
         let only = if series.iter().any(|series| series.curves.is_some()) { " where there are no curves" } else { "" };
         let broken = match series.iter().filter(is_joined).any(|series| !series.pulses.gaps.is_empty()) {
@@ -305,7 +307,7 @@ mod tests {
             "{}",
             told.parameters
         );
-        let text = |part| sentences("pulse-series", part, &[]);
+        let text = |part| sentences("pulse-series", part, &[("kind", "numerical".to_owned())]);
         let rest = |said: &str, part| said.strip_prefix(&text(part)).expect("the text").to_owned();
         let says = told.says.replace(&text("formulas"), "<formulas>").replace(&text("modulation"), "<modulation>");
         [

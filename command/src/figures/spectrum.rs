@@ -1,7 +1,7 @@
 //! Common parts of the two figures of spectra: the lines of an observable, their table and their names.
 
 use twofold::dynamics::BodyState;
-use twofold::observables::spectrum::{Combination, SpectralLine};
+use twofold::observables::spectrum::{Combination, FundamentalFrequency, SpectralLine};
 
 use super::drawing::*;
 use super::number::significant;
@@ -38,7 +38,16 @@ pub(super) fn name(combination: &Combination) -> String {
     if let Some(rest) = name.strip_prefix('-') {
         name = format!("\u{2212}{rest}");
     }
-    let symbols = [("alpha'", "*α*"), ("gamma'", "*γ*"), ("nu'", "*ν*"), ("psi'", "*ψ*"), ("l'", "*l*")];
+    let symbols = [
+        ("alpha'", "*α*"),
+        ("gamma'", "*γ*"),
+        ("nu'", "*ν*"),
+        ("psi'", "*ψ*"),
+        ("theta_1'", "*θ*_{1}"),
+        ("theta_2'", "*θ*_{2}"),
+        ("theta_3'", "*θ*_{3}"),
+        ("l'", "*l*"),
+    ];
     symbols.iter().fold(name, |name, (plain, symbol)| name.replace(plain, symbol))
 }
 
@@ -50,6 +59,7 @@ pub(super) fn symbols_in(names: &[String]) -> String {
         ("*l*", "of the slow precession"),
         ("*ν*", "of nutation"),
         ("*ψ*", "of the rotation about the symmetry axis"),
+        ("*θ*", "of the angles of the torus"),
     ];
     let named = meanings.iter().filter(|(symbol, _)| names.iter().any(|name| name.contains(symbol)));
     named.map(|(symbol, meaning)| format!("{symbol} {meaning}")).collect::<Vec<_>>().join(", ")
@@ -74,21 +84,29 @@ pub(super) fn sentence(clauses: &str) -> String {
     letters.next().map_or(String::new(), |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))
 }
 
-/// Words for captions: unit of frequencies, mean rates.
-pub(super) fn of_rates(subjects: &[&Subject]) -> Result<[(&'static str, String); 2], String> {
+/// Words for captions: unit of frequencies, mean rates, and the motion that has the lines.
+pub(super) fn of_rates(subjects: &[&Subject]) -> Result<[(&'static str, String); 3], String> {
+    let motion = match subjects[0].kind() {
+        "averaged" => "averaged motion",
+        _ => "exact motion, from a Fourier series on its torus",
+    };
     let rates = subjects.iter().map(|subject| rates(subject)).collect::<Result<Vec<_>, _>>()?.join("; ");
-    Ok([("unit", subjects[0].scale.frequency_unit().to_owned()), ("rates", rates)])
+    Ok([("unit", subjects[0].scale.frequency_unit().to_owned()), ("rates", rates), ("motion", motion.to_owned())])
 }
 
 fn rates(subject: &Subject) -> Result<String, String> {
     let frequencies = subject.quasi_periodic()?.frequencies();
-    let named = [("*α*", "alpha'"), ("*γ*", "gamma'"), ("*l*", "l'"), ("*ν*", "nu'")].into_iter().filter_map(
-        |(name, symbol)| {
-            let rate = frequencies.rate(symbol).filter(|rate| *rate != 0.0)?;
-            Some(format!("{name} = {}", significant(subject.scale.frequency(rate), 7)))
-        },
-    );
-    Ok(format!("{}: {}", subject.name, named.collect::<Vec<_>>().join(", ")))
+    let is_told = |of: &&FundamentalFrequency| of.rate != 0.0 && of.symbol != "psi'";
+    let mut told: Vec<_> = frequencies.all.iter().filter(is_told).collect();
+    if told.is_empty() {
+        told.extend(frequencies.basis.iter().filter(is_told));
+    }
+    let in_words = |of: &FundamentalFrequency| {
+        let name = name(&Combination { terms: vec![(1, of.symbol)] });
+        format!("{name} = {}", significant(subject.scale.frequency(of.rate), 7))
+    };
+    let told: Vec<_> = told.into_iter().map(in_words).collect();
+    Ok(format!("{}: {}", subject.name, told.join(", ")))
 }
 
 /// The highest frequency in a figure, in its unit: a multiple of the rate of rotation, rounded up to half of its first digit.
@@ -129,7 +147,7 @@ mod tests {
     #[test]
     fn rates_of_free_precession_are_those_of_eq_48() {
         let [slow, fast] = [0.01, 1.0].map(|spin| star("a", spin, [0.0; 3], CONSTANTS));
-        let [unit, rates] = of_rates(&[&slow, &fast]).unwrap();
+        let [unit, rates, _] = of_rates(&[&slow, &fast]).unwrap();
         assert_eq!(unit, ("unit", "rad/*t*_{c}".to_owned()));
         let told = "a: *α* = 0.01438205, *γ* = \u{2212}0.001, *ν* = 0.01438205; a: *α* = 1.438205, *γ* = \u{2212}0.1, *ν* = 1.438205";
         assert_eq!(rates, ("rates", told.to_owned()));
@@ -142,7 +160,7 @@ mod tests {
     /// 57 Hz times `1.001 / cos 0.3` and `-0.001`.
     #[test]
     fn rates_of_a_physical_star_are_in_hertz() {
-        let [unit, (_, rates)] = of_rates(&[&tone(1.0, 1.0)]).unwrap();
+        let [unit, (_, rates), _] = of_rates(&[&tone(1.0, 1.0)]).unwrap();
         assert_eq!(unit.1, "Hz");
         assert_eq!(rates, "tone: *α* = 59.72451, *γ* = \u{2212}0.057, *ν* = 59.72451");
     }

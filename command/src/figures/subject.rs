@@ -32,7 +32,7 @@ pub struct Shown {
 /// A motion with everything that its figures need.
 #[derive(Debug, Clone)]
 pub struct Subject {
-    /// Name in headings, `tp-I`.
+    /// Name in headings, `tp-I`; markup.
     pub name: String,
     /// The star, `s^IJ` and the state at the start, in the paper's units: `I^xx = C = 1`, time in `t_c`.
     pub problem: Problem<f64>,
@@ -109,6 +109,11 @@ impl Subject {
             .ok()
             .and_then(|printed| corrected_solution(printed, scene.problem.spheroid(), &s, motion.spin()));
         Ok(Self { scale, printed, corrected, observer: scene.observer, pulsar: scene.pulsar, ..motion })
+    }
+
+    /// How the motion is found, in a word.
+    pub(super) fn kind(&self) -> &'static str {
+        if self.problem.bulge() == 0.0 { "numerical" } else { "averaged" }
     }
 
     /// `Omega^z`.

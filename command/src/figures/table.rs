@@ -1,5 +1,7 @@
 //! The data of a figure as columns of numbers.
 
+use super::markup::plain;
+
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     /// Name that distinguishes it from other tables of its figure; empty if it is the only one.
@@ -11,9 +13,9 @@ pub struct Table {
 }
 
 impl Table {
-    /// An empty table with the given headers.
+    /// An empty table with the given headers, and a name that loses its markup.
     pub(super) fn new<C: Into<String>>(name: impl Into<String>, columns: impl IntoIterator<Item = C>) -> Self {
-        Self { name: name.into(), columns: columns.into_iter().map(Into::into).collect(), rows: Vec::new() }
+        Self { name: plain(&name.into()), columns: columns.into_iter().map(Into::into).collect(), rows: Vec::new() }
     }
 
     pub(super) fn push(&mut self, row: impl Into<Vec<f64>>) {

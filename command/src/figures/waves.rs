@@ -74,7 +74,7 @@ fn radiates(subject: &Subject, table: &Table) -> bool {
 }
 
 fn caption(subjects: &[&Subject], tables: &[Table]) -> Caption {
-    let text = |part| sentences("waves", part, &[]);
+    let text = |part| sentences("waves", part, &[("kind", subjects[0].kind().to_owned())]);
     let unit = match subjects[0].viewer().ok().and_then(|viewer| viewer.distance) {
         Some(distance) => format!(", as strain at {} kpc", significant(distance / KILOPARSEC, 4)),
         None => "; *h* *r* / *I*^{*xx*} counts multiples of *G* / (*c*^{4} *t*_{c}^{2})".to_owned(),
@@ -86,9 +86,10 @@ fn caption(subjects: &[&Subject], tables: &[Table]) -> Caption {
                 format!("For {}, *h*_{{+}} is {plus} and *h*_{{×}} {cross}", subject.name)
             }
             _ => format!(
-                "For {}, both are below {}, what the error of the numerical motion makes",
+                "For {}, both are below {}, what the error of the {} motion makes",
                 subject.name,
-                significant(error(subject), 1)
+                significant(error(subject), 1),
+                subject.kind()
             ),
         }
     };
@@ -169,7 +170,7 @@ mod tests {
             [
                 "Quadrupole waves *h*_{+} and *h*_{×} at the observer in time; *h* *r* / *I*^{*xx*} counts multiples of",
                 "*θ*_{o} = 0.8, *φ*_{o} = 0. *ε* = 0.1",
-                "Numerical motion; second time derivative",
+                "Of the numerical motion, the second time derivative",
                 "For a, *h*_{+} is from −0.25 to 0.125 and *h*_{×} from 0.5 to 2. For b, both are below 2 × 10^{−12}, what the error of the \
                  numerical motion makes; the scales are the same. For tp-I",
             ],

@@ -55,7 +55,8 @@ fn source() -> Option<String> {
 }
 
 fn in_words(commit: &str, changes: &str) -> String {
-    format!("commit {commit}{}", if changes.is_empty() { "" } else { ", with changes not committed" })
+    let changes = if changes.is_empty() { "" } else { ", with changes not committed," };
+    format!("source folder at commit {commit}{changes} when the report was made")
 }
 
 #[cfg(test)]
@@ -64,8 +65,9 @@ mod tests {
 
     #[test]
     fn changes_that_are_not_committed_are_told() {
-        assert_eq!(in_words("61a92c83", ""), "commit 61a92c83");
-        assert_eq!(in_words("61a92c83", " M src/lib.rs"), "commit 61a92c83, with changes not committed");
+        assert_eq!(in_words("61a92c83", ""), "source folder at commit 61a92c83 when the report was made");
+        let told = in_words("61a92c83", " M src/lib.rs");
+        assert_eq!(told, "source folder at commit 61a92c83, with changes not committed, when the report was made");
     }
 
     /// Debug assertions are evaluated in a build that has them, and in no other.

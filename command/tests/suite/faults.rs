@@ -234,7 +234,7 @@ fn tables_beyond_the_bounds_are_refused() {
     folder.write("long.csv", header.to_owned() + &"1,2,3\n".repeat(100_001));
     folder.write("bytes.csv", [header.as_bytes(), b"1,\xff,3\n"].concat());
     for (name, why) in [
-        ("wide.csv", "no column `t [t_c]`: its columns are x, x, "),
+        ("wide.csv", "nor `t`, of strains: its columns are x, x, "),
         ("wide.csv", "and 199971 more"),
         ("long.csv", "long.csv:100002: one row too many: allowed are 100000 in a file"),
         ("bytes.csv", "bytes.csv: is not UTF-8 text (byte 34, line "),

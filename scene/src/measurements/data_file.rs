@@ -25,6 +25,17 @@ pub struct DataFile {
     pub(super) text: String,
 }
 
+fn is_among(kind: Observable, noise: &[Noise]) -> bool {
+    noise.iter().any(|(observable, _)| *observable == kind)
+}
+
+/// The names in a header, for messages.
+fn listed(header: &csv::StringRecord) -> String {
+    let mut found: Vec<_> = header.iter().take(MOST_NAMED).map(shortened).collect();
+    found.extend((header.len() > MOST_NAMED).then(|| format!("and {} more", header.len() - MOST_NAMED)));
+    found.join(", ")
+}
+
 /// Every row with its line number, with its fields in the requested order.
 type Rows = Vec<(u64, Vec<String>)>;
 
@@ -42,38 +53,56 @@ impl DataFile {
         Ok(Self { name: name.to_owned(), text })
     }
 
-    /// Whether it is a table of pulses, according to its header.
+    /// Whether it is a table of pulses or else of strains, according to its header.
+    ///
+    /// # Errors
+    /// It is neither.
     pub fn is_of_pulses(&self) -> Result<bool, String> {
-        Ok(self.columns()?.iter().any(|column| column == "turn" || column.starts_with("midpoint [")))
+        let header = self.columns()?;
+        let has = |start: &str| header.iter().any(|column| column.starts_with(start));
+        let of_pulses = header.iter().any(|column| column == "turn") || has("midpoint [");
+        if of_pulses || has("t [") {
+            return Ok(of_pulses);
+        }
+        Err(format!(
+            "{}: no columns `turn` and `midpoint`, of pulses, nor `t`, of strains: its columns are {}, separated by commas",
+            self.name,
+            listed(&header)
+        ))
+    }
+
+    fn reader(&self) -> csv::Reader<&[u8]> {
+        csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(self.text.as_bytes())
     }
 
     /// The names in the header.
     pub(super) fn columns(&self) -> Result<csv::StringRecord, String> {
-        let mut reader = csv::Reader::from_reader(self.text.as_bytes());
-        Ok(reader.headers().map_err(|error| format!("{}: {error}", self.name))?.clone())
+        Ok(self.reader().headers().map_err(|error| format!("{}: {error}", self.name))?.clone())
     }
 
+    /// The fields of the wanted columns; a name that is empty stands for a column that is not used, and has empty fields.
     pub(super) fn rows(&self, wanted: &[String]) -> Result<Rows, String> {
         let name = &self.name;
-        let mut reader = csv::Reader::from_reader(self.text.as_bytes());
-        let header = reader.headers().map_err(|error| format!("{name}: {error}"))?.clone();
+        let header = self.columns()?;
         let place = |column: &String| {
-            header.iter().position(|found| found == column).ok_or_else(|| {
-                let mut found: Vec<_> = header.iter().take(MOST_NAMED).map(shortened).collect();
-                found.extend((header.len() > MOST_NAMED).then(|| format!("and {} more", header.len() - MOST_NAMED)));
-                let found = found.join(", ");
-                format!("{name}: no column `{column}`: its columns are {found}")
-            })
+            let mut places = (0..header.len()).filter(|place| header[*place] == **column);
+            match (places.next(), places.next()) {
+                _ if column.is_empty() => Ok(None),
+                (Some(_), Some(_)) => Err(format!("{name}: the column `{column}` is there twice: allowed is once")),
+                (None, _) => Err(format!("{name}: no column `{column}`: its columns are {}", listed(&header))),
+                (place, None) => Ok(place),
+            }
         };
         let places = wanted.iter().map(place).collect::<Result<Vec<_>, _>>()?;
         let mut rows = Vec::new();
-        for record in reader.into_records() {
+        for record in self.reader().into_records() {
             let record = record.map_err(|error| format!("{name}: {error}"))?;
             let line = record.position().expect("a record that was read has a place").line();
             if rows.len() == MOST_ROWS {
                 return Err(format!("{name}:{line}: one row too many: allowed are {MOST_ROWS} in a file"));
             }
-            rows.push((line, places.iter().map(|place| record.get(*place).unwrap_or("").to_owned()).collect()));
+            let field = |place: &Option<usize>| place.and_then(|place| record.get(place)).unwrap_or("").to_owned();
+            rows.push((line, places.iter().map(field).collect()));
         }
         Ok(rows)
     }
@@ -81,54 +110,67 @@ impl DataFile {
     pub(super) fn number(&self, line: u64, column: &str, text: &str) -> Result<f64, String> {
         match text.parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),
-            _ => Err(format!("{}:{line}: `{column}` is `{}`: allowed is a finite number", self.name, shortened(text))),
+            _ => Err(self.refused(line, column, text, "a finite number")),
         }
     }
 
     fn positive(&self, line: u64, column: &str, text: &str) -> Result<f64, String> {
         match self.number(line, column, text)? {
             value if value > 0.0 => Ok(value),
-            _ => Err(format!(
-                "{}:{line}: `{column}` is `{}`: allowed is a number above zero",
-                self.name,
-                shortened(text)
-            )),
+            _ => Err(self.refused(line, column, text, "a number above zero")),
         }
     }
 
     pub(super) fn whole(&self, line: u64, column: &str, text: &str) -> Result<i64, String> {
         let whole = text.parse().ok().filter(|whole| (-LARGEST_TURN..=LARGEST_TURN).contains(whole));
-        whole.ok_or_else(|| {
-            let (name, text) = (&self.name, shortened(text));
-            format!(
-                "{name}:{line}: `{column}` is `{text}`: allowed is a whole number in digits alone, from -1e15 to 1e15"
-            )
-        })
+        whole.ok_or_else(|| self.refused(line, column, text, "a whole number in digits alone, from -1e15 to 1e15"))
+    }
+
+    fn refused(&self, line: u64, column: &str, text: &str, allowed: &str) -> String {
+        format!("{}:{line}: `{column}` is `{}`: allowed is {allowed}", self.name, shortened(text))
     }
 
     /// The data of the whole pulses of the first beam in a table of `twofold pulses`, in units of `t_c` from the start of the
-    /// scene.
+    /// scene. The columns `beam` and `cut` are read if the table has them, those of quantities if these are observed.
     ///
-    /// Pulses without a turn are left out, and so are pulses that share a turn; the number of the latter is returned with the data.
+    /// Pulses that share a turn are left out; their number is returned with the data.
     ///
     /// # Errors
-    /// A column that is missing, a field that is not a number, a duration that is not positive, a pulse that is there twice, or more than 100,000
+    /// A column that is missing or there twice, a field that is not a number, a duration that is not positive, a pulse that is there twice, or more than 100,000
     /// rows; the error names file, line, column and field.
     pub fn pulses(&self, scene: &Scene, noise: &[Noise]) -> Result<(Vec<Datum>, usize), String> {
-        let unit = scene.units.time_name;
+        let (unit, header) = (scene.units.time_name, self.columns()?);
+        let if_there = |name: &str| header.iter().find(|column| *column == name).unwrap_or("").to_owned();
+        let of = |kind: Observable, name: &str| {
+            if is_among(kind, noise) { format!("{name} [{unit}]") } else { String::new() }
+        };
         let wanted = [
-            "beam".to_owned(),
+            if_there("beam"),
             "turn".to_owned(),
             format!("midpoint [{unit}]"),
-            format!("duration [{unit}]"),
-            format!("closest_approach [{unit}]"),
-            format!("period [{unit}]"),
+            of(Observable::Widths, "duration"),
+            of(Observable::ClosestApproaches, "closest_approach"),
+            of(Observable::Periods, "period"),
+            if_there("cut"),
         ];
         let mut rows = Vec::new();
         let mut of_turn: HashMap<i64, usize> = HashMap::new();
         let mut seen = HashSet::new();
         for (line, fields) in self.rows(&wanted)? {
-            if fields[0] != "1" || fields[1].is_empty() {
+            let is_first = match fields[0].as_str() {
+                "1" => true,
+                "2" => false,
+                "" if wanted[0].is_empty() => true,
+                other => return Err(self.refused(line, "beam", other, "1 or 2")),
+            };
+            let is_whole = match fields[6].as_str() {
+                "" => true,
+                "start" | "end" | "both" => false,
+                other => {
+                    return Err(self.refused(line, "cut", other, "start, end, both or, for a whole pulse, nothing"));
+                }
+            };
+            if !(is_first && is_whole) {
                 continue;
             }
             let turn = self.whole(line, "turn", &fields[1])?;
@@ -165,7 +207,9 @@ impl DataFile {
 
     /// The strains in a table of `twofold run` with the columns `h`.
     pub fn strain(&self, scene: &Scene, noise: &[Noise]) -> Result<Vec<Datum>, String> {
-        let wanted = [format!("t [{}]", scene.units.time_name), "h_plus [1]".to_owned(), "h_cross [1]".to_owned()];
+        let of = |kind: Observable, name: &str| if is_among(kind, noise) { name } else { "" }.to_owned();
+        let (plus, cross) = (of(Observable::StrainPlus, "h_plus [1]"), of(Observable::StrainCross, "h_cross [1]"));
+        let wanted = [format!("t [{}]", scene.units.time_name), plus, cross];
         let mut data = Vec::new();
         for (line, fields) in self.rows(&wanted)? {
             let field = |column: usize| self.number(line, &wanted[column], &fields[column]);

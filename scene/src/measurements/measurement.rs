@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use twofold::Error;
-use twofold::inference::{Datum, Event, Noise, Observable, Place, Signal, Unknown, check_span, data_of};
+use twofold::inference::{Datum, Event, Noise, Observable, Place, Signal, Unknown, check_span, data_of, is_long};
 use twofold::parameters::{Parameter, Parameters};
 
 use super::data_file::MOST_ROWS;
@@ -66,6 +66,14 @@ impl Measurement {
         let parameters = parameters_of(&scene)?;
         if sees_pulses {
             check_span(&parameters, end).map_err(|why| refused(why.to_string()))?;
+            let of_every_turn = noise.iter().find(|(observable, _)| observable.is_of_every_turn());
+            if let Some((observable, _)) = of_every_turn.filter(|_| is_long(&parameters, end)) {
+                let (span, unit) = (scene.times.last() - scene.times.start(), scene.units.time_name);
+                return Err(refused(format!(
+                    "--observe {}: the span of [time], {span:?} {unit}, is more than 1e5 rad of rotation: allowed there are arrivals, widths and strains",
+                    observable.key()
+                )));
+            }
         }
         Ok(Self { scene, parameters, noise, unknowns, end })
     }

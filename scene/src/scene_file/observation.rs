@@ -340,7 +340,8 @@ fn listed_times(section: &Section<'_>, start: f64) -> Result<Times, Fault> {
     for (i, (&time, entry)) in times.iter().zip(&entries).enumerate() {
         let onward = if backwards { time < previous } else { time > previous };
         if !(onward || (i == 0 && time == start)) {
-            return Err(entry.refuse("times strictly increasing or strictly decreasing away from `time.start`"));
+            return Err(entry
+                .refuse("a time of a list that is strictly increasing or strictly decreasing away from `time.start`"));
         }
         previous = time;
     }
