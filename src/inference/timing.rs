@@ -357,6 +357,20 @@ mod tests {
         assert_eq!(numbers, [Some(20), Some(21), Some(25), Some(41)]);
     }
 
+    /// `chi^2` grows by one at one standard deviation, whichever pulse the data call the first.
+    #[test]
+    fn a_linear_model_has_no_nonlinearity_whatever_the_numbers() {
+        let model = TimingModel::new([10.0, 0.0], &[]).expect("a model");
+        for origin in [0, 1000] {
+            let mut data =
+                TimingData { arrivals: arrivals(&model, &[20, 21, 25, 41], 0.0, 1e-5), ..TimingData::default() };
+            data.arrivals.iter_mut().for_each(|arrival| arrival.number = arrival.number.map(|number| number + origin));
+            let fisher = timing_fisher(&model, &data, &[Phase]).expect("derivatives");
+            let off = timing_nonlinearity(&fisher, &data).expect("data of the model");
+            assert!(off < 1e-9, "{origin}: {off:e}");
+        }
+    }
+
     /// Two measurements of one number and a prior for it: the result is their weighted mean.
     #[test]
     fn what_is_known_beforehand_counts_as_data() {

@@ -297,4 +297,14 @@ mod tests {
             }
         }
     }
+
+    /// Without a torus and without an averaged motion the reason is that of the torus.
+    #[test]
+    fn the_torus_says_why_there_is_no_motion() {
+        let axis = Vector3::new(1e-9, 1.0, 0.0);
+        let start = BodyState { axis, momentum: axis * 1e-3, equatorial_axis: Vector3::z() };
+        let problem = Problem::new(STAR, tensor([0.2, 0.1, -0.3]), start).unwrap();
+        let refused = PhasedMotion::new(&problem, 1e3).expect_err("an unstable rest");
+        assert!(matches!(refused, Error::Unsupported { why, .. } if why.contains("nearly at rest")), "{refused}");
+    }
 }

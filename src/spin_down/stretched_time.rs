@@ -387,6 +387,24 @@ mod tests {
         }
     }
 
+    /// As above, for a wobble that is damped or excited, which changes the mean of the torque too.
+    #[test]
+    fn the_slowing_of_a_damped_star_follows_its_torque() {
+        for damping in [1e-6, -1e-6] {
+            let precession = Precession::new([0.4, 1.3, 0.7], 0.013, damping);
+            let braking = Braking { rate: 1e-7, index: 3.0, torque_share: 0.7 };
+            let stretched = StretchedTime::new(&braking, &precession).unwrap();
+            for tau in [-3e5, 20.0, 2.7e5] {
+                let change = (stretched.slowing(tau + 1.0) / stretched.slowing(tau - 1.0)).ln();
+                let law = -2.0 * 1e-7 * stretched.braking_over_mean(tau) / stretched.slowing(tau);
+                assert!((change / law - 1.0).abs() < 1e-4, "{damping:e} {tau}: {change:e} {law:e}");
+                // The mean of the torque alone changes it by more.
+                let mean = TorqueHarmonics::new(precession.wobble_at(tau), 1.3).constant;
+                assert!(tau == 20.0 || (mean - precession.torque.constant).abs() > 1e-3, "{mean}");
+            }
+        }
+    }
+
     /// Reference values from another program, with rates of either sign.
     #[test]
     fn what_is_left_out() {

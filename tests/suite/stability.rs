@@ -11,6 +11,12 @@ fn cases() -> Vec<Case> {
 }
 
 #[test]
+fn stated_maxima_are_rounded_up() {
+    let stated = [0.0, 0.01, 0.5, 2.2, 2.7, 99.6, 101.0, 1.234e5].map(table::stated);
+    assert_eq!(stated, ["0.0", "0.5", "0.5", "2.5", "3.0", "100.0", "1.1e2", "1.3e5"]);
+}
+
+#[test]
 fn maxima_are_at_most_those_stated() {
     let page = fs::read_to_string("docs/reliability/stability.md").expect("the page is there");
     for case in cases() {

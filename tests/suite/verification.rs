@@ -5,10 +5,11 @@ use twofold::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::Motion;
 use twofold::{Real, Scalar};
-use twofold_verify::check::{Bound, largest, largest_component, smallest};
+use twofold_verify::check::{Bound, Check, Kind, Measured, Outcome, Worst, largest, largest_component, smallest};
 use twofold_verify::double_double::DoubleDouble;
 use twofold_verify::golden::{GoldenLine, Printed, rounds_to};
 use twofold_verify::pulse_series::Viewing;
+use twofold_verify::report;
 
 #[test]
 fn what_is_not_a_number_is_not_small() {
@@ -18,6 +19,43 @@ fn what_is_not_a_number_is_not_small() {
         assert!(smallest(figures).is_nan() && !Bound::AtLeast(0.0).holds(smallest(figures)));
     }
     assert!(largest_component(&nalgebra::Vector3::new(1.0, f64::NAN, 2.0)).is_nan());
+}
+
+/// Both ends of an interval count, and a case that gives no number is the worst of all.
+#[test]
+fn a_figure_is_compared_with_all_of_its_bound() {
+    let order = Bound::Within(1.9, 2.1);
+    assert_eq!(
+        [1.8, 1.9, 2.0, 2.1, 2.2, f64::NAN].map(|figure| order.holds(figure)),
+        [false, true, true, true, false, false]
+    );
+    for figures in [[0.5, f64::NAN, 2.0], [f64::NAN, 0.5, 2.0]] {
+        let mut worst = Worst::default();
+        figures.iter().for_each(|figure| worst.see(*figure, || format!("at {figure}")));
+        let found = worst.finish().expect("three cases");
+        assert!(found.figure == f64::INFINITY && found.detail == "worst of 3: at NaN", "{found:?}");
+    }
+    assert!(Worst::default().finish().is_err());
+}
+
+/// Small figures keep their digits, and only equations in a row are written as a run.
+#[test]
+fn tables_show_what_was_measured() {
+    let outcome = |figure| Outcome { measured: Ok(Measured::new(figure, "")), passed: true, seconds: 0.0 };
+    let shown = [0.0, 3.25e-13, -3.25e-13, 0.012_34, 1234.5].map(|figure| report::measured(&outcome(figure)));
+    assert_eq!(shown, ["0", "3.250e-13", "-3.250e-13", "0.0123", "1234.5000"]);
+    let check = Check {
+        id: "of-five",
+        kind: Kind::Oracle,
+        equations: &[21, 25, 26, 27, 36],
+        statement: "Five equations",
+        figure: "error",
+        bound: Bound::AtMost(1.0),
+        reason: "none",
+        measure: || Err("not run".to_owned()),
+    };
+    let table = report::tables(&[(check, outcome(0.5))], 200, false);
+    assert!(table.contains("21, 25-27,") && table.contains("36"), "{table}");
 }
 
 /// Unit of the last place, 2^-105.

@@ -62,6 +62,21 @@ fn eta_follows_from_what_is_known() {
     assert!((value(&given, 0, "limit") / value(&given, 0, "limit_over_eta_by_inputs") - 10.0).abs() < 1e-9);
 }
 
+/// The recommended limits are those of the pulse that is named, at 95 %.
+#[test]
+fn the_recommended_limits_are_those_of_their_pulse() {
+    let page = String::from_utf8(ends(twofold(&["bounds"]), 0).stdout).expect("text");
+    let json = bounds_as_json(&Folder::new(), &[]);
+    let recommended = &json["recommended"];
+    let pulse =
+        json["pulses"].as_array().expect("pulses").iter().position(|pulse| pulse["pulse"] == recommended["pulse"]);
+    let pulse = pulse.unwrap_or_else(|| panic!("{recommended}"));
+    let printed = number_after(&page, "so that |alpha_2| < ");
+    let of_pulse = value(&json, pulse, "alpha_2_limit");
+    assert_eq!(recommended["alpha_2"].as_f64(), Some(of_pulse));
+    assert!((printed / of_pulse - 1.0).abs() < 0.05, "{printed:e} {of_pulse:e}");
+}
+
 /// Limits of others follow below a title line, each with its source.
 #[test]
 fn limits_of_others_are_listed() {

@@ -142,6 +142,19 @@ fn widths_limit_the_motion_of_the_axis_and_s() {
     // s = -alpha_2 w w, so that the combination is 2 alpha_2 |w|^2; both numbers have four digits.
     let alpha_2 = number_after(&page, "|alpha_2| is then at most ");
     assert!((alpha_2 * 2.0 * (369.0_f64 / 299_792.458).powi(2) / limit - 1.0).abs() < 1e-3, "{alpha_2}");
+    // With errors far below the rounding of the table the residuals are larger than stated, and there is no limit.
+    let off = |(k, line): (usize, &str)| {
+        let mut fields: Vec<_> = line.split(',').map(str::to_owned).collect();
+        let place = lines[0].split(',').position(|name| name.starts_with("duration")).expect("durations");
+        if k > 0 {
+            let width: f64 = fields[place].parse().expect("a number");
+            fields[place] = (width * if k % 2 == 0 { 1.01 } else { 0.99 }).to_string();
+        }
+        fields.join(",")
+    };
+    folder.write("scattered.csv", table.lines().enumerate().map(off).collect::<Vec<_>>().join("\n"));
+    let page = stdout(&folder.succeeds(&["limits", "star.toml", "scattered.csv", "--observe", "widths:1e-6"]));
+    assert!(!page.contains("s^ZZ") && row(&page, "inclination_rate").len() > 2, "{page}");
 }
 
 #[test]

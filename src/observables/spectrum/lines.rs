@@ -236,6 +236,24 @@ mod tests {
         assert!(all.lines.windows(2).all(|pair| pair[0].amplitude >= pair[1].amplitude && pair[1].frequency > 0.0));
     }
 
+    /// With `x = cos theta` a polynomial of Chebyshev is one line. On eight points the line of `7 theta` adds to that of `theta`: the amplitude of
+    /// `3 theta` at the edge of the grid shows that there may be such lines.
+    #[test]
+    fn amplitudes_are_right_to_a_tenth_of_the_least_one() {
+        let star = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 0.5, constant_c: 0.0 };
+        let axis = Vector3::new(0.75_f64.sqrt(), 0.0, 0.5);
+        let initial = BodyState { axis, momentum: Vector3::z(), equatorial_axis: Vector3::y() };
+        let found = motion(&Problem::new(star, Matrix3::zeros(), initial).unwrap());
+        let chebyshev = |k: f64, x: f64| (k * x.clamp(-1.0, 1.0).acos()).cos();
+        for edge in [1.1e-4, 1.5e-4, 1.9e-4] {
+            let all = lines(&found, 1e-3, |state| {
+                let x = state.axis.x / axis.x;
+                x + edge * chebyshev(3.0, x) + 1.1e-4 * chebyshev(7.0, x)
+            });
+            assert!((all.lines[0].amplitude - 1.0).abs() < 1e-4, "{edge:e}: {:?}", all.lines[0]);
+        }
+    }
+
     #[test]
     fn frames_do_not_change_lines() {
         let given = problem([0.02, 0.01, -0.03]);

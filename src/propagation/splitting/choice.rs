@@ -310,6 +310,12 @@ mod tests {
     }
 
     #[test]
+    fn fewer_derivatives_than_states_meet_the_tolerance() {
+        let coverage = |goal| cheapest(&scene(1.0, 0.01), (0.0, 10.0), 1e-9, goal).coverage;
+        assert_eq!([coverage(Goal::State), coverage(Goal::Derivatives)], [0.99, 0.95]);
+    }
+
+    #[test]
     fn a_body_at_rest_takes_one_step() {
         for (duration, step) in [(5.0, 5.0), (0.25, 1.0)] {
             let at_rest = cheapest(&scene(0.0, 0.0), (3.0, 3.0 + duration), 1e-5, Goal::State);
