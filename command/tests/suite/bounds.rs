@@ -1,6 +1,6 @@
 //! The command `twofold bounds` as a user sees it: status, messages, output.
 
-use crate::common::{Folder, ends, is_refused, twofold};
+use crate::common::{Folder, ends, is_refused, number_after, twofold};
 use twofold_verify::refused_files::refused_files;
 
 #[test]
@@ -69,7 +69,7 @@ fn the_recommended_limits_are_those_of_their_pulse() {
     let json = bounds_as_json(&Folder::new(), &[]);
     let recommended = &json["recommended"];
     let pulse =
-        json["pulses"].as_array().expect("pulses").iter().position(|pulse| pulse["pulse"] == recommended["pulse"]);
+        json["pulses"].as_array().expect("pulses").iter().position(|pulse| pulse["name"] == recommended["pulse"]);
     let pulse = pulse.unwrap_or_else(|| panic!("{recommended}"));
     let printed = number_after(&page, "so that |alpha_2| < ");
     let of_pulse = value(&json, pulse, "alpha_2_limit");

@@ -207,9 +207,9 @@ impl<'a> Walk<'a> {
     fn look(&mut self, at: &Axes<f64>, times: Vector2<f64>) -> bool {
         let (step, turns) = (self.search.step_to_plane(at), self.integrals.turning_rates(at));
         self.seen += 1.0;
-        for flow in 0..2 {
+        for (flow, turn) in turns.iter().enumerate() {
             let tangent = step.tangents.column(flow);
-            let whole = tangent.norm_squared() + turns[flow].norm_squared();
+            let whole = tangent.norm_squared() + turn.norm_squared();
             self.metric[flow] += whole;
             self.metric_of_momentum[flow] += tangent.rows(3, 3).norm_squared() + SMALL_PART * whole;
         }
