@@ -193,3 +193,16 @@ fn a_link_is_followed() {
     assert!(folder.at("link.csv").is_symlink());
     assert!(folder.read("there.csv").starts_with("t [t_c],e_z_X"));
 }
+
+/// The help has the units and the defaults that other tests find in the numbers.
+#[test]
+fn help_states_units_and_defaults() {
+    for (command, text) in [
+        ("fisher", "standard deviation of its independent errors in the scene's unit"),
+        ("timing", "from the first epoch on; 64 turns if not given"),
+    ] {
+        let help = stdout(&succeeds(&[command, "--help"]));
+        let words = help.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains(text), "{words}");
+    }
+}

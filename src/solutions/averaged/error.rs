@@ -127,3 +127,25 @@ fn neighbouring_rates(k: &Vector3<f64>, l: &Vector3<f64>, distance: f64) -> [f64
     }
     most
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::fixture::problem;
+
+    /// The second order leaves out terms that are smaller by the strengths of torque and bulge together, however weak the torque.
+    #[test]
+    fn a_bulge_counts_in_what_the_second_order_leaves_out() {
+        for strength in [0.02, 0.1] {
+            let stiff = problem([2e-9, 1e-9, -3e-9]).with_bulge(strength / (5e-9 * 1.3)).unwrap();
+            let growth = |order| {
+                let mean = AveragedSolution::new(&stiff, order).unwrap();
+                assert!((mean.bulge_strength() / strength - 1.0).abs() < 1e-12 && mean.relative_strength < 1e-8);
+                mean.truncation(100.0) - mean.truncation(0.0)
+            };
+            let ratio = growth(AveragingOrder::Second) / growth(AveragingOrder::First);
+            // The series of the powers has the sum strength / (1 - strength).
+            assert!((ratio * (1.0 - strength) / strength - 1.0).abs() < 0.1, "{strength}: {ratio}");
+        }
+    }
+}
