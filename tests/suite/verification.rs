@@ -56,7 +56,7 @@ fn tables_show_what_was_measured() {
     };
     let table = report::tables(&[(check, outcome(0.5))], 200, false);
     // Each on a line of a narrow column.
-    assert!(["21, ", "25-27, ", "36 "].iter().all(|part| table.contains(part)), "{table}");
+    assert!(["21, ", " 25-27,", " 36"].iter().all(|part| table.contains(part)), "{table}");
 }
 
 /// Unit of the last place, 2^-105.
