@@ -206,6 +206,7 @@ fn what_is_wrong_is_named() {
             &["chi", "held fixed"],
         ),
         (&["b1937+21.tim", "--out", "b1937+21.tim", "--force"], &["--out b1937+21.tim: it is also read"]),
+        (&["b1937+21.tim", "--out=b1937+21.tim", "--force"], &["--out b1937+21.tim: it is also read"]),
         (&["b1937+21.tim", "--periods", "50:20"], &["50:20", "two periods"]),
     ];
     for (args, reasons) in refusals {

@@ -337,21 +337,6 @@ mod tests {
         [0.8034743727762651, 0.0006186697198932354, -0.0006723004689980793],
     ];
 
-    /// The series of `e_x` may need more multiples of the second angle than that of `n` and `L`; without them it would not agree with the flow.
-    #[test]
-    fn every_multiple_of_e_x_counts() {
-        let mut longer = 0;
-        let problem = problem([[0.2, 0.1, -0.4], [0.6, 0.2, 0.7], [0.15, 0.1, 0.5]]);
-        for digits in 4..16 {
-            let tolerance = 10f64.powi(-digits);
-            let solution = TorusSolution::new(&problem, tolerance, 10.0).expect("a torus");
-            longer += usize::from(solution.vector.blocks() > solution.axes.blocks());
-            let off = solution.gap(&Torus::of(&problem).expect("a torus"), &[]);
-            assert!(off <= solution.error_estimate(0.0), "{tolerance:e}: {off:e}");
-        }
-        assert!(longer > 0, "no series of e_x is longer");
-    }
-
     /// In the plane of two equal eigenvalues a deviation from rest grows in proportion to time.
     #[test]
     fn a_rest_in_the_plane_of_equal_eigenvalues_has_no_torus() {
