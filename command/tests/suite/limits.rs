@@ -178,7 +178,7 @@ fn what_is_wrong_is_named() {
     ] {
         std::fs::write(folder.at(name), text).expect("a file");
     }
-    let refusals: [(&[&str], &[&str]); 25] = [
+    let refusals: [(&[&str], &[&str]); 26] = [
         (&["site.tim"], &["site.tim:2: site `ao`", "allowed are @"]),
         (&["frequency.tim"], &["frequency.tim:2: frequency `1400`", "allowed is 0"]),
         (&["error.tim"], &["error.tim:2: uncertainty `-1.0`", "from 1e-9 to 1e12"]),
