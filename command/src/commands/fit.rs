@@ -3,8 +3,8 @@
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 
-use super::measurement::{Measurement, counted, note_nonlinearity, readable, uncertainties, write_csv};
-use super::{Failure, FitArgs, note, print};
+use super::measurement::{Measurement, note_nonlinearity, readable, uncertainties, write_csv};
+use super::{Failure, FitArgs, counted, note, print};
 use twofold::inference::{Fisher, InferenceError, Residuals, fit, nonlinearity};
 use twofold_scene::measurements::{DataFile, LeftOut, beside, with_noise};
 use twofold_scene::significant::significant;

@@ -1,7 +1,7 @@
 //! `twofold forecast`.
 
-use super::measurement::{Measurement, counted, readable, write_csv};
-use super::{Failure, FisherArgs, ForecastArgs, note, print};
+use super::measurement::{Measurement, readable, write_csv};
+use super::{Failure, FisherArgs, ForecastArgs, counted, note, print};
 use twofold::inference::{ALLOWED_IN_FORECASTS, Observable, check_span, forecast, scaling, time_for_a_pulse};
 use twofold::parameters::Parameter;
 use twofold_scene::estimated_error::as_printed;

@@ -17,10 +17,10 @@ use twofold_scene::pulsar_timing::{PulsarScene, decimal};
 use twofold_scene::scene_file::Columns;
 use twofold_scene::significant::significant;
 
-use super::measurement::{counted, note_nonlinearity, readable, uncertainties, write_csv};
+use super::measurement::{note_nonlinearity, readable, uncertainties, write_csv};
 use super::run::read_with_spin_down;
 use super::timing::days_apart;
-use super::{Failure, TableArgs, note, print};
+use super::{Failure, TableArgs, counted, note, print};
 
 #[derive(Args)]
 pub(crate) struct LimitsArgs {

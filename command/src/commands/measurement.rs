@@ -89,11 +89,6 @@ pub(super) fn write_csv(args: &TableArgs, rows: &[Vec<String>]) -> Result<(), Fa
     output.complete()
 }
 
-/// A count with its noun: `1 prior` or `2 priors`.
-pub(super) fn counted(number: usize, noun: &str) -> String {
-    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
-}
-
 /// A table for reading: the first row is its header; the first column is aligned left, the others right.
 pub(super) fn readable(rows: &[Vec<String>]) -> String {
     text_table(rows, |column| column > 0, false) + "\n"

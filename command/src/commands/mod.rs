@@ -255,6 +255,12 @@ fn end(status: u8, message: &str) -> ExitCode {
     ExitCode::from(status)
 }
 
+/// A count with its noun: `1 prior` or `2 priors`.
+fn counted<N: std::fmt::Display + PartialEq + From<u8>>(number: N, noun: &str) -> String {
+    let plural = if number == N::from(1) { "" } else { "s" };
+    format!("{number} {noun}{plural}")
+}
+
 /// A line on standard error that is not an error.
 fn note(text: &str) {
     let _ = writeln!(io::stderr(), "note: {text}");

@@ -10,7 +10,7 @@ use super::interrupt::stop_on_request;
 use super::output_file::{OutputFile, free_name, refuse_dash};
 use super::progress::Progress;
 use super::run::note_size;
-use super::{Failure, also_read, is_same_file, note};
+use super::{Failure, also_read, counted, is_same_file, note};
 use twofold_scene::sweep::{
     Done, Identity, Shard, Spool, SpoolError, SpoolFiles, Sweep, SweepText, compute, csv_line, errors_beside,
     is_beginning_of, merge, merge_errors,
@@ -248,6 +248,6 @@ fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<()
 fn note_rate(computed: u64, all: u64, elapsed: Duration, failed: u64) {
     let seconds = elapsed.as_secs_f64();
     let rate = computed as f64 / seconds.max(1e-9);
-    let s = if computed == 1 { "" } else { "s" };
-    note(&format!("{computed} scene{s} in {seconds:.2} s, {rate:.4e} scenes/s; {failed} of {all} failed"));
+    let scenes = counted(computed, "scene");
+    note(&format!("{scenes} in {seconds:.2} s, {rate:.4e} scenes/s; {failed} of {all} failed"));
 }

@@ -127,12 +127,12 @@ impl<'t> Sweep<'t> {
         let cautions = own.map_or_else(|| scene.cautions.clone(), |own| own.cautions);
         let varied = VARIED_SECTIONS.iter().filter_map(|name| base.document().section(name).ok().flatten());
         let known: Vec<_> = varied.flat_map(|section| section.numbers()).collect();
-        let in_degrees = |key: &str| {
+        let text_of = |key: &str| {
             let (name, key) = key.split_once('.').filter(|(name, _)| VARIED_SECTIONS.contains(name))?;
-            let entry = base.document().section(name).ok()??.optional(key)?;
-            entry.string().ok().filter(|text| text.ends_with("deg")).map(|_| ())
+            base.document().section(name).ok()??.optional(key)?.string().ok()
         };
-        let parameters = parameters(&section, &known, |key| in_degrees(key).is_some()).map_err(in_sweep)?;
+        let in_degrees = |key: &str| text_of(key).is_some_and(|text| text.ends_with("deg"));
+        let parameters = parameters(&section, &known, in_degrees).map_err(in_sweep)?;
         let outputs = outputs(&section, &mut scene, times).map_err(in_sweep)?;
         // Means over the span and pulses follow every turn.
         let mut needed = outputs.outputs();

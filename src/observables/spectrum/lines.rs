@@ -134,15 +134,15 @@ impl QuasiPeriodicMotion {
         Ok(still)
     }
 
-    /// The terms with their frequencies (rad per unit of time). Terms of one frequency are a single one: their sum, with the multiples of the largest.
-    fn by_frequency(&self, terms: &[Term]) -> Vec<(f64, [i32; 3], Complex<f64>)> {
+    /// The terms by frequency. Terms of one frequency are a single one: their sum, with the multiples of the largest.
+    fn by_frequency(&self, terms: &[Term]) -> Vec<Term> {
         let mut sorted: Vec<_> =
             terms.iter().map(|(multiples, of)| (self.turns(*multiples), *multiples, *of)).collect();
         sorted.sort_by(|(a, ..), (b, ..)| a.high.total_cmp(&b.high).then(a.low.total_cmp(&b.low)));
         let is_one = |a: &[i32; 3], b: &[i32; 3]| self.turns([0, 1, 2].map(|i| a[i] - b[i])).high == 0.0;
         let group = |group: &[(DoubleDouble, [i32; 3], Complex<f64>)]| {
             let largest = group.iter().max_by(|a, b| a.2.norm().total_cmp(&b.2.norm())).expect("a term");
-            (largest.0.high * TAU, largest.1, group.iter().map(|(.., coefficient)| coefficient).sum())
+            (largest.1, group.iter().map(|(.., coefficient)| coefficient).sum())
         };
         sorted.chunk_by(|(_, a, _), (_, b, _)| is_one(a, b)).map(group).collect()
     }
@@ -159,14 +159,14 @@ impl QuasiPeriodicMotion {
         };
         let terms: Vec<_> = all.iter().enumerate().skip(1).filter_map(listed).collect();
         let (mut lines, mut constant) = (Vec::new(), all[0].re);
-        for (frequency, multiples, coefficient) in self.by_frequency(&terms) {
+        for (multiples, coefficient) in self.by_frequency(&terms) {
+            let [frequency, uncertainty] = self.frequency(multiples);
+            let (amplitude, phase) = (2.0 * coefficient.norm(), coefficient.arg());
             if frequency == 0.0 {
                 constant += coefficient.re;
-            } else if frequency > 0.0 && 2.0 * coefficient.norm() >= least {
+            } else if frequency > 0.0 && amplitude >= least {
                 // The others have the opposite multiples.
-                let [_, uncertainty] = self.frequency(multiples);
                 let combination = self.frequencies().combination(multiples);
-                let (amplitude, phase) = (2.0 * coefficient.norm(), coefficient.arg());
                 lines.push(SpectralLine { frequency, amplitude, phase, uncertainty, combination });
             }
         }

@@ -48,15 +48,13 @@ impl QuasiPeriodicMotion {
         let mut frequencies = FundamentalFrequencies::of(state, rates, &motion.pole());
         // The rotation about n due to the rounding of L.n would have a period of some 1e16 rotations.
         let rounding = NO_SPIN * problem.initial().momentum.norm();
-        let about_axis = frequencies.all.iter().find(|of| of.symbol == "psi'").map(|of| of.turns);
-        if let Some(turns) = about_axis.filter(|turns| turns[2].abs() == 1)
-            && problem.initial().momentum.dot(&problem.initial().axis).abs() <= rounding
+        if problem.initial().momentum.dot(&problem.initial().axis).abs() <= rounding
+            && let Some(psi) = frequencies.all.iter().find(|of| of.symbol == "psi'")
+            && psi.rate.abs() <= rounding / spheroid.inertia_xx.min(spheroid.inertia_zz)
         {
-            let rate = turns_of(&rates, turns);
-            if TAU * rate.high.abs() <= rounding / spheroid.inertia_xx.min(spheroid.inertia_zz) {
-                rates[2] -= rate * f64::from(turns[2]);
-                frequencies = FundamentalFrequencies::of(state, rates, &motion.pole());
-            }
+            // The angle about n turns once with the third angle, in either sense.
+            rates[2] -= turns_of(&rates, psi.turns) * f64::from(psi.turns[2]);
+            frequencies = FundamentalFrequencies::of(state, rates, &motion.pole());
         }
         Ok(Self { motion, start, rates, rate_error, frequencies })
     }
