@@ -29,7 +29,7 @@ const LAST_DAY: f64 = 1e7;
 /// Longest time from an epoch in days.
 const LONGEST: f64 = 1e9;
 
-const ALLOWED: &str = "from 0 to 1e7: a modified Julian date";
+const ALLOWED: &str = "a modified Julian date from 0 to 1e7";
 
 /// A modified Julian date.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
@@ -75,7 +75,7 @@ impl Epoch {
     /// [`Error::Domain`] for a time that is not finite or longer than 1e9 days, some three million years.
     pub fn after(&self, seconds: [f64; 2]) -> Result<Self, Error> {
         let days = (seconds[0] + seconds[1]) / DAY;
-        Error::ensure(days.abs() <= LONGEST, "time from an epoch (d)", days, "at most 1e9 days, either way")?;
+        Error::ensure(days.abs() <= LONGEST, "time from an epoch (d)", days, "at most 1e9 days in either direction")?;
         Ok(self.with_days(DoubleDouble::from(seconds) / DAY))
     }
 
@@ -113,7 +113,7 @@ impl FromStr for Epoch {
     fn from_str(text: &str) -> Result<Self, Error> {
         let malformed = || Error::Unsupported {
             what: "epoch (MJD)",
-            why: "it is a decimal number from 0 to 1e7, without sign and exponent",
+            why: "must be a decimal number from 0 to 1e7, without a sign or an exponent",
         };
         let (day, fraction) = text.split_once('.').unwrap_or((text, "0"));
         let digits = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());

@@ -11,7 +11,7 @@ pub enum Error {
         quantity: &'static str,
         /// The offending value.
         value: f64,
-        /// The allowed values, in words.
+        /// The allowed values, in words that follow "must be".
         allowed: &'static str,
     },
     /// A request that cannot be met, or a search that found nothing.
@@ -57,14 +57,15 @@ impl fmt::Display for Error {
             Error::Domain { quantity, value, allowed } => {
                 // Decimal notation as long as it is short.
                 if *value == 0.0 || (1e-5..1e16).contains(&value.abs()) || !value.is_finite() {
-                    write!(f, "{quantity} = {value}: allowed is {allowed}")
+                    write!(f, "{quantity} = {value}: must be {allowed}")
                 } else {
-                    write!(f, "{quantity} = {value:e}: allowed is {allowed}")
+                    write!(f, "{quantity} = {value:e}: must be {allowed}")
                 }
             }
             Error::Unsupported { what, why } => write!(f, "{what}: {why}"),
             Error::NotConverged { what, iterations, residual } => {
-                write!(f, "{what}: no convergence in {iterations} iterations, residual {residual:e}")
+                let plural = if *iterations == 1 { "" } else { "s" };
+                write!(f, "{what}: no convergence in {iterations} iteration{plural}, residual {residual:e}")
             }
         }
     }
@@ -82,7 +83,7 @@ mod tests {
         for (value, text) in
             [(3.0, "3"), (-3.0, "-3"), (0.0, "0"), (-2e-6, "-2e-6"), (-1e17, "-1e17"), (f64::NEG_INFINITY, "-inf")]
         {
-            assert_eq!(told(value), format!("x = {text}: allowed is 1"));
+            assert_eq!(told(value), format!("x = {text}: must be 1"));
         }
     }
 }

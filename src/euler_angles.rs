@@ -157,6 +157,6 @@ pub(crate) fn refuse_pole(sin_beta: f64) -> Result<(), Error> {
         sin_beta.abs() > f64::EPSILON,
         "sine of the inclination, sin beta",
         sin_beta,
-        "|sin beta| > 2.2e-16: alpha and gamma are not defined separately on the poles",
+        "above 2.2e-16 in size; on the poles alpha and gamma are not defined separately",
     )
 }

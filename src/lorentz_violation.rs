@@ -123,7 +123,7 @@ pub(crate) fn ensure_symmetric<S: Real>(tensor: &Matrix3<S>) -> Result<(), Error
         asymmetry <= 1e-12 * tensor.map(S::re).amax(),
         "largest |s^IJ - s^JI|",
         asymmetry,
-        "at most 1e-12 of the largest entry: s^IJ is symmetric",
+        "at most 1e-12 of the largest entry; s^IJ must be symmetric",
     )
 }
 
@@ -277,7 +277,7 @@ impl SymmetryOfTensor {
             self.is_symmetric_within_rounding(),
             "relative deviation of s^IJ from two equal eigenvalues",
             self.asymmetry.norm() / self.size,
-            "at most 8 roundings: two equal eigenvalues are needed",
+            "at most 8 roundings; two equal eigenvalues are needed",
         )
     }
 }
@@ -295,7 +295,12 @@ pub fn coefficients_from_preferred_frame<S: Scalar>(alpha_2: S, w: &Vector3<S>) 
 /// `|w|^2`; refuses a velocity whose fourth power would underflow.
 pub(crate) fn squared_velocity<S: Real>(w: &Vector3<S>) -> Result<S, Error> {
     let w2 = w.dot(w);
-    Error::ensure(w2.re() >= 1e-150, "squared velocity |w|^2", w2.re(), "at least 1e-150: |w|^4 must not underflow")?;
+    Error::ensure(
+        w2.re() >= 1e-150,
+        "squared velocity |w|^2",
+        w2.re(),
+        "at least 1e-150, so that |w|^4 does not underflow",
+    )?;
     Ok(w2)
 }
 
@@ -313,7 +318,7 @@ pub fn preferred_frame_parameter<S: Real>(s: &Matrix3<S>, w: &Vector3<S>) -> Res
         rest <= 1e-9 * s.map(S::re).amax(),
         "largest |s^ij + alpha_2 w^i w^j|",
         rest,
-        "at most 1e-9 of the largest |s^ij|: the tensor must have the form of Eq. (5)",
+        "at most 1e-9 of the largest |s^ij|; the tensor must have the form of Eq. (5)",
     )?;
     Ok(alpha_2)
 }

@@ -94,7 +94,7 @@ pub mod geometrised {
 /// (`C < 0`) would need the opposite sign in Eq. (35).
 pub fn time_unit<S: Real>(inertia_over_c: S) -> Result<S, Error> {
     let value = inertia_over_c.re();
-    Error::ensure(value > 0.0 && value.is_finite(), "I^xx / C", value, "positive and finite: an oblate star")?;
+    Error::ensure(value > 0.0 && value.is_finite(), "I^xx / C", value, "positive and finite, as for an oblate star")?;
     Ok(inertia_over_c.sqrt())
 }
 

@@ -133,7 +133,7 @@ impl Column {
     pub fn oscillating(name: &str, scene: &Scene) -> Result<Self, String> {
         if TURNING.contains(&name) {
             return Err(format!(
-                "`{name}` grows without bound and has no line spectrum; take its rate, a component of an axis or m.n"
+                "`{name}` grows without bound and has no line spectrum; use its rate, a component of an axis or m.n"
             ));
         }
         let columns = COLUMN_GROUPS.iter().flat_map(|(_, group)| Self::of_group(*group, scene));
@@ -153,14 +153,14 @@ impl Column {
         found.unwrap_or_else(|| {
             let possible: Vec<_> = possible.iter().map(String::as_str).collect();
             let guess = did_you_mean(name, &possible);
-            Err(format!("`{name}` is not a column; this scene has {}.{guess}", listed(&possible)))
+            Err(format!("`{name}` is not a column; expected one of {}.{guess}", listed(&possible)))
         })
     }
 
     fn of_the_state(self) -> Result<Self, String> {
         if self.group.need().state == State::Nothing {
             return Err(format!(
-                "`{}` is a formula in time, not a function of the state, and lines are found only for such functions",
+                "`{}` is a formula in time; lines can be found only for functions of the state",
                 self.name
             ));
         }
@@ -249,7 +249,7 @@ mod tests {
     fn columns_are_offered_that_oscillate_and_can_be_computed() {
         let scene = Scene::named("wave-source").unwrap();
         let why = Column::oscillating("e_z_x", &scene).unwrap_err();
-        let offered = why.split_once("this scene has ").unwrap().1;
+        let offered = why.split_once("expected one of ").unwrap().1;
         assert!(["`e_z_X`", "`beta`", "`h_plus`"].iter().all(|name| offered.contains(name)), "{why}");
         assert!(!["`alpha`", "`gamma`", "`psi`", "`m.n`"].iter().any(|name| offered.contains(name)), "{why}");
     }

@@ -92,7 +92,7 @@ impl Scene {
             Err(_) => {}
         }
         Err(format!(
-            "[time] covers {rotation:.1e} rad of rotation: allowed is at most {LARGEST_ROTATION:.0e} rad, which takes \
+            "[time] covers {rotation:.1e} rad of rotation: must be at most {LARGEST_ROTATION:.0e} rad, which takes \
              minutes, for pulses, continuous angles and motions without a closed form; shorten the span, lower the rates \
              or choose other columns"
         ))

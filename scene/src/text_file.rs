@@ -14,7 +14,7 @@ pub fn read_text(file: File) -> Result<String, String> {
     let mut bytes = Vec::new();
     file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(|error| format!("cannot be read: {error}"))?;
     if bytes.len() as u64 > LARGEST_FILE {
-        return Err(format!("is longer than {} MiB, the most that is read", LARGEST_FILE >> 20));
+        return Err(format!("is larger than {} MiB, the largest file that is read", LARGEST_FILE >> 20));
     }
     text_of(bytes)
 }
@@ -41,7 +41,7 @@ mod tests {
             let file = tempfile::tempfile().expect("a file");
             file.set_len(bytes).expect("so long");
             let read = read_text(file).map(|text| text.len() as u64);
-            let refused = "is longer than 64 MiB, the most that is read".to_owned();
+            let refused = "is larger than 64 MiB, the largest file that is read".to_owned();
             assert_eq!(read, if taken { Ok(bytes) } else { Err(refused) });
         }
     }

@@ -19,7 +19,7 @@ impl Scene {
         let resolved = 1e-3 * self.units.time / self.turning_rate();
         if !((to - from).abs() > resolved && from.next_up() - from <= resolved && to.next_up() - to <= resolved) {
             return Err(format!(
-                "a window from {from:?} to {to:?}: allowed are two different times at which doubles resolve a thousandth of a radian of rotation"
+                "a window from {from:?} to {to:?}: must be two different times at which doubles resolve a thousandth of a radian of rotation"
             ));
         }
         let until = Self { times: Times::Listed { start, times: vec![from] }, ..self.clone() };

@@ -128,7 +128,7 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
         }
         Err(Error::Unsupported {
             what: "a star with a centrifugal bulge",
-            why: "only the method \"averaged\" follows it",
+            why: "only the method \"averaged\" can compute its motion",
         })
     }
 
@@ -184,13 +184,13 @@ fn check<S: Real, X: RotationState<S>>(spheroid: &RigidSpheroid<S>, s: &Matrix3<
     }
     let unit = |vector: &Vector3<f64>, name| {
         let length = vector.norm();
-        Error::ensure((length - 1.0).abs() < 1e-9, name, length, "one, to 1e-9")
+        Error::ensure((length - 1.0).abs() < 1e-9, name, length, "1 to within 1e-9")
     };
     unit(&axis, "length of the axis n")?;
     if X::VECTORS == 3 {
         unit(&equatorial_axis, "length of the axis e_x")?;
         let overlap = axis.dot(&equatorial_axis);
-        Error::ensure(overlap.abs() < 1e-9, "n . e_x", overlap, "zero, to 1e-9")?;
+        Error::ensure(overlap.abs() < 1e-9, "n . e_x", overlap, "zero to within 1e-9")?;
     }
     Ok(())
 }

@@ -77,34 +77,37 @@ impl fmt::Display for InferenceError {
                 write!(f, "\nleave out one of each, or add data of another kind")
             }
             Self::TooFew { data, least } => {
-                write!(f, "the number of data is {data}: allowed is {least} or more for so many unknowns")
+                write!(f, "the number of data is {data}: must be at least {least} for so many unknowns")
             }
             Self::NoPulse { turn, near } => write!(
                 f,
                 "datum of turn {turn} near t = {near:?} t_c: the model has no whole pulse there that is the only one of its turn; \
-                 allowed are data of pulses that the model has at the start of the fit"
+                 use only pulses that the model has at the start of the fit"
             ),
             Self::NotConverged { why, cosine } if cosine.is_nan() => write!(f, "the fit did not begin: {why}"),
             Self::NotConverged { why, cosine } => write!(
                 f,
-                "the fit ended off a minimum ({why}; the residuals have a cosine of {cosine:.1e} with a derivative): a start \
+                "the fit did not end at a minimum ({why}; the residuals have a cosine of {cosine:.1e} with a derivative); a start \
                  nearer to the data may help"
             ),
             Self::Coarse { unknown, step } => write!(
                 f,
-                "the fit ended off a minimum: a last digit of {unknown} as a double is {step:.1e} of its standard deviation, and a fit is to a \
-                 hundredth; allowed are larger standard deviations"
+                "the fit did not end at a minimum: the last digit of {unknown} as a double is {step:.1e} of its standard deviation, and a fit must \
+                 resolve a hundredth of it; use larger standard deviations"
             ),
             Self::Rounding { observable, rounding } => write!(
                 f,
-                "the residuals are rounding: the scene agrees with the data as far as doubles resolve, {} to {rounding:.1e}{}, and a fit is to a \
-                 hundredth of an error; allowed in --observe are larger standard deviations, {:.1e}{1} for certain",
+                "the residuals are only rounding errors: the scene agrees with the data to the precision of doubles, {} to {rounding:.1e}{}. A fit must \
+                 resolve a hundredth of a standard deviation; use larger ones in --observe ({:.1e}{1} is certain to work)",
                 observable.key(),
                 if observable.is_of_pulses() { " t_c" } else { "" },
                 100.0 * rounding
             ),
             Self::OnLimit { unknown, value } => {
-                write!(f, "the fit ended at {unknown} = {value:?}, a limit of its range: no error bar holds there")
+                write!(
+                    f,
+                    "the fit ended at {unknown} = {value:?}, a limit of its range; error bars are not valid there"
+                )
             }
             Self::Model(error) => error.fmt(f),
         }
@@ -121,7 +124,7 @@ mod tests {
     #[test]
     fn errors_above_the_rounding_of_a_fit_are_named() {
         let told = InferenceError::Rounding { observable: Observable::Widths, rounding: 2e-14 }.to_string();
-        assert!(told.contains("widths to 2.0e-14 t_c") && told.ends_with("2.0e-12 t_c for certain"), "{told}");
+        assert!(told.contains("widths to 2.0e-14 t_c") && told.ends_with("(2.0e-12 t_c is certain to work)"), "{told}");
     }
 
     /// Without a first step there are no residuals, and no cosine.
@@ -129,6 +132,8 @@ mod tests {
     fn a_fit_that_did_not_begin_is_told_from_one_that_ended_off_a_minimum() {
         let told = |cosine: f64| InferenceError::NotConverged { why: "no step", cosine }.to_string();
         assert_eq!(told(f64::NAN), "the fit did not begin: no step");
-        assert!(told(0.25).starts_with("the fit ended off a minimum (no step; the residuals have a cosine of 2.5e-1"));
+        assert!(
+            told(0.25).starts_with("the fit did not end at a minimum (no step; the residuals have a cosine of 2.5e-1")
+        );
     }
 }

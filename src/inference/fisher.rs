@@ -115,7 +115,7 @@ impl<M: Model> Fisher<M> {
                 entry.is_finite(),
                 "correlation of unknowns",
                 *entry,
-                "a finite number: unknowns that the data determine",
+                "finite; the data must determine the unknowns",
             )?;
         }
         let axes = correlations.symmetric_eigen();

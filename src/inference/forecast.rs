@@ -7,7 +7,8 @@ use crate::numerics::straight_line::{Slope, slope};
 use crate::parameters::{Parameter, Parameters};
 
 /// What a forecast may be of, in words.
-pub const ALLOWED_IN_FORECASTS: &str = "allowed for a forecast are arrivals, closest_approaches, widths, h_plus, h_cross and strain, which need no second pulse";
+pub const ALLOWED_IN_FORECASTS: &str =
+    "a forecast can use arrivals, closest_approaches, widths, h_plus, h_cross and strain, which need no second pulse";
 
 /// The expected result of an observing campaign.
 #[derive(Debug, Clone, Copy, PartialEq)]

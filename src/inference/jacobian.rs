@@ -71,7 +71,10 @@ pub fn jacobian(
     };
     match found.matrix.iter().find(|value| !value.is_finite()) {
         Some(&value) => {
-            let (quantity, allowed) = ("derivative of a datum", "a finite number: no touch of the edge of the beam");
+            let (quantity, allowed) = (
+                "derivative of a datum",
+                "finite; it is infinite where the line of sight only touches the edge of the beam",
+            );
             Err(Error::Domain { quantity, value, allowed }.into())
         }
         None => Ok(found),

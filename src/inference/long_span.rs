@@ -58,7 +58,7 @@ fn ensure_exact(motion: &PhasedMotion, end: f64) -> Result<(), Error> {
         error <= LARGEST_ERROR,
         "estimated error of directions (rad) over a span of more than 1e5 rad of rotation",
         error,
-        "at most 1e-3: a weaker violation or a shorter span",
+        "at most 1e-3; use a weaker violation or a shorter span",
     )
 }
 

@@ -158,7 +158,7 @@ impl Comparison<TimingModel> for TimingData {
         }
         for value in matrix.iter().chain(&residuals) {
             let what = "derivative or residual of a datum, in its standard deviations";
-            Error::ensure(value.abs() <= LARGEST, what, *value, "a number up to 1e150 in size")?;
+            Error::ensure(value.abs() <= LARGEST, what, *value, "a number of at most 1e150 in size")?;
         }
         let magnitudes = matrix.abs();
         Ok((
@@ -171,7 +171,10 @@ impl Comparison<TimingModel> for TimingData {
         let rounding = ROUNDING / found.fisher.parameters.value(TimingParameter::F0);
         let is_rounding = |(arrival, residual): (&MeasuredArrival, &f64)| residual.abs() * arrival.sigma <= rounding;
         let all = self.widths.is_empty() && self.arrivals.iter().zip(&found.residuals).all(is_rounding);
-        Ok(all.then_some(InferenceError::NotConverged { why: "the residuals are rounding", cosine: found.cosine }))
+        Ok(all.then_some(InferenceError::NotConverged {
+            why: "the residuals are only rounding errors",
+            cosine: found.cosine,
+        }))
     }
 }
 
@@ -429,13 +432,15 @@ mod tests {
             fit_timing(&model, &data, &[Phase])
         };
         match off_by(5e-15) {
-            Err(InferenceError::NotConverged { why, .. }) => assert_eq!(why, "the residuals are rounding"),
+            Err(InferenceError::NotConverged { why, .. }) => assert_eq!(why, "the residuals are only rounding errors"),
             other => panic!("{other:?}"),
         }
         for turns in [3e-14, 1e-12] {
             match off_by(turns) {
                 Ok(found) => assert_eq!(found.judged(), Residuals::Larger),
-                Err(InferenceError::NotConverged { why, .. }) => assert_ne!(why, "the residuals are rounding"),
+                Err(InferenceError::NotConverged { why, .. }) => {
+                    assert_ne!(why, "the residuals are only rounding errors")
+                }
                 Err(other) => panic!("{other:?}"),
             }
         }

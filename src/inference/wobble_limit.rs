@@ -53,11 +53,11 @@ pub fn wobble_limits(
         wobble < NO_WOBBLE,
         "wobble (rad)",
         wobble,
-        "zero: the limit is for a model fitted without a wobble",
+        "zero; the limit is for a model fitted without a wobble",
     )?;
     let of_wobble = [Wobble, Chi, PrecessionPhase, PrecessionRate, TorqueShare];
     if let Some(unknown) = unknowns.iter().find(|unknown| of_wobble.contains(unknown)) {
-        let why = "residuals without a wobble do not depend on it: it is held fixed";
+        let why = "it must be held fixed, since residuals without a wobble do not depend on it";
         return Err(Error::Unsupported { what: unknown.key(), why }.into());
     }
     let without = |rate: f64, phase: f64| {

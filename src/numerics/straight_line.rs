@@ -30,7 +30,7 @@ pub struct Slope {
 /// or an error that is not finite, for example because a point is not.
 pub fn slope(points: &[(f64, f64)]) -> Result<Slope, Error> {
     let n = points.len() as f64;
-    Error::ensure(n >= 3.0, "number of points of a slope", n, "three or more")?;
+    Error::ensure(n >= 3.0, "number of points of a slope", n, "at least 3")?;
     let mean_x = points.iter().map(|p| p.0).sum::<f64>() / n;
     let mean_y = points.iter().map(|p| p.1).sum::<f64>() / n;
     let sxx: f64 = points.iter().map(|p| (p.0 - mean_x).powi(2)).sum();
@@ -40,7 +40,7 @@ pub fn slope(points: &[(f64, f64)]) -> Result<Slope, Error> {
     let error = (scatter / (n - 2.0) / sxx).sqrt();
     // Because their mean is rounded, equal values of x could have a spread.
     let spread = points.iter().any(|p| p.0 != points[0].0);
-    let allowed = "a finite number with a finite error: finite points, not all at one x";
+    let allowed = "a finite number with a finite error; the points must be finite and not all at one x";
     Error::ensure(spread && value.is_finite() && error.is_finite(), "slope", value, allowed)?;
     Ok(Slope { value, error })
 }

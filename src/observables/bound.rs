@@ -46,7 +46,7 @@ impl<S: Real> SpinAxisDrift<S> {
     /// [`Error::Domain`] for an interval of zero.
     pub fn combination_bound(&self, eta: S) -> Result<S, Error> {
         let interval = self.interval.re();
-        Error::ensure(interval.abs() > 0.0, "interval Delta t", interval, "not zero")?;
+        Error::ensure(interval.abs() > 0.0, "interval Delta t", interval, "nonzero")?;
         Ok((eta * self.polar_inertia_over_c * self.spin * self.cos_lambda_change / self.interval).abs())
     }
 }
@@ -58,7 +58,7 @@ impl<S: Real> SpinAxisDrift<S> {
 /// [`Error::Domain`] where `|cos b0|` is not above 2.2e-16. The perturbation solution behind it fails long before.
 pub fn eta_from_inclination<S: Real>(beta_0: S) -> Result<S, Error> {
     let (_, cb) = beta_0.sin_cos();
-    let allowed = "|cos beta_0| > 2.2e-16: the estimate (40) divides by it";
+    let allowed = "above 2.2e-16 in size; the estimate (40) divides by it";
     Error::ensure(cb.re().abs() > f64::EPSILON, "cosine of the mean inclination, cos beta_0", cb.re(), allowed)?;
     Ok(S::one() / cb.abs())
 }
@@ -117,7 +117,7 @@ pub fn lambda_change<S: Real>(lambda: S, chi: S, width: S, width_change: S) -> R
         turning.re().abs() > f64::EPSILON,
         "derivative of cos rho by the angle to the line of sight",
         turning.re(),
-        "above 2.2e-16 in size: the width is stationary there and Eq. (42) divides by it",
+        "above 2.2e-16 in size; where it is zero the width is stationary, and Eq. (42) divides by it",
     )?;
     Ok(sine / turning * width_change)
 }

@@ -88,7 +88,7 @@ pub fn mean_squared_speed<S: Scalar>(asymmetry_ratio: S, beta: S) -> S {
 pub fn root_mean_square_eta<S: Real>(asymmetry_ratio: S, beta: S) -> Result<S, Error> {
     let mean = mean_squared_speed(asymmetry_ratio, beta);
     let speed = mean.re().sqrt();
-    let allowed = "above 2.2e-16 of C |2 s^ZZ - s^XX - s^YY| / (I^zz Omega^z): an axis at rest gives no bound";
+    let allowed = "above 2.2e-16 of C |2 s^ZZ - s^XX - s^YY| / (I^zz Omega^z); an axis at rest gives no bound";
     Error::ensure(speed > f64::EPSILON, "root mean square speed of the spin axis", speed, allowed)?;
     Ok((S::from_f64(3.0) / mean).sqrt())
 }

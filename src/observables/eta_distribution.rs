@@ -92,7 +92,7 @@ impl EtaDistribution {
     /// [`Error::Domain`] for an angle whose sine is not above 2.2e-16: there the axis moves across the line of sight, and `cos lambda` does not change.
     pub fn seen_at(self, lambda: f64) -> Result<Self, Error> {
         let sine = lambda.sin();
-        let allowed = "above 2.2e-16 in size: a motion across the line of sight is not seen";
+        let allowed = "above 2.2e-16 in size; a motion across the line of sight cannot be seen";
         Error::ensure(sine.abs() > f64::EPSILON, "sine of the angle to the line of sight", sine, allowed)?;
         Ok(Self { directions: Directions::OnCone { sine: sine.abs() }, ..self })
     }
@@ -108,7 +108,7 @@ impl EtaDistribution {
                 Self::from_speeds(quarter_turn().map(|(alpha, weight)| (speed(alpha, beta), weight)))
             }
             SpinAxis::AtConstant(beta_0) => {
-                let allowed = "from 0 to pi: the perturbation solution does not describe such a motion";
+                let allowed = "from 0 to pi; the perturbation solution does not describe such a motion";
                 let mut speeds = Vec::with_capacity(NODES);
                 for (alpha_0, weight) in quarter_turn() {
                     let (alpha, beta) = single_precession_start(asymmetry_ratio, alpha_0, beta_0);
@@ -160,7 +160,7 @@ impl EtaDistribution {
     /// # Errors
     /// [`Error::Domain`] for a probability outside (0, 1).
     pub fn quantile(&self, probability: f64) -> Result<f64, Error> {
-        Error::ensure(0.0 < probability && probability < 1.0, "probability", probability, "in (0, 1)")?;
+        Error::ensure(0.0 < probability && probability < 1.0, "probability", probability, "above 0 and below 1")?;
         let isotropic = self.isotropic_quantile(probability);
         let Directions::OnCone { sine } = self.directions else { return Ok(isotropic) };
         // Since (2/pi) asin(u) <= u, eta sin(lambda) is at most the quantile of isotropic directions; it is never below 1 / (fastest speed).

@@ -137,7 +137,7 @@ impl Plan {
             Ok(prediction) => Error::Domain {
                 quantity: "truncation error of the averaged motion, the only method for a star with a bulge, at the end",
                 value: prediction.truncation,
-                allowed: "at most the tolerance: a weaker violation, a shorter span or a larger tolerance",
+                allowed: "at most the tolerance; use a weaker violation, a shorter span or a larger tolerance",
             },
         }
     }

@@ -121,7 +121,7 @@ impl<X: RotationState<f64>> PlannedMotion<X> {
             (Self::Splitting(motion), Growing::Splitting(error)) => {
                 Ok(Self::Splitting(motion.with_error_at_start(error)))
             }
-            _ => refused("both must be by the same numerical method"),
+            _ => refused("both must use the same numerical method"),
         }
     }
 

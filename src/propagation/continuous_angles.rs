@@ -53,7 +53,7 @@ impl<'m, S: Real, M: Motion<S, State = BodyState<S>>> ContinuousAngles<'m, S, M>
         let (mut from_time, mut from) = (self.time, self.real_state(self.time)?);
         let rotation = self.rotation(&from, target - from_time);
         let is_finite = |state: &BodyState<f64>, time: f64| {
-            let allowed = "a time at which every component is finite";
+            let allowed = "finite in every component";
             Error::ensure(finite(state), "state of the motion at time t", time, allowed)
         };
         is_finite(&from, from_time)?;
@@ -61,7 +61,7 @@ impl<'m, S: Real, M: Motion<S, State = BodyState<S>>> ContinuousAngles<'m, S, M>
             rotation <= MOST_COUNTED,
             "rotation (rad)",
             rotation,
-            "at most 1e9 from call to call: turns are counted one by one",
+            "at most 1e9 between calls; turns are counted one by one",
         )?;
         let mut ends = vec![(target, self.real_state(target)?)];
         let (mut pieces, most) = (0.0, LEAST_PIECES + PIECES_PER_RADIAN * rotation);
@@ -71,7 +71,7 @@ impl<'m, S: Real, M: Motion<S, State = BodyState<S>>> ContinuousAngles<'m, S, M>
                 pieces <= most,
                 "number of pieces in which turns are counted",
                 pieces,
-                "at most 1e4 and 1e3 a radian: the axis stays so near to a pole that a torque could turn its azimuth at any time",
+                "at most 1e4, and 1e3 per radian; the axis stays so near to a pole that a torque could turn its azimuth at any time",
             )?;
             is_finite(&to, to_time)?;
             if self.resolved(&from, &to, to_time - from_time) {

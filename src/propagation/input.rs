@@ -19,7 +19,7 @@ pub(crate) fn check_time((first, last): (f64, f64), t: f64) -> Result<(), Error>
         first.min(last) <= t && t <= first.max(last),
         "time t",
         t,
-        "within the span for which the motion was asked",
+        "within the span for which the motion was requested",
     )
 }
 

@@ -84,7 +84,7 @@ impl PhasedMotion {
                 is_exact(&motion),
                 "error (rad) of the averaged motion, the only one of a star with a bulge",
                 motion.truncation(0.0),
-                "at most that of rounding; it is smaller for weaker coefficients",
+                "at most the rounding error; it is smaller for weaker coefficients",
             )?;
             return Ok(motion);
         }
@@ -106,7 +106,7 @@ impl PhasedMotion {
             complement > 0.0,
             "distance k' of L from the separatrix",
             complement,
-            "above zero: on the separatrix L precesses about no axis",
+            "above zero; on the separatrix L precesses about no axis",
         )?;
         Ok(Self { problem: *problem, solution: Solution::Averaged(motion) })
     }

@@ -38,7 +38,7 @@ pub fn free_precession_rates<S: Real>(spheroid: &RigidSpheroid<S>, spin: S, beta
         cb.re().abs() > f64::EPSILON,
         "cosine of the inclination, cos beta",
         cb.re(),
-        "|cos beta| > 2.2e-16 in Eq. (48)",
+        "above 2.2e-16 in size; Eq. (48) divides by it",
     )?;
     Ok(EulerRates {
         alpha: spheroid.free_precession_constant(spin) / cb,

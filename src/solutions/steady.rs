@@ -48,7 +48,7 @@ pub fn steady_precession_rate<S: Real>(
     beta: S,
 ) -> Result<S, Error> {
     let asymmetry = s.asymmetry().re();
-    Error::ensure(asymmetry == 0.0, "s^XX - s^YY", asymmetry, "zero: Eq. (26) holds for s symmetric about Z")?;
+    Error::ensure(asymmetry == 0.0, "s^XX - s^YY", asymmetry, "zero; Eq. (26) holds for s symmetric about Z")?;
     let (_, cb) = beta.sin_cos();
     let momentum = spheroid.inertia_zz * spin;
     let well = (s.zz - s.xx) * spheroid.constant_c * spheroid.inertia_xx * cb * cb * 8.0;
@@ -57,7 +57,7 @@ pub fn steady_precession_rate<S: Real>(
         radicand.re() >= 0.0,
         "(I^zz Omega^z)^2 - 8 (s^ZZ - s^XX) C I^xx cos^2 beta",
         radicand.re(),
-        "at least zero: below it there is no steady precession at this beta",
+        "at least zero; below it there is no steady precession at this beta",
     )?;
     let root = if radicand.re() == 0.0 { S::zero() } else { radicand.sqrt() };
     let larger = (if momentum.re() < 0.0 { momentum - root } else { momentum + root }) / 2.0;
@@ -67,7 +67,7 @@ pub fn steady_precession_rate<S: Real>(
                 cb.re().abs() > f64::EPSILON,
                 "cosine of the inclination, cos beta",
                 cb.re(),
-                "|cos beta| > 2.2e-16 for the twofold root of Eq. (26)",
+                "above 2.2e-16 in size for the twofold root of Eq. (26)",
             )?;
             Ok(larger / (spheroid.inertia_xx * cb))
         }
@@ -76,7 +76,7 @@ pub fn steady_precession_rate<S: Real>(
                 larger.re() != 0.0,
                 "I^zz Omega^z",
                 momentum.re(),
-                "nonzero where the square root vanishes: the two roots are not distinct",
+                "nonzero where the square root vanishes; the two roots are not distinct",
             )?;
             Ok((s.zz - s.xx) * spheroid.constant_c * cb * 2.0 / larger)
         }

@@ -221,13 +221,13 @@ impl Precession {
             return Ok(());
         }
         let ratio = (damping / rate).abs();
-        let allowed = "at most 0.1: a wobble that is damped in a few turns is no precession";
+        let allowed = "at most 0.1; a wobble that is damped in a few turns is not a precession";
         Error::ensure(ratio <= MOST_DAMPING, "rate of damping over that of the precession", ratio, allowed)?;
         Error::ensure(
             wobble.cos().abs() > 1e-3,
             "wobble (rad) with damping",
             wobble,
-            "no right angle: friction has no effect there",
+            "other than a right angle; friction has no effect there",
         )
     }
 
@@ -239,14 +239,16 @@ impl Precession {
             return Ok(());
         }
         let damped = self.damping * tau;
-        let allowed = "at most 2 in size: the wobble is followed while its tangent changes by a factor e^2";
+        let allowed =
+            "at most 2 in size; the model holds while the tangent of the wobble changes by at most a factor e^2";
         Error::ensure(damped.abs() <= MOST_DAMPED, "time times the rate of damping of the wobble", damped, allowed)?;
         let wobble = self.wobble_at(tau);
         let ratio = (self.damping * self.wobble.cos() / (self.rate * wobble.cos())).abs();
-        let allowed = "at most 0.1 at all times: the precession is slower where the wobble is larger";
+        let allowed = "at most 0.1 at all times; the precession is slower where the wobble is larger";
         Error::ensure(ratio <= MOST_DAMPING, "rate of damping over that of the precession", ratio, allowed)?;
         let goes_round = |wobble: f64| [self.chi, PI - self.chi].map(|angle| wobble < angle);
-        let allowed = "on one side of chi and of pi - chi for all times: there the magnetic axis comes along L";
+        let allowed =
+            "on one side of chi and of pi - chi at all times; at these angles the magnetic axis comes along L";
         Error::ensure(goes_round(wobble) == goes_round(self.wobble), "damped wobble (rad)", wobble, allowed)
     }
 

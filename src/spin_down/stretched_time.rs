@@ -83,7 +83,7 @@ impl StretchedTime {
         let share = "share of the torque with sin^2 theta_m";
         Error::ensure((0.0..=1.0).contains(&torque_share), share, torque_share, "from 0 to 1")?;
         let mean = 1.0 - torque_share + torque_share * precession.torque.constant;
-        Error::ensure(mean > 0.0, "mean braking torque", mean, "above zero: the magnetic axis may not stay along L")?;
+        Error::ensure(mean > 0.0, "mean braking torque", mean, "above zero; the magnetic axis must not stay along L")?;
         let modulation = modulation(torque_share, &precession.torque);
         precession.check()?;
         if precession.damping != 0.0 && rate != 0.0 {
@@ -96,7 +96,7 @@ impl StretchedTime {
                 varying <= MOST_VARYING,
                 "change of the rotation by the varying torque within a precession",
                 varying,
-                "at most 0.01: a shorter period of precession, a smaller F1, or a torque that does not vary",
+                "at most 0.01; use a shorter period of precession, a smaller F1, or a torque that does not vary",
             )?;
         }
         let mut term = DoubleDouble::from(1.0);
@@ -152,7 +152,7 @@ impl StretchedTime {
             lost.abs() <= MOST,
             "F1 t / F0, times |n - 2| of the braking index n where that is above 1",
             -lost,
-            "at most 0.1 in size: the rotation is followed while it falls by a tenth",
+            "at most 0.1 in size; the model holds while the rotation slows by at most a tenth",
         )?;
         let mut tau = wanted;
         for _ in 0..STEPS {

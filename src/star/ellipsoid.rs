@@ -38,7 +38,7 @@ impl<S: Real> UniformEllipsoid<S> {
     /// [`Error::Domain`] unless all are positive and finite, and the semi-axes between 1e-60 and 1e60.
     pub fn new(semi_axes: Vector3<S>, density: S) -> Result<Self, Error> {
         for a in semi_axes.map(S::re).iter() {
-            let allowed = "1e-60 to 1e60, so that no power up to the fifth over- or underflows";
+            let allowed = "from 1e-60 to 1e60, so that no power up to the fifth over- or underflows";
             Error::ensure((1e-60..=1e60).contains(a), "semi-axis", *a, allowed)?;
         }
         let density_is_allowed = density.re() > 0.0 && density.re().is_finite();

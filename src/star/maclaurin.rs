@@ -44,7 +44,7 @@ impl<S: Real> MaclaurinSpheroid<S> {
     /// [`Error::Domain`] for a prolate spheroid: by Eq. (77) it would have `|Omega|^2 < 0`.
     pub fn new(spheroid: UniformSpheroid<S>) -> Result<Self, Error> {
         let e2 = spheroid.shape.eccentricity_squared.re();
-        Error::ensure(e2 >= 0.0, "squared eccentricity e^2", e2, "not negative: no equilibrium is prolate")?;
+        Error::ensure(e2 >= 0.0, "squared eccentricity e^2", e2, "not negative; no equilibrium is prolate")?;
         let (coefficients, rho, a3) =
             (potential_coefficients(&spheroid.shape), spheroid.density, spheroid.polar_radius());
         let rotation_rate_squared = rho * coefficients.difference * (2.0 * PI);

@@ -39,7 +39,7 @@ impl<S: Real> SpheroidShape<S> {
     /// # Errors
     /// [`Error::Domain`] unless `0 <= e < 1`.
     pub fn from_eccentricity(e: S) -> Result<Self, Error> {
-        Error::ensure((0.0..1.0).contains(&e.re()), "eccentricity e", e.re(), "0 <= e < 1")?;
+        Error::ensure((0.0..1.0).contains(&e.re()), "eccentricity e", e.re(), "from 0 to below 1")?;
         let (e2, e2_lost) = two_product(e, e);
         let (q2, q2_lost) = one_minus(e2, e2_lost);
         Ok(Self { axis_ratio: q2.sqrt(), axis_ratio_squared: q2, eccentricity_squared: e2, lost: (q2_lost, e2_lost) })
@@ -51,7 +51,7 @@ impl<S: Real> SpheroidShape<S> {
     /// # Errors
     /// [`Error::Domain`] unless `-1e200 <= e^2 < 1`.
     pub fn from_eccentricity_squared(e2: S) -> Result<Self, Error> {
-        Error::ensure((-1e200..1.0).contains(&e2.re()), "squared eccentricity e^2", e2.re(), "-1e200 <= e^2 < 1")?;
+        Error::ensure((-1e200..1.0).contains(&e2.re()), "squared eccentricity e^2", e2.re(), "from -1e200 to below 1")?;
         let (q2, lost) = one_minus(e2, S::zero());
         Ok(Self { axis_ratio: q2.sqrt(), axis_ratio_squared: q2, eccentricity_squared: e2, lost: (lost, S::zero()) })
     }
@@ -61,7 +61,7 @@ impl<S: Real> SpheroidShape<S> {
     /// # Errors
     /// [`Error::Domain`] unless `1e-100 <= q <= 1e100`.
     pub fn from_axis_ratio(q: S) -> Result<Self, Error> {
-        let allowed = "1e-100 to 1e100, so that no power of it over- or underflows";
+        let allowed = "from 1e-100 to 1e100, so that no power of it over- or underflows";
         Error::ensure((1e-100..=1e100).contains(&q.re()), "axis ratio a3 / a1", q.re(), allowed)?;
         let (q2, q2_lost) = two_product(q, q);
         let (e2, e2_lost) = one_minus(q2, q2_lost);
@@ -88,7 +88,7 @@ impl<S: Real> SpheroidShape<S> {
     /// # Errors
     /// [`Error::Domain`] unless `-1 < epsilon < 1`.
     pub fn from_oblateness(epsilon: S) -> Result<Self, Error> {
-        Error::ensure(epsilon.re().abs() < 1.0, "oblateness epsilon", epsilon.re(), "-1 < epsilon < 1")?;
+        Error::ensure(epsilon.re().abs() < 1.0, "oblateness epsilon", epsilon.re(), "above -1 and below 1")?;
         let q2 = (S::one() - epsilon) / (S::one() + epsilon);
         let e2 = epsilon * 2.0 / (S::one() + epsilon);
         let lost = (S::zero(), S::zero());

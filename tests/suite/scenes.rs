@@ -157,9 +157,12 @@ fn an_observer_is_given_by_inclination_or_by_the_place_of_the_star() {
         ("inclination = 4.0", ["`observer.inclination` = 4.0", "0 to pi"]),
         (
             "theta_o = 1.0\nphi_o = 0.0\ninclination = 1.0",
-            ["`observer.inclination` beside `observer.theta_o`", "only one"],
+            ["`observer.inclination` cannot be used with `observer.theta_o`", "only one"],
         ),
-        ("theta_o = 1.0\nphi_o = 0.0\nazimuth = 1.0", ["`observer.theta_o` beside `observer.azimuth`", "only one"]),
+        (
+            "theta_o = 1.0\nphi_o = 0.0\nazimuth = 1.0",
+            ["`observer.theta_o` cannot be used with `observer.azimuth`", "only one"],
+        ),
         ("frame = \"galactic\"", ["`observer.frame` = \"galactic\"", "equatorial"]),
         ("azimuth = 1.0", ["`observer.theta_o`", "colatitude"]),
     ] {

@@ -97,13 +97,12 @@ fn chosen(known: &[Recipe], names: &[String]) -> Result<Vec<Recipe>, Failure> {
         let numbers = match known.iter().any(|recipe| recipe.paper_figure.is_some()) {
             true => format!(", or 1 to {last}, the number of a figure of the paper"),
             false if unknown.parse::<i64>().is_ok() => {
-                ". A number is that of a figure of the paper, which is of the paper's own scenes: without --scene"
-                    .to_owned()
+                ". Numbers are those of the figures of the paper, which are drawn without --scene".to_owned()
             }
             false => String::new(),
         };
         return Err(Failure::BadInput(format!(
-            "no figure is called `{unknown}`.{} There are {}{numbers}.",
+            "there is no figure `{unknown}`.{} Expected one of {}{numbers}.",
             did_you_mean(unknown, &all),
             all.join(", ")
         )));

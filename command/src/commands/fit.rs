@@ -22,7 +22,7 @@ pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
     let mut data = match (args.data.as_slice(), args.simulate) {
         ([], None) => {
             return Err(Failure::BadInput(format!(
-                "{}: no data: allowed are files of data, or --simulate SEED, or both",
+                "{}: no data; give files of data, or --simulate SEED, or both",
                 measurement.name
             )));
         }
@@ -34,11 +34,11 @@ pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
             let LeftOut { first_turn, shared_turns } = left_out;
             if first_turn > 0 {
                 note(&format!(
-                    "left out: {first_turn} of the data, since the pulse of the first turn may be cut in another model"
+                    "left out {first_turn} of the data, because the pulse of the first turn may be cut in another model"
                 ));
             }
             if shared_turns > 0 {
-                note(&format!("left out: {shared_turns} of the pulses, since they share a turn with another"));
+                note(&format!("left out {shared_turns} of the pulses, because they share a turn with another"));
             }
             data
         }

@@ -15,8 +15,8 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
     let target = named.filter(|target| measurement.unknowns.contains(target)).ok_or_else(|| {
         let keys: Vec<_> = measurement.unknowns.iter().map(|unknown| unknown.key()).collect();
         let keys = keys.join(", ");
-        let of = named.map_or(String::new(), |target| format!("; for {} add it to --parameters", target.key()));
-        refuse(format!("--of {}: allowed is one of the unknown parameters, {keys}{of}", args.of))
+        let of = named.map_or(String::new(), |target| format!("; add {} to --parameters to use it", target.key()));
+        refuse(format!("--of {}: must be one of the unknown parameters, {keys}{of}", args.of))
     })?;
     if measurement.noise.iter().any(|(observable, _)| *observable == Observable::Periods) {
         return Err(refuse(format!("--observe periods: {ALLOWED_IN_FORECASTS}")));
@@ -32,16 +32,16 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
     };
     for &span in &spans {
         if !(span > 0.0 && span.is_finite()) {
-            return Err(refuse(format!("--spans {span:?}: allowed are numbers above zero")));
+            return Err(refuse(format!("--spans {span:?}: must be a number above zero")));
         }
         if measurement.sees_pulses() {
             let least = time_for_a_pulse(&measurement.parameters);
             if span / unit <= least {
                 return Err(refuse(if least.is_finite() {
                     let least = significant(least * unit, 3);
-                    format!("--spans {span:?}: allowed for pulses are spans above 2.2 turns, {least} {time}")
+                    format!("--spans {span:?}: must be above 2.2 turns for pulses, {least} {time}")
                 } else {
-                    "the star is at rest at the start: allowed are forecasts of strains alone".to_owned()
+                    "the star is at rest at the start; only forecasts of strains are possible".to_owned()
                 }));
             }
             check_span(&measurement.parameters, span / unit)
@@ -49,7 +49,7 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
         }
     }
     if let Some(count) = args.epochs.iter().find(|count| !(2..=100_000).contains(*count)) {
-        return Err(refuse(format!("--epochs {count}: allowed is from 2 to 100000")));
+        return Err(refuse(format!("--epochs {count}: must be from 2 to 100000")));
     }
     let in_tc: Vec<f64> = spans.iter().map(|span| span / unit).collect();
     let (noise, unknowns) = (&measurement.noise, &measurement.unknowns);
@@ -76,7 +76,7 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
     let unknown = found.iter().filter(|forecast| !forecast.sigma.is_finite()).count();
     if unknown > 0 {
         note(&format!(
-            "without a sigma: {unknown} of {}: too few data, or data that do not determine {}; longer spans or more epochs may help",
+            "no sigma in {unknown} of {}: the data are too few or do not determine {}; longer spans or more epochs may help",
             counted(found.len(), "row"),
             target.key()
         ));

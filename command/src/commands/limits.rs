@@ -66,7 +66,7 @@ impl Periods {
 
 fn periods(text: &str) -> Result<Periods, String> {
     let wrong = || {
-        "allowed are two periods from 1e-6 to 1e9 days and their number from 1 to 10000, as 50:5000:40; equal periods only with the number 1"
+        "must be two periods from 1e-6 to 1e9 days and their number from 1 to 10000, such as 50:5000:40; equal periods only with the number 1"
             .to_owned()
     };
     let [first, last, number] = text.split(':').collect::<Vec<_>>()[..] else { return Err(wrong()) };
@@ -78,7 +78,7 @@ fn periods(text: &str) -> Result<Periods, String> {
 
 fn prior(text: &str) -> Result<Prior, String> {
     let wrong =
-        || "allowed is a parameter, its mean and its standard deviation, at least 1e-100, as chi:1.2:0.05".to_owned();
+        || "must be a parameter, its mean and its standard deviation, at least 1e-100, such as chi:1.2:0.05".to_owned();
     let [name, mean, sigma] = text.split(':').collect::<Vec<_>>()[..] else { return Err(wrong()) };
     let number = |text: &str| text.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(wrong);
     let [parameter] = named(name, &TimingParameter::ALL)?[..] else { return Err(wrong()) };
@@ -103,7 +103,7 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
     };
     if let Some(prior) = data.priors.iter().find(|prior| !unknowns.contains(&prior.parameter)) {
         let key = prior.parameter.key();
-        return Err(refuse(format!("--prior {key}: allowed is a parameter that is fitted; --parameters has no {key}")));
+        return Err(refuse(format!("--prior {key}: must be a fitted parameter; {key} is not in --parameters")));
     }
     let refused = |error: InferenceError| match error {
         InferenceError::Model(error) => error.into(),
@@ -114,7 +114,7 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
         if data.arrivals.is_empty() {
             let files = args.data.join(", ");
             return Err(Failure::BadInput(format!(
-                "--periods: there is no arrival time in {files}: allowed are data with arrival times"
+                "--periods: there is no arrival time in {files}; use data with arrival times"
             )));
         }
         check_periods(periods, &start, &data)?;
@@ -173,7 +173,7 @@ fn check_periods(periods: Periods, model: &TimingModel, data: &TimingData) -> Re
     let least = 1000.0 / model.value(TimingParameter::F0) / DAY;
     if shortest < least {
         return Err(Failure::BadInput(format!(
-            "--periods: {shortest:e} d: allowed are periods of at least a thousand pulses, {least:.3e} d"
+            "--periods: {shortest:e} d: must be at least a thousand pulses, {least:.3e} d"
         )));
     }
     let apart = days_apart(data.arrivals.iter().map(|arrival| arrival.time[0]));
@@ -284,7 +284,7 @@ mod tests {
         }
         assert_eq!(periods("1:2:10000").expect("as many as are allowed").rates().len(), 10_000);
         for text in ["50:90", "50:90:0", "50:90:10001", "50:90:2:2", "0.9e-6:90:2", "50:1.1e9:2", "50:NaN:2"] {
-            assert!(periods(text).is_err_and(|why| why.starts_with("allowed are two periods")), "{text}");
+            assert!(periods(text).is_err_and(|why| why.starts_with("must be two periods")), "{text}");
         }
     }
 

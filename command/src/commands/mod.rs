@@ -211,7 +211,7 @@ fn is_same_file(one: &Path, other: &Path) -> bool {
 }
 
 fn also_read(out: &Path) -> String {
-    format!("--out {}: it is also read: allowed is another file", out.display())
+    format!("--out {} is also an input file; choose another name", out.display())
 }
 
 /// Runs a command and returns its exit status.

@@ -10,7 +10,7 @@ use super::interrupt::unfinished;
 
 /// Refuses `-` as the name of an output; `other` is another advice than the name.
 pub(super) fn refuse_dash(path: &Path, other: &str) -> Result<(), Failure> {
-    let why = format!("--out -: is not standard output here: {other}write ./- for that name");
+    let why = format!("--out -: does not mean standard output; {other}use ./- for a file of that name");
     if path == Path::new("-") { Err(Failure::BadInput(why)) } else { Ok(()) }
 }
 
@@ -21,7 +21,7 @@ pub(super) fn free_name(path: &Path, replace: bool) -> Result<PathBuf, Failure> 
     match fs::metadata(path) {
         Ok(found) if !found.is_file() => return refuse("exists and is not a regular file"),
         Ok(_) if !replace => return refuse("exists; --force replaces it"),
-        Err(_) if !replace && path.is_symlink() => return refuse("is a link to nothing; --force replaces it"),
+        Err(_) if !replace && path.is_symlink() => return refuse("is a broken link; --force replaces it"),
         _ => {}
     }
     let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
@@ -54,7 +54,7 @@ impl OutputFile {
                 move || drop(fs::remove_file(&part))
             },
         )
-        .map_err(|error| refuse(format!("no file can be made in {}: {error}", folder.display())))?;
+        .map_err(|error| refuse(format!("cannot create a file in {}: {error}", folder.display())))?;
         Ok(Self { path, temporary, replace })
     }
 

@@ -29,12 +29,12 @@ impl OutputFolder {
         let new = !path.exists();
         if new {
             if path.is_symlink() {
-                return Err(refuse("is a link to nothing".into()));
+                return Err(refuse("is a broken link".into()));
             }
             let made = path.to_owned();
             // The folder is removed only if it is empty.
             unfinished(|| fs::create_dir_all(path), |()| move || drop(fs::remove_dir(&made)))
-                .map_err(|error| refuse(format!("no folder can be made: {error}")))?;
+                .map_err(|error| refuse(format!("cannot create the folder: {error}")))?;
         } else if !path.is_dir() {
             return Err(refuse("exists and is not a folder".into()));
         }
@@ -63,7 +63,7 @@ impl OutputFolder {
                 move || drop(fs::remove_dir_all(&part))
             },
         );
-        folder.temporary = Some(temporary.map_err(|error| refuse(format!("no file can be made there: {error}")))?);
+        folder.temporary = Some(temporary.map_err(|error| refuse(format!("cannot create a file there: {error}")))?);
         Ok(folder)
     }
 

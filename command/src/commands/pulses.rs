@@ -5,7 +5,7 @@ use twofold::plan::Output;
 use twofold_scene::scene_file::Columns;
 
 use super::run::{OutputArgs, PlanArgs, WindowArgs, force_method, read_scene, write};
-use super::{Failure, note, print};
+use super::{Failure, counted, note, print};
 use twofold_scene::explained_plan::explained;
 use twofold_scene::plan::LARGEST_ROTATION;
 use twofold_scene::trajectory::write_pulses;
@@ -39,7 +39,7 @@ pub(super) fn pulses(args: &PulsesArgs) -> Result<(), Failure> {
     let rotation = scene.rotation();
     if rotation > LARGEST_ROTATION {
         return Err(Failure::BadInput(format!(
-            "{}: [time] covers {rotation:.1e} rad of rotation: allowed for a list of every pulse is at most {LARGEST_ROTATION:.0e} rad; \
+            "{}: [time] covers {rotation:.1e} rad of rotation: must be at most {LARGEST_ROTATION:.0e} rad for a list of every pulse; \
              shorten the span or select a window of it with --from and --to; `twofold timing` computes the pulses near given epochs",
             args.scene
         )));
@@ -54,14 +54,16 @@ pub(super) fn pulses(args: &PulsesArgs) -> Result<(), Failure> {
     }
     for (beam, pulses, why) in &summary.without_turn {
         note(&format!(
-            "turn and closest_approach are empty for {pulses} whole pulses of beam {beam}: turns cannot be counted: {why}"
+            "turn and closest_approach are empty for {} of beam {beam}: turns cannot be counted ({why})",
+            counted(*pulses, "whole pulse")
         ));
     }
     if let Some(time) = summary.first_grazing {
         note(&format!(
-            "the line of sight grazes the edge of a beam {} times, first at t = {time:?} {}: rounding decides whether there is a pulse \
+            "the line of sight grazes the edge of a beam {}, first at t = {time:?} {}; rounding decides whether there is a pulse \
              there, or a gap between two",
-            summary.grazings, scene.units.time_name
+            counted(summary.grazings, "time"),
+            scene.units.time_name
         ));
     }
     Ok(())

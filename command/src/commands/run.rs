@@ -50,7 +50,7 @@ impl WindowArgs {
         let (from, to) = (self.from.unwrap_or(scene.times.start()), self.to.unwrap_or(scene.times.last()));
         if self.to.is_none() && (to - from) * scene.duration() < 0.0 {
             return Err(Failure::BadInput(format!(
-                "{name}: --from {from:?} is after the end of the scene, {to:?}: --to is needed"
+                "{name}: --from {from:?} is after the end of the scene, {to:?}; give --to as well"
             )));
         }
         let window = scene.window(from, to).map_err(|why| Failure::BadInput(format!("{name}: {why}")));
@@ -117,7 +117,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
         note(&format!("estimated error of {} at the end of the span: {error:.1e}", components(&scene)));
         if turned > error.max(LEAST_TURNED) {
             note(&format!(
-                "that is for the initial state in doubles, whose last digit turns the star by {turned:.1e} rad by then"
+                "that error is for the initial state as rounded to doubles; its last digit turns the star by {turned:.1e} rad by then"
             ));
         }
     }

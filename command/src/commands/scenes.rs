@@ -41,7 +41,7 @@ fn all() -> impl Iterator<Item = &'static BuiltIn> {
 fn file_called(name: &str) -> Result<&'static BuiltIn, Failure> {
     all().find(|file| file.name == name).ok_or_else(|| {
         let names: Vec<_> = all().map(|file| file.name).collect();
-        Failure::BadInput(format!("--print {name}: allowed are {}.{}", listed(&names), did_you_mean(name, &names)))
+        Failure::BadInput(format!("--print {name}: must be one of {}.{}", listed(&names), did_you_mean(name, &names)))
     })
 }
 

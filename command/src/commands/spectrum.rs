@@ -33,7 +33,7 @@ pub(super) fn spectrum(args: &SpectrumArgs) -> Result<(), Failure> {
     let column = Column::oscillating(&args.of, &scene)
         .map_err(|why| Failure::BadInput(format!("--of for {}: {why}", args.scene)))?;
     if !(1e-12..=1.0).contains(&args.least) {
-        return Err(Failure::BadInput(format!("--least {:?}: allowed is from 1e-12 to 1", args.least)));
+        return Err(Failure::BadInput(format!("--least {:?}: must be from 1e-12 to 1", args.least)));
     }
     let wanted = LinesWanted { least: args.least, most: args.most as usize, in_turns: args.hertz };
     if let Some(summary) = write(&args.output, &scene, |writer, _| write_lines(&scene, &column, &wanted, writer))? {
@@ -58,16 +58,16 @@ fn note_lines(column: &Column, summary: &LinesSummary) {
     }
     note(&format!("{name} has the constant term {:?}{unit}", summary.constant));
     if let Some(rounding) = summary.rounding {
-        note(&format!("lines below {rounding:.1e}{unit} are not listed: a constant has as much by rounding"));
+        note(&format!("lines below {rounding:.1e}{unit} are not listed, because rounding alone gives such lines"));
     }
     note(&format!(
-        "{name} differs from its constant and all lines found by up to {:.1e}{unit} in sixteen states",
+        "{name} differs from the sum of its constant and all lines found by up to {:.1e}{unit} in sixteen states",
         summary.left
     ));
     if summary.written == 0 {
         note(&format!("{name} has no line"));
     }
     if summary.found > summary.written {
-        note(&format!("{} lines were found; --most writes more of them", summary.found));
+        note(&format!("{} lines were found; use a larger --most to write more of them", summary.found));
     }
 }

@@ -8,7 +8,7 @@ use super::Failure;
 pub(super) fn standard_output() -> Result<StdoutLock<'static>, Failure> {
     if is_closed() {
         return Err(cannot_be_written(
-            "it is closed, or it is the null device opened for reading too; `> /dev/null` discards the output",
+            "it is closed, or it is the null device opened for reading as well; use `> /dev/null` to discard the output",
         ));
     }
     Ok(io::stdout().lock())

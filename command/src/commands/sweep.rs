@@ -81,7 +81,7 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
         match &error {
             SpoolError::File(_, error) if is_full(error.kind()) => Failure::Failed(why),
             SpoolError::File(_, error) if !folder.is_dir() => Failure::BadInput(format!(
-                "--out {}: no file can be made in {}: {error}",
+                "--out {}: cannot create a file in {}: {error}",
                 args.out.display(),
                 folder.display()
             )),
@@ -105,7 +105,7 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     note_rate(spool.next() - first, spool.next() - scenes.start, start.elapsed(), spool.failed());
     if done.map_err(failed)? == Done::Stopped {
         return Err(Failure::Interrupted(format!(
-            "{} of {count} scenes are in {}; the same command continues from there",
+            "{} of {count} scenes are in {}; run the same command to continue",
             spool.next() - scenes.start,
             files.rows.display()
         )));
@@ -119,7 +119,7 @@ fn is_full(kind: io::ErrorKind) -> bool {
 }
 
 fn some_failed(out: &Path) -> Failure {
-    Failure::Partly(format!("some scenes failed: {} says which and why", errors_beside(out).display()))
+    Failure::Partly(format!("some scenes failed; {} lists them with the reasons", errors_beside(out).display()))
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -135,8 +135,8 @@ impl Format {
             (false, _) => Ok(Self::Csv),
             (true, true) => Ok(Self::Parquet),
             (true, false) => Err(Failure::BadInput(format!(
-                "--out {}: this program was built without Parquet; `cargo build --release --features parquet` \
-                 includes it, and CSV needs no feature",
+                "--out {}: this program was built without Parquet; build it with `cargo build --release --features parquet`, \
+                 or use the name of a CSV file",
                 path.display()
             ))),
         }
@@ -151,7 +151,7 @@ fn failed(error: SpoolError) -> Failure {
 fn give_names(spool: &mut Spool, out: &Path, (replace, format): (bool, Format)) -> Result<(), Failure> {
     let cannot = |error: SpoolError| match error {
         SpoolError::File(path, error) if error.kind() == io::ErrorKind::AlreadyExists => {
-            Failure::Failed(format!("{} exists and is not of this table; --force replaces it", path.display()))
+            Failure::Failed(format!("{} exists and does not belong to this table; --force replaces it", path.display()))
         }
         SpoolError::File(path, error) => Failure::Failed(format!("{} cannot be written: {error}", path.display())),
         error => failed(error),
@@ -239,7 +239,7 @@ fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<()
     }
     output.complete()?;
     if !missing.is_empty() {
-        note(&format!("there is no {}: why these scenes failed is not known", missing.join(", ")));
+        note(&format!("{} is missing, so the reasons why these scenes failed are not known", missing.join(", ")));
     }
     if any_failed { Err(some_failed(&args.out)) } else { Ok(()) }
 }

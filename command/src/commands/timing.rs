@@ -166,14 +166,15 @@ fn note_left_out(timing: &Timing, asked: usize) {
     if shared > 0 {
         let are = if shared == 1 { "is" } else { "are" };
         note(&format!(
-            "{shared} of {asked} epochs {are} in the same turn as an earlier one: each pulse is written once"
+            "{shared} of {asked} epochs {are} in the same turn as an earlier one; each pulse is written once"
         ));
     }
     if timing.dark > 0 {
         note(&format!(
-            "{} of {asked} epochs have no pulse: in that turn the line of sight stays outside the beam, or inside it for longer than the \
+            "{} of {asked} epochs {} no pulse: in that turn the line of sight stays outside the beam, or inside it for longer than the \
              search covers, one and a half turns either way",
-            timing.dark
+            timing.dark,
+            if timing.dark == 1 { "has" } else { "have" }
         ));
     }
 }
@@ -190,7 +191,7 @@ fn epochs(args: &TimingArgs, scene: &Scene, epoch: &Epoch) -> Result<Vec<Epoch>,
     let [seconds, _] = to.seconds_since(&from);
     if seconds <= 0.0 {
         return Err(Failure::BadInput(format!(
-            "epochs from {from} to {to}: allowed is a later date for the last (--from, --to, or the scene's span)"
+            "epochs from {from} to {to}: the last must be later than the first (--from, --to, or the scene's span)"
         )));
     }
     let days = seconds / DAY;
@@ -207,7 +208,7 @@ fn epochs(args: &TimingArgs, scene: &Scene, epoch: &Epoch) -> Result<Vec<Epoch>,
         }
     };
     if !(2.0..=MOST_SAMPLES as f64).contains(&count) {
-        return Err(Failure::BadInput(format!("{count} epochs are requested: allowed are from 2 to {MOST_SAMPLES}")));
+        return Err(Failure::BadInput(format!("the number of epochs is {count}: must be from 2 to {MOST_SAMPLES}")));
     }
     let epochs = (0..count as usize).map(|k| from.after([k as f64 * step * DAY, 0.0]));
     Ok(epochs.collect::<Result<_, _>>()?)
@@ -222,7 +223,7 @@ fn series(args: &TimingArgs, epochs: &[Epoch], period: f64) -> Result<Series, Fa
     let samples = (rate * span).ceil();
     if !(2.0..=MOST_SAMPLES as f64).contains(&samples) {
         return Err(Failure::BadInput(format!(
-            "{samples} samples of strain are requested: allowed are from 2 to {MOST_SAMPLES}"
+            "the number of samples of strain is {samples}: must be from 2 to {MOST_SAMPLES}"
         )));
     }
     Ok(Series { start: epochs[0], rate, samples: samples as usize })
@@ -232,11 +233,11 @@ fn positive(option: &str, value: f64) -> Result<(), Failure> {
     if value > 0.0 && value.is_finite() {
         return Ok(());
     }
-    Err(Failure::BadInput(format!("{option} {value}: allowed is a number above zero")))
+    Err(Failure::BadInput(format!("{option} {value}: must be a number above zero")))
 }
 
 pub(super) fn date(text: &str) -> Result<Epoch, String> {
-    text.parse().map_err(|_| "allowed is a modified Julian date from 0 to 1e7, as 55321.25".to_owned())
+    text.parse().map_err(|_| "must be a modified Julian date from 0 to 1e7, such as 55321.25".to_owned())
 }
 
 #[cfg(test)]

@@ -47,7 +47,7 @@ pub(super) fn verify(args: &VerifyArgs) -> Result<(), Failure> {
 
 pub(super) fn conclude(results: &[report::Result]) -> Result<(), Failure> {
     let failed: Vec<_> = results.iter().filter(|(_, outcome)| !outcome.passed).map(|(check, _)| check.id).collect();
-    if failed.is_empty() { Ok(()) } else { Err(Failure::Failed(format!("failing checks: {}", failed.join(", ")))) }
+    if failed.is_empty() { Ok(()) } else { Err(Failure::Failed(format!("failed checks: {}", failed.join(", ")))) }
 }
 
 /// Runs the checks on all processors and returns the results in the order of the list.
@@ -82,7 +82,7 @@ mod tests {
         let ids: Vec<_> = results.iter().map(|(check, _)| check.id).collect();
         assert_eq!(ids, ["passes", "nan", "errs", "panics"]);
 
-        assert!(matches!(conclude(&results), Err(Failure::Failed(m)) if m == "failing checks: nan, errs, panics"));
+        assert!(matches!(conclude(&results), Err(Failure::Failed(m)) if m == "failed checks: nan, errs, panics"));
         assert!(conclude(&results[..1]).is_ok());
 
         let text = report::tables(&results, 130, true);

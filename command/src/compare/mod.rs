@@ -78,7 +78,7 @@ pub fn compare(folder: &Path) -> Result<Comparison, Failure> {
     let input = Failure::BadInput;
     let shown = folder.display();
     let entries =
-        fs::read_dir(folder).map_err(|error| input(format!("{shown}: no folder that can be read: {error}")))?;
+        fs::read_dir(folder).map_err(|error| input(format!("{shown}: cannot be read as a folder: {error}")))?;
     let mut names = Vec::new();
     for entry in entries {
         let entry = entry.map_err(|error| input(format!("{shown}: cannot be listed: {error}")))?;
@@ -89,8 +89,8 @@ pub fn compare(folder: &Path) -> Result<Comparison, Failure> {
     let (found, absent): (Vec<_>, Vec<_>) = KNOWN.iter().partition(|known| names.iter().any(|name| name == known.name));
     if found.is_empty() {
         let near = names.iter().find_map(|name| Some((name, nearest(name, &known_names)?)));
-        let guess = near.map(|(name, near)| format!("; `{name}` may be meant to be `{near}`")).unwrap_or_default();
-        return Err(input(format!("{shown}: has none of the authors' files {}{guess}", known_names.join(", "))));
+        let guess = near.map(|(name, near)| format!("; should `{name}` be `{near}`?")).unwrap_or_default();
+        return Err(input(format!("{shown}: contains none of the authors' files {}{guess}", known_names.join(", "))));
     }
     let tables: Vec<_> = found.iter().map(|known| table::read(&folder.join(known.name), known)).collect();
     let faults: Vec<_> = tables.iter().filter_map(|table| table.as_ref().err().cloned()).collect();

@@ -55,7 +55,7 @@ pub(super) fn by_stamps(
         let mut notes = Vec::new();
         if alone > 0 {
             let rows = if alone == 1 { "row of the file has" } else { "rows of the file have" };
-            notes.push(format!("{alone} {rows} nothing of ours within {SAME_PULSE} t_c, but for what another row has"));
+            notes.push(format!("{alone} {rows} no counterpart of its own in ours within {SAME_PULSE} t_c"));
         }
         let (first, last) = (table.rows[0][0], table.last_time());
         let in_file = |stamped: &Stamped| pairs.iter().any(|(_, ours)| *ours == stamped);
@@ -115,8 +115,9 @@ mod tests {
         let ours: Vec<Stamped> = recompute::train(&start, &table).unwrap().0.periods().collect();
         let [first, second] = [&ours[0], &ours[1]].map(|stamped| [stamped.time, stamped.value]);
         let middle = [(first[0] + second[0]) / 2.0, first[1]];
-        let alone =
-            |notes: &[String]| notes.iter().filter(|note| note.contains("nothing of ours within 1 t_c, but")).count();
+        let alone = |notes: &[String]| {
+            notes.iter().filter(|note| note.contains("no counterpart of its own in ours within 1 t_c")).count()
+        };
         assert_eq!(alone(&notes(&[first, second])), 0);
         // Compared with both of our starts.
         let found = notes(&[first, middle, second]);

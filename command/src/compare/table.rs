@@ -53,7 +53,7 @@ pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, 
         let line = index + 1;
         last_line = line;
         if rows.len() == rows_wanted {
-            return fault(line, 1, format!("one row too many: the published file has {rows_wanted}"));
+            return fault(line, 1, format!("too many rows; the published file has {rows_wanted}"));
         }
         let mut row = Vec::with_capacity(width);
         for word in words(content) {
@@ -63,7 +63,7 @@ pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, 
                 return fault(
                     line,
                     column_of(word, content),
-                    format!("a column too many: the file has {width} ({names})"),
+                    format!("too many columns; the published file has {width} ({names})"),
                 );
             }
             match word.parse::<f64>() {
@@ -76,16 +76,16 @@ pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, 
         }
         let end = content.chars().count() + 1;
         if row.len() < width {
-            let why = if row.is_empty() { "an empty line" } else { "a truncated row" };
-            return fault(line, end, format!("{why}: {} of {width} numbers", row.len()));
+            let why = if row.is_empty() { "the line is empty" } else { "the row is incomplete" };
+            return fault(line, end, format!("{why}; found {} of {width} numbers", row.len()));
         }
         let time = row[0];
         let start = words(content).next().map_or(1, |word| column_of(word, content));
         if !(0.0..=LATEST_TIME).contains(&time) {
-            return fault(line, start, format!("time {time:?}: allowed is from 0 to {LATEST_TIME} t_c"));
+            return fault(line, start, format!("time {time:?}: must be from 0 to {LATEST_TIME} t_c"));
         }
         if let Some(before) = rows.last().map(|row| row[0]).filter(|&before| time <= before) {
-            return fault(line, start, format!("time {time:?} after {before:?}: times must increase"));
+            return fault(line, start, format!("time {time:?} after {before:?}; times must increase"));
         }
         rows.push(row);
     }
@@ -94,7 +94,7 @@ pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, 
     }
     if rows.len() < rows_wanted {
         let end = text.lines().last().map_or(0, |line| line.chars().count()) + 1;
-        let message = format!("truncated: ends after {} rows, the published file has {rows_wanted}", rows.len());
+        let message = format!("the file is incomplete; expected {rows_wanted} rows, found {}", rows.len());
         return fault(last_line, end, message);
     }
     Ok(Table { rows })
@@ -126,14 +126,14 @@ mod tests {
         for (text, fault) in [
             ("", "x.dat: is empty"),
             ("\n", "x.dat: is empty"),
-            ("1 2\n", "x.dat:1:4: truncated: ends after 1 rows, the published file has 2"),
-            ("1 2\n\n3 4\n", "x.dat:2:1: an empty line: 0 of 2 numbers"),
-            ("1 2\n3\n", "x.dat:2:2: a truncated row: 1 of 2 numbers"),
-            ("1 2  9\n", "x.dat:1:6: a column too many: the file has 2 (t, period)"),
-            ("1 2\n3 4\n5 6\n", "x.dat:3:1: one row too many: the published file has 2"),
-            (" -1 2\n", "x.dat:1:2: time -1.0: allowed is from 0 to 1100 t_c"),
-            ("1 2\n1100.5 4\n", "x.dat:2:1: time 1100.5: allowed is from 0 to 1100 t_c"),
-            ("1 2\n1 4\n", "x.dat:2:1: time 1.0 after 1.0: times must increase"),
+            ("1 2\n", "x.dat:1:4: the file is incomplete; expected 2 rows, found 1"),
+            ("1 2\n\n3 4\n", "x.dat:2:1: the line is empty; found 0 of 2 numbers"),
+            ("1 2\n3\n", "x.dat:2:2: the row is incomplete; found 1 of 2 numbers"),
+            ("1 2  9\n", "x.dat:1:6: too many columns; the published file has 2 (t, period)"),
+            ("1 2\n3 4\n5 6\n", "x.dat:3:1: too many rows; the published file has 2"),
+            (" -1 2\n", "x.dat:1:2: time -1.0: must be from 0 to 1100 t_c"),
+            ("1 2\n1100.5 4\n", "x.dat:2:1: time 1100.5: must be from 0 to 1100 t_c"),
+            ("1 2\n1 4\n", "x.dat:2:1: time 1.0 after 1.0; times must increase"),
             ("1 two\n", "x.dat:1:3: `two` is not a finite decimal number"),
             ("1 2\u{c}\n", "x.dat:1:3: `2` is not a finite decimal number"),
             ("1 inf\n", "x.dat:1:3: `inf` is not a finite decimal number"),

@@ -41,6 +41,6 @@ fn first_rows(sweep: &Sweep<'_>) {
         let is_number = |field: &&str| field.is_empty() || field.parse::<f64>().is_ok_and(f64::is_finite);
         assert!(columns.iter().all(|field| is_number(field) || ["ok", "failed"].contains(field)), "{text}");
         let errors = String::from_utf8(errors).expect("a table is text");
-        assert!(!errors.contains("a defect of this program"), "{errors}");
+        assert!(!errors.contains("a bug in this program"), "{errors}");
     }
 }

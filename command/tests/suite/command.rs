@@ -46,7 +46,7 @@ fn files_that_are_no_scenes_are_refused() {
 #[cfg(target_os = "linux")]
 #[test]
 fn an_endless_file_is_not_read_to_the_end() {
-    assert_refused(Path::new("/dev/zero"), &["is longer than 64 MiB"]);
+    assert_refused(Path::new("/dev/zero"), &["is larger than 64 MiB"]);
 }
 
 #[test]
@@ -74,7 +74,7 @@ fn an_output_file_appears_complete_and_is_not_overwritten() {
 fn a_link_to_nothing_is_refused_before_the_computation() {
     let folder = Folder::new();
     std::os::unix::fs::symlink("nothing", folder.at("link.csv")).expect("link");
-    is_refused(&folder.run(&["run", "tp-1", "--out", "link.csv"]), &["is a link to nothing"]);
+    is_refused(&folder.run(&["run", "tp-1", "--out", "link.csv"]), &["is a broken link"]);
     assert_eq!(folder.names(), ["link.csv"]);
 }
 

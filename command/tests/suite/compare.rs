@@ -245,7 +245,10 @@ fn a_difference_beyond_the_files_own_error_fails() {
     assert_eq!(differing, ["period"]);
     // A pulse of another star.
     let other = with_change("mntp1_widset.dat", |text| with_line(text, 40, shifted(0, 1.7)));
-    has_all(&stdout(&ends(compare(&other, &[]), 1)), &["1 row of the file has nothing of ours within 1 t_c"]);
+    has_all(
+        &stdout(&ends(compare(&other, &[]), 1)),
+        &["1 row of the file has no counterpart of its own in ours within 1 t_c"],
+    );
 }
 
 #[test]
@@ -266,14 +269,18 @@ fn malformed_files_are_named_with_line_and_column() {
         (
             "gwtp1.dat",
             format!("{waves}\n400.1\t0.1\t0.2").into(),
-            &["gwtp1.dat:10001:1: one row too many: the published file has 10000"],
+            &["gwtp1.dat:10001:1: too many rows; the published file has 10000"],
         ),
         (
             "gwtp1.dat",
             first_rows.join("\n").into(),
-            &["gwtp1.dat:9000:", "truncated: ends after 9000 rows, the published file has 10000"],
+            &["gwtp1.dat:9000:", "the file is incomplete; expected 10000 rows, found 9000"],
         ),
-        ("gwtp1.dat", waves[..waves.len() - 30].into(), &["gwtp1.dat:10000:", "a truncated row: 2 of 3 numbers"]),
+        (
+            "gwtp1.dat",
+            waves[..waves.len() - 30].into(),
+            &["gwtp1.dat:10000:", "the row is incomplete; found 2 of 3 numbers"],
+        ),
         ("gwtp1.dat", Vec::new(), &["gwtp1.dat: is empty"]),
         (
             "gwtp1.dat",
@@ -284,18 +291,18 @@ fn malformed_files_are_named_with_line_and_column() {
         (
             "mntp1_pset.dat",
             periods.split_once('\n').expect("lines").1.into(),
-            &["mntp1_pset.dat:94:", "truncated: ends after 94 rows"],
+            &["mntp1_pset.dat:94:", "the file is incomplete; expected"],
         ),
     ];
     for (line, text, message) in [
         (3, "0.08\tNaN\t0.1", &["gwtp1.dat:3:6: `NaN` is not a finite"]),
         (3, "0.08\t0.1\t1e999", &["gwtp1.dat:3:10: `1e999`"]),
         (3, "0.08,0.1,0.2", &["gwtp1.dat:3:1: `0.08,0.1,0.2`"]),
-        (3, "0.08\t0.1", &["gwtp1.dat:3:9: a truncated row: 2 of 3 numbers"]),
-        (3, "0.08\t0.1 0.2  7", &["gwtp1.dat:3:15: a column too many: the file has 3 (t, h_+, h_x)"]),
-        (4, "", &["gwtp1.dat:4:1: an empty line"]),
-        (1, "-1.0\t0.1\t0.2", &["gwtp1.dat:1:1: time -1.0: allowed is from 0 to 1100"]),
-        (10_000, "1e9\t0.1\t0.2", &["gwtp1.dat:10000:1: time 1000000000.0: allowed"]),
+        (3, "0.08\t0.1", &["gwtp1.dat:3:9: the row is incomplete; found 2 of 3 numbers"]),
+        (3, "0.08\t0.1 0.2  7", &["gwtp1.dat:3:15: too many columns; the published file has 3 (t, h_+, h_x)"]),
+        (4, "", &["gwtp1.dat:4:1: the line is empty"]),
+        (1, "-1.0\t0.1\t0.2", &["gwtp1.dat:1:1: time -1.0: must be from 0 to 1100"]),
+        (10_000, "1e9\t0.1\t0.2", &["gwtp1.dat:10000:1: time 1000000000.0: must be"]),
     ] {
         cases.push(("gwtp1.dat", with_line(waves, line, |_| text.to_owned()), message));
     }

@@ -234,11 +234,11 @@ fn tables_beyond_the_bounds_are_refused() {
     folder.write("long.csv", header.to_owned() + &"1,2,3\n".repeat(100_001));
     folder.write("bytes.csv", [header.as_bytes(), b"1,\xff,3\n"].concat());
     for (name, why) in [
-        ("wide.csv", "nor `t`, of strains: its columns are x, x, "),
+        ("wide.csv", "or `t` of strains; found x, x, "),
         ("wide.csv", "and 199971 more"),
-        ("long.csv", "long.csv:100002: one row too many: allowed are 100000 in a file"),
+        ("long.csv", "long.csv:100002: too many rows; a file can have at most 100000"),
         ("bytes.csv", "bytes.csv: is not UTF-8 text (byte 34, line "),
-        ("/dev/zero", "/dev/zero: is longer than 64 MiB, the most that is read"),
+        ("/dev/zero", "/dev/zero: is larger than 64 MiB, the largest file that is read"),
     ] {
         let fit = ["fit", "s.toml", name, "--observe", "strain:1e-3", "--parameters", "eps"];
         let output = ends(folder.run(&fit), 2);

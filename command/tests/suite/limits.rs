@@ -179,24 +179,24 @@ fn what_is_wrong_is_named() {
         std::fs::write(folder.at(name), text).expect("a file");
     }
     let refusals: [(&[&str], &[&str]); 26] = [
-        (&["site.tim"], &["site.tim:2: site `ao`", "allowed are @"]),
-        (&["frequency.tim"], &["frequency.tim:2: frequency `1400`", "allowed is 0"]),
+        (&["site.tim"], &["site.tim:2: site `ao`", "must be one of @"]),
+        (&["frequency.tim"], &["frequency.tim:2: frequency `1400`", "must be 0"]),
         (&["error.tim"], &["error.tim:2: uncertainty `-1.0`", "from 1e-9 to 1e12"]),
         (&["date.tim"], &["date.tim:2: `5532l.5`", "decimal number"]),
-        (&["number.tim"], &["number.tim:2: `-pn` is `x`", "whole number"]),
-        (&["fields.tim"], &["fields.tim:2: `a 0.0 55321.5`", "allowed are lines"]),
+        (&["number.tim"], &["number.tim:2: `-pn` = `x`", "whole number"]),
+        (&["fields.tim"], &["fields.tim:2: `a 0.0 55321.5`", "expected a name"]),
         (&["old.tim"], &["old.tim:1: `FORMAT 2`", "FORMAT 1"]),
-        (&["no.csv", "--observe", "arrivals:1e-6"], &["no.csv: no column `arrival_day [MJD]`"]),
+        (&["no.csv", "--observe", "arrivals:1e-6"], &["no.csv: missing column `arrival_day [MJD]`"]),
         (&["b1937+21.csv"], &["a table has no standard deviations", "--observe"]),
         (&["b1937+21.csv", "--observe", "periods:1"], &["--observe: `periods`", "arrivals, widths"]),
         (&["b1937+21.tim", "--parameters", "fO"], &["--parameters: `fO` is not a parameter", "f0"]),
-        (&["b1937+21.tim", "--prior", "chi:1.2:0.1"], &["--prior chi", "--parameters has no chi"]),
+        (&["b1937+21.tim", "--prior", "chi:1.2:0.1"], &["--prior chi", "chi is not in --parameters"]),
         (&["b1937+21.tim", "--prior", "chi:1.2:0"], &["chi:1.2:0", "at least 1e-100"]),
-        (&["b1937+21.tim", "--prior", "all:1.2:0.1"], &["all:1.2:0.1", "allowed is a parameter"]),
+        (&["b1937+21.tim", "--prior", "all:1.2:0.1"], &["all:1.2:0.1", "must be a parameter"]),
         (&["flag.tim"], &["flag.tim:2: `-padd` changes the time"]),
         (&["empty.tim"], &["empty.tim: no data"]),
-        (&["b1937+21.tim", "b1937+21.tim"], &["b1937+21.tim: the datum of MJD ", "measured once"]),
-        (&["twice.tim"], &["twice.tim: the datum of MJD 55322.5 is there twice", "measured once"]),
+        (&["b1937+21.tim", "b1937+21.tim"], &["b1937+21.tim: the datum of MJD ", "given only once"]),
+        (&["twice.tim"], &["twice.tim: the datum of MJD 55322.5 occurs twice", "given only once"]),
         (&["half.tim", "rest.tim"], &["rest.tim: the datum of MJD 55321.5 ", "also in an earlier file"]),
         (&["b1937+21.tim", "--observe", "widths:1e-5"], &["--observe widths: there is no such datum"]),
         (&["b1937+21.tim", "--periods", "1:1e-5:2"], &["--periods: 1e-5 d", "at least a thousand pulses, 1.803e-5 d"]),
@@ -205,8 +205,8 @@ fn what_is_wrong_is_named() {
             &["b1937+21.tim", "--parameters", "phase,chi", "--prior", "chi:1.3:0.2", "--periods", "50:90:2"],
             &["chi", "held fixed"],
         ),
-        (&["b1937+21.tim", "--out", "b1937+21.tim", "--force"], &["--out b1937+21.tim: it is also read"]),
-        (&["b1937+21.tim", "--out=b1937+21.tim", "--force"], &["--out b1937+21.tim: it is also read"]),
+        (&["b1937+21.tim", "--out", "b1937+21.tim", "--force"], &["--out b1937+21.tim is also an input file"]),
+        (&["b1937+21.tim", "--out=b1937+21.tim", "--force"], &["--out b1937+21.tim is also an input file"]),
         (&["b1937+21.tim", "--periods", "50:20"], &["50:20", "two periods"]),
     ];
     for (args, reasons) in refusals {
@@ -248,7 +248,7 @@ fn any_f2_is_fitted_and_files_count_for_themselves() {
     let args =
         ["limits", "b1937+21", "b1937+21.tim", "b1937+21.csv", "--observe", "arrivals:1e-6", "--parameters", unknowns];
     let again = folder.run(&args);
-    has_all(&stderr(&again), &["measured once"]);
+    has_all(&stderr(&again), &["given only once"]);
     let lines: Vec<_> = folder.read("b1937+21.tim").lines().map(str::to_owned).collect();
     folder.write("half.tim", lines[..200].join("\n"));
     let table: Vec<_> = folder.read("b1937+21.csv").lines().map(str::to_owned).collect();

@@ -79,7 +79,7 @@ fn a_window_may_be_late() {
         rows[4001].join(",")
     );
     for (args, part) in [
-        (&["pulses", "tp-2", "--from", "0", "--to", "1e9"][..], "rad of rotation: allowed"),
+        (&["pulses", "tp-2", "--from", "0", "--to", "1e9"][..], "rad of rotation: must be at most"),
         (&["pulses", "tp-2", "--from", "1e9", "--to", "1000000100", "--method", "taylor"], "rotation over the span"),
         (&["pulses", "tp-2", "--from", "1e9"], "after the end of the scene"),
         (&["pulses", "tp-2", "--from", "7", "--to", "7"], "a window from 7.0 to 7.0"),

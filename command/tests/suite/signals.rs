@@ -18,7 +18,7 @@ const COMMANDS: [(&[&str], &str); 5] = [
     (&["figures", "--out", "out"], "error: interrupted: no file was left incomplete\n"),
     (&["report", "--out", "out"], "error: interrupted: no file was left incomplete\n"),
     (&["bench", "--quick", "--out", "out"], "error: interrupted: no file was left incomplete\n"),
-    (&["sweep", "huge.toml", "--out", "out"], "scenes are in out.partial; the same command continues from there\n"),
+    (&["sweep", "huge.toml", "--out", "out"], "scenes are in out.partial; run the same command to continue\n"),
 ];
 
 /// Signals by name and number.

@@ -168,7 +168,7 @@ fn threads_and_shards_do_not_change_a_byte() {
     for (parts, why) in [
         (&["other.csv"][..], "other.csv does not begin with the header of this sweep's table"),
         (&names[1..], "part-1.csv") as (&[&str], &str),
-        (&names[..6], "is the last and ends before scene 685: the sweep has 800"),
+        (&names[..6], "is the last and ends before scene 685; the sweep has 800 scenes"),
         (&[names[0], names[0]], "has scene 0 where scene 114 is expected"),
         (&["sweep.toml"], "does not begin with the header"),
         (&["moved.csv"], "moved.csv is of another sweep: its scene 1 has other parameters"),
@@ -200,7 +200,10 @@ fn bad_rows_are_reported_and_do_not_end_the_sweep() {
     let output = ends(folder.run(&["sweep", "sweep.toml", "--out", "table.csv"]), 3);
     let message = stderr(&output);
     assert!(message.contains("note: 800 scenes in ") && message.contains("80 of 800 failed"), "{message}");
-    assert!(message.contains("error: some scenes failed: table.csv.errors.csv says which and why\n"), "{message}");
+    assert!(
+        message.contains("error: some scenes failed; table.csv.errors.csv lists them with the reasons\n"),
+        "{message}"
+    );
     let table = rows(&folder, "table.csv");
     assert_eq!(table.len(), 801);
     let errors = rows(&folder, "table.csv.errors.csv");
@@ -213,7 +216,7 @@ fn bad_rows_are_reported_and_do_not_end_the_sweep() {
     for (row, error) in failed.iter().zip(&errors[1..]) {
         assert_eq!(row[..4], error[..4]);
         assert!(row[5..].iter().all(String::is_empty) && row.len() == table[0].len());
-        assert!(error[4].contains("`star.inertia_ratio` = 2.1: allowed is from 1e-3 to 2"), "{error:?}");
+        assert!(error[4].contains("`star.inertia_ratio` = 2.1: must be from 1e-3 to 2"), "{error:?}");
     }
     for row in table.iter().skip(1).filter(|row| row[4] == "ok") {
         assert!(row[5..].iter().all(|field| field.parse::<f64>().is_ok_and(f64::is_finite)), "{row:?}");
@@ -295,7 +298,7 @@ fn a_file_that_appears_before_the_table_is_named_stays() {
     fs::remove_file(folder.at("table.csv")).expect("a table");
     complete();
     folder.write("table.csv.errors.csv", "theirs");
-    assert!(stderr(&ends(run(&[]), 1)).contains("table.csv.errors.csv exists and is not of this table"));
+    assert!(stderr(&ends(run(&[]), 1)).contains("table.csv.errors.csv exists and does not belong to this table"));
     assert_eq!(folder.read("table.csv.errors.csv"), "theirs");
     folder.write("table.csv.errors.csv", &errors[..errors.len() / 2]);
     ends(run(&[]), 3);
@@ -307,7 +310,7 @@ fn a_file_that_appears_before_the_table_is_named_stays() {
 fn a_sweep_killed_while_it_tidied_tells_again_that_scenes_failed() {
     let folder = Folder::with(&[("sweep.toml", SWEEP)]);
     let run = || stderr(&ends(folder.run(&["sweep", "sweep.toml", "--out", "table.csv"]), 3));
-    let why = "error: some scenes failed: table.csv.errors.csv says which and why\n";
+    let why = "error: some scenes failed; table.csv.errors.csv lists them with the reasons\n";
     assert!(run().ends_with(why));
     let [table, errors] = ["table.csv", "table.csv.errors.csv"].map(|name| folder.bytes(name));
     let text = SweepText::read(&folder.at("sweep.toml").to_string_lossy()).expect("a sweep");
@@ -345,7 +348,7 @@ fn a_huge_sweep_takes_little_memory_and_can_be_interrupted() {
         assert!(peak < 150_000, "{peak} kB");
         crate::common::send(&child, "TERM");
         let message = stderr(&ends(child.wait_with_output().expect("status"), 130));
-        assert!(message.contains("; the same command continues from there"), "{message}");
+        assert!(message.contains("; run the same command to continue"), "{message}");
         assert_eq!(message.contains("scenes are already computed"), continued, "{message}");
         assert!(!continued || message.contains(&format!("note: {there} of 500000000 scenes are already computed")));
         assert!(message.contains(" rows of 19 columns, about 180.5 GB") || continued, "{message}");
@@ -390,7 +393,7 @@ fn the_scene_of_a_sweep_is_not_replaced_by_its_table() {
     std::os::unix::fs::symlink("sub/star.toml", folder.at("link")).expect("a link");
     for out in ["sub/star.toml", "link"] {
         let refused = folder.run(&["sweep", "sub/sweep.toml", "--out", out, "--force"]);
-        is_refused(&refused, &[&format!("--out {out}: it is also read: allowed is another file")]);
+        is_refused(&refused, &[&format!("--out {out} is also an input file; choose another name")]);
     }
     assert_eq!(folder.read("sub/star.toml"), two_times());
 }

@@ -268,7 +268,7 @@ fn friction_takes_the_wobble_away() {
 
     for (lines, said) in [
         ("damping_time = 0.0", "from 1e-3 to 1e12 [d]"),
-        ("damping_time = 2000.0\nindex = 2.5", "`damping_time` is for a braking index of 3"),
+        ("damping_time = 2000.0\nindex = 2.5", "`damping_time` is only for a braking index of 3"),
         ("damping_time = 700.0", "rate of damping over that of the precession"),
         ("damping_time = 1000.0", "at most 2 in size"),
     ] {
@@ -354,7 +354,7 @@ fn a_scene_without_pulses_is_told_why() {
             "rho = ",
             "rho = 0.05",
             &[
-                "never passes the line of sight",
+                "never crosses the line of sight",
                 "comes to 0.087266 rad of it at closest",
                 "`pulsar.rho` is 0.05 rad",
                 "above",

@@ -65,7 +65,7 @@ impl DataFile {
             return Ok(of_pulses);
         }
         Err(format!(
-            "{}: no columns `turn` and `midpoint`, of pulses, nor `t`, of strains: its columns are {}, separated by commas",
+            "{}: expected the columns `turn` and `midpoint` of pulses, or `t` of strains; found {}, separated by commas",
             self.name,
             listed(&header)
         ))
@@ -88,8 +88,8 @@ impl DataFile {
             let mut places = (0..header.len()).filter(|place| header[*place] == **column);
             match (places.next(), places.next()) {
                 _ if column.is_empty() => Ok(None),
-                (Some(_), Some(_)) => Err(format!("{name}: the column `{column}` is there twice: allowed is once")),
-                (None, _) => Err(format!("{name}: no column `{column}`: its columns are {}", listed(&header))),
+                (Some(_), Some(_)) => Err(format!("{name}: the column `{column}` occurs twice")),
+                (None, _) => Err(format!("{name}: missing column `{column}`; found {}", listed(&header))),
                 (place, None) => Ok(place),
             }
         };
@@ -99,7 +99,7 @@ impl DataFile {
             let record = record.map_err(|error| format!("{name}: {error}"))?;
             let line = record.position().expect("a record that was read has a place").line();
             if rows.len() == MOST_ROWS {
-                return Err(format!("{name}:{line}: one row too many: allowed are {MOST_ROWS} in a file"));
+                return Err(format!("{name}:{line}: too many rows; a file can have at most {MOST_ROWS}"));
             }
             let field = |place: &Option<usize>| place.and_then(|place| record.get(place)).unwrap_or("").to_owned();
             rows.push((line, places.iter().map(field).collect()));
@@ -123,11 +123,13 @@ impl DataFile {
 
     pub(super) fn whole(&self, line: u64, column: &str, text: &str) -> Result<i64, String> {
         let whole = text.parse().ok().filter(|whole| (-LARGEST_TURN..=LARGEST_TURN).contains(whole));
-        whole.ok_or_else(|| self.refused(line, column, text, "a whole number in digits alone, from -1e15 to 1e15"))
+        whole.ok_or_else(|| {
+            self.refused(line, column, text, "a whole number from -1e15 to 1e15, written in digits only")
+        })
     }
 
     fn refused(&self, line: u64, column: &str, text: &str, allowed: &str) -> String {
-        format!("{}:{line}: `{column}` is `{}`: allowed is {allowed}", self.name, shortened(text))
+        format!("{}:{line}: `{column}` = `{}`: must be {allowed}", self.name, shortened(text))
     }
 
     /// The data of the whole pulses of the first beam in a table of `twofold pulses`, in units of `t_c` from the start of the
@@ -167,7 +169,7 @@ impl DataFile {
                 "" => true,
                 "start" | "end" | "both" => false,
                 other => {
-                    return Err(self.refused(line, "cut", other, "start, end, both or, for a whole pulse, nothing"));
+                    return Err(self.refused(line, "cut", other, "start, end or both, or empty for a whole pulse"));
                 }
             };
             if !(is_first && is_whole) {
@@ -178,7 +180,7 @@ impl DataFile {
             if !seen.insert((turn, fields[2].clone())) {
                 let (name, midpoint) = (&self.name, shortened(&fields[2]));
                 return Err(format!(
-                    "{name}:{line}: the pulse of turn {turn} at {midpoint} is there twice: allowed are data measured once"
+                    "{name}:{line}: the pulse of turn {turn} at {midpoint} occurs twice; each datum can be given only once"
                 ));
             }
             rows.push((line, turn, fields));

@@ -41,7 +41,7 @@ pub fn beside<M: Model>(fisher: &Fisher<M>, factor: f64, random: &mut ChaCha8Rng
     }
     Err(Error::Unsupported {
         what: "a simulated start",
-        why: "no draw of a hundred is within the limits of the unknowns",
+        why: "none of a hundred draws is within the limits of the unknowns",
     })
 }
 

@@ -61,7 +61,7 @@ impl Measurement {
         };
         let end = (scene.times.last() - scene.times.start()) / scene.units.time;
         if end <= 0.0 {
-            return Err(refused(format!("[time] has a span of {end:?} t_c: allowed here is one forwards, above zero")));
+            return Err(refused(format!("[time] has a span of {end:?} t_c: must be above zero here")));
         }
         let parameters = parameters_of(&scene)?;
         if sees_pulses {
@@ -70,7 +70,7 @@ impl Measurement {
             if let Some((observable, _)) = of_every_turn.filter(|_| is_long(&parameters, end)) {
                 let (span, unit) = (scene.times.last() - scene.times.start(), scene.units.time_name);
                 return Err(refused(format!(
-                    "--observe {}: the span of [time], {span:?} {unit}, is more than 1e5 rad of rotation: allowed there are arrivals, widths and strains",
+                    "--observe {}: the span of [time], {span:?} {unit}, is more than 1e5 rad of rotation; for such a span use arrivals, widths and strains",
                     observable.key()
                 )));
             }
@@ -116,7 +116,7 @@ impl Measurement {
         let used = signal.is_long() || self.noise.iter().any(|(observable, _)| !observable.is_of_pulses());
         let count = self.scene.times.count();
         if used && count > MOST_ROWS {
-            return Err(format!("`time.samples` = {count}: allowed here are at most {MOST_ROWS}"));
+            return Err(format!("`time.samples` = {count}: must be at most {MOST_ROWS} here"));
         }
         Ok(())
     }
@@ -167,7 +167,7 @@ impl Measurement {
             let (file, of_pulses) = (&table.name, table.is_of_pulses()?);
             if of_pulses && signal.is_long() {
                 return Err(format!(
-                    "{file}: arrival times in one double each are too coarse for a span of more than 1e5 rad of rotation: allowed are --simulate and strains"
+                    "{file}: arrival times in one double each are too coarse for a span of more than 1e5 rad of rotation; use --simulate or strains"
                 ));
             }
             let more = if of_pulses {
@@ -184,7 +184,7 @@ impl Measurement {
             let mut again = rows.filter(|row| !seen.insert(row.iter().map(identity).collect::<Vec<_>>()));
             if let Some([again, ..]) = again.next() {
                 return Err(format!(
-                    "{file}: {} = {:?} is there twice, or also in an earlier file: allowed are data measured once",
+                    "{file}: {} = {:?} occurs twice, or also in an earlier file; each datum can be given only once",
                     again.observable.key(),
                     again.value
                 ));
@@ -194,7 +194,7 @@ impl Measurement {
         for (observable, _) in &self.noise {
             if data.iter().all(|datum| datum.observable != *observable) {
                 return Err(format!(
-                    "--observe {}: there is no such datum in {}: allowed are tables of `twofold pulses` and of `twofold run --columns h`",
+                    "--observe {}: there is no such datum in {}; use tables of `twofold pulses` or of `twofold run --columns h`",
                     observable.key(),
                     names()
                 ));
@@ -204,7 +204,7 @@ impl Measurement {
             let (Place::Time(time) | Place::Turn { near: time, .. }) = datum.place;
             if !(0.0..=self.end).contains(&time) {
                 return Err(format!(
-                    "{}: a datum at t = {time:?} t_c after the start: allowed is the span of the scene, 0 to {:?} t_c",
+                    "{}: a datum at t = {time:?} t_c after the start: must be within the span of the scene, from 0 to {:?} t_c",
                     names(),
                     self.end
                 ));
@@ -237,15 +237,15 @@ pub fn named<U: Unknown>(list: &str, all: &[U]) -> Result<Vec<U>, String> {
     let mut found = Vec::new();
     for name in list.split(',').map(str::trim) {
         if name == "all" {
-            return Err("`all` beside others: allowed are `all` alone, or names of parameters".to_owned());
+            return Err("`all` cannot be used with other names; give either `all` or names of parameters".to_owned());
         }
         let unknown = all.iter().copied().find(|unknown| unknown.key() == name).ok_or_else(|| {
             let names: Vec<_> = all.iter().map(|unknown| unknown.key()).collect();
             let hint = nearest(name, &names).map_or(String::new(), |near| format!(" (did you mean `{near}`?)"));
-            format!("`{name}` is not a parameter{hint}: allowed are {}, or all", names.join(", "))
+            format!("`{name}` is not a parameter{hint}; expected one of {}, or all", names.join(", "))
         })?;
         if found.contains(&unknown) {
-            return Err(format!("`{name}` is named twice: allowed is once"));
+            return Err(format!("`{name}` is given twice"));
         }
         found.push(unknown);
     }
@@ -307,7 +307,7 @@ mod tests {
             );
         }
         let why = measurement.data_in(&[strains("3,1,2\n4,1,2\n4,1,2\n")], &signal).unwrap_err();
-        assert!(why.contains("h_plus = 1.0 is there twice"), "{why}");
+        assert!(why.contains("h_plus = 1.0 occurs twice"), "{why}");
     }
 
     #[test]

@@ -17,7 +17,7 @@ use twofold::parameters::Parameters;
 use crate::scene_file::Scene;
 
 const POLE: &str =
-    "above 1e-6: on a pole the angles are not parameters; turn the start, s^IJ and the observer away from Z together";
+    "above 1e-6; on a pole the angles cannot be parameters. Turn the start, s^IJ and the observer away from Z together";
 
 /// The parameters of a scene in units `I^xx = C = 1`, time in `t_c`; `Omega^z` is held fixed when others change. A beam or an observer that the
 /// scene lacks gets placeholder values: data that need them cannot be observed (see [`missing_section`]).
@@ -61,7 +61,9 @@ pub fn parse_noise(text: &str, allowed: &[Observable], time_unit: f64) -> Result
     let mut found: Vec<Noise> = Vec::new();
     for part in text.split(',') {
         let (name, sigma) = part.trim().split_once(':').ok_or_else(|| {
-            format!("`{part}` is not NAME:SIGMA: allowed is a name, a colon and a standard deviation, as arrivals:1e-6")
+            format!(
+                "`{part}` is not NAME:SIGMA; expected a name, a colon and a standard deviation, such as arrivals:1e-6"
+            )
         })?;
         let kinds: Vec<Observable> = match name {
             "strain" => vec![Observable::StrainPlus, Observable::StrainCross],
@@ -70,20 +72,20 @@ pub fn parse_noise(text: &str, allowed: &[Observable], time_unit: f64) -> Result
         if kinds.is_empty() || !kinds.iter().all(|kind| allowed.contains(kind)) {
             let mut names: Vec<_> = allowed.iter().map(|kind| kind.key()).collect();
             names.extend(allowed.contains(&Observable::StrainPlus).then_some("strain"));
-            return Err(format!("`{name}`: allowed are {}", names.join(", ")));
+            return Err(format!("`{name}`: must be one of {}", names.join(", ")));
         }
         let sigma: f64 = match sigma.parse() {
             Ok(sigma) if SIGMAS.contains(&sigma) => sigma,
             _ => {
                 let (least, most) = (SIGMAS.start(), SIGMAS.end());
                 return Err(format!(
-                    "`{part}` has the standard deviation {sigma}: allowed is a number above zero, from {least:e} to {most:e}"
+                    "`{part}` has the standard deviation {sigma}: must be a number from {least:e} to {most:e}"
                 ));
             }
         };
         for kind in kinds {
             if found.iter().any(|(other, _)| *other == kind) {
-                return Err(format!("`{}` is named twice: allowed is once", kind.key()));
+                return Err(format!("`{}` is given twice", kind.key()));
             }
             found.push((kind, if kind.is_of_pulses() { sigma / time_unit } else { sigma }));
         }

@@ -42,7 +42,7 @@ pub fn read_timing(
             Some(model) => more = more.numbered(model).map_err(|error| format!("{path}: {error}"))?,
             None if has_numbers(&data) && has_numbers(&more) => {
                 return Err(format!(
-                    "{path}: it numbers its pulses, and so does an earlier file, perhaps from another pulse: allowed is a model to count them by, \
+                    "{path}: it numbers its pulses, and so does an earlier file, perhaps from another pulse; give a model to count them by, \
                      or one file with numbers"
                 ));
             }
@@ -53,7 +53,7 @@ pub fn read_timing(
         if let Some(time) = measured_twice(&data) {
             let date = epoch.after(time).map_err(|error| format!("{path}: {error}"))?;
             return Err(format!(
-                "{path}: the datum of MJD {date} is there twice, or also in an earlier file: allowed are data measured once"
+                "{path}: the datum of MJD {date} occurs twice, or also in an earlier file; each datum can be given only once"
             ));
         }
     }
@@ -98,9 +98,7 @@ impl DataFile {
         for (place, line) in self.text.lines().enumerate() {
             let refuse = |what: String| format!("{}:{}: {what}", self.name, place + 1);
             if line.trim_end().contains('\r') {
-                return Err(refuse(
-                    "a carriage return within the line: allowed are lines that end with a line feed".to_owned(),
-                ));
+                return Err(refuse("a carriage return within the line; lines must end with a line feed".to_owned()));
             }
             let fields: Vec<_> = line.split_whitespace().collect();
             match fields[..] {
@@ -108,7 +106,7 @@ impl DataFile {
                 ["FORMAT", "1"] => has_format = true,
                 [first, ..] if first.starts_with('#') || first == "C" => continue,
                 ["FORMAT", other, ..] => {
-                    return Err(refuse(format!("`FORMAT {}`: allowed is FORMAT 1", shortened(other))));
+                    return Err(refuse(format!("`FORMAT {}`: must be FORMAT 1", shortened(other))));
                 }
                 [..] if !has_format => {
                     return Err(refuse(format!(
@@ -119,27 +117,27 @@ impl DataFile {
                 [_, frequency, date, error, site, ref flags @ ..] => {
                     if !BARYCENTRE.contains(&site.to_lowercase().as_str()) {
                         return Err(refuse(format!(
-                            "site `{}`: allowed are {}: barycentred arrival times, as a timing program writes them",
+                            "site `{}`: must be one of {}, for barycentred arrival times as a timing program writes them",
                             shortened(site),
                             BARYCENTRE.join(", ")
                         )));
                     }
                     if !frequency.parse::<f64>().is_ok_and(|frequency| frequency == 0.0 || frequency == f64::INFINITY) {
                         return Err(refuse(format!(
-                            "frequency `{}`: allowed is 0, for infinite: arrival times corrected for dispersion",
+                            "frequency `{}`: must be 0 (infinite), for arrival times corrected for dispersion",
                             shortened(frequency)
                         )));
                     }
                     let sigma = error.parse::<f64>().ok().map(|sigma| sigma * 1e-6);
                     let sigma = sigma.filter(|sigma| SIGMAS.contains(sigma)).ok_or_else(|| {
                         refuse(format!(
-                            "uncertainty `{}`: allowed is a number of microseconds from 1e-9 to 1e12",
+                            "uncertainty `{}`: must be a number of microseconds from 1e-9 to 1e12",
                             shortened(error)
                         ))
                     })?;
                     if let Some(flag) = flags.iter().find(|flag| CHANGING.contains(flag)) {
                         return Err(refuse(format!(
-                            "`{flag}` changes the time or its phase: allowed are times that are already corrected for it"
+                            "`{flag}` changes the time or its phase; use times that are already corrected for it"
                         )));
                     }
                     let number = match flags.iter().position(|flag| *flag == "-pn") {
@@ -155,13 +153,13 @@ impl DataFile {
                 }
                 _ => {
                     return Err(refuse(format!(
-                        "`{}`: allowed are lines of a name, a frequency, a date, an uncertainty and a site, FORMAT 1, MODE 1 and comments",
+                        "`{}`: expected a name, a frequency, a date, an uncertainty and a site, or FORMAT 1, MODE 1 or a comment",
                         shortened(line)
                     )));
                 }
             }
             if data.arrivals.len() > MOST_ROWS {
-                return Err(refuse(format!("one arrival too many: allowed are {MOST_ROWS}")));
+                return Err(refuse(format!("too many arrivals; at most {MOST_ROWS} are read")));
             }
         }
         Ok(())
@@ -173,7 +171,7 @@ impl DataFile {
         let (of_arrival, of_width) = (sigma(Observable::Arrivals), sigma(Observable::Widths));
         if of_arrival.is_none() && of_width.is_none() {
             return Err(format!(
-                "{}: a table has no standard deviations: --observe gives them, as arrivals:1e-6 or widths:1e-5 in seconds",
+                "{}: a table has no standard deviations; give them with --observe, such as arrivals:1e-6 or widths:1e-5 in seconds",
                 self.name
             ));
         }
@@ -187,9 +185,7 @@ impl DataFile {
             let fraction = field(1)?;
             if !(0.0..1.0).contains(&fraction) {
                 let (name, column) = (&self.name, &wanted[1]);
-                return Err(format!(
-                    "{name}:{line}: `{column}` is `{fraction}`: allowed is a number from 0 to below 1"
-                ));
+                return Err(format!("{name}:{line}: `{column}` = `{fraction}`: must be a number from 0 to below 1"));
             }
             let at = Epoch::new(day, fraction).map_err(|error| format!("{}:{line}: {error}", self.name))?;
             let time = at.seconds_since(epoch);
@@ -200,7 +196,7 @@ impl DataFile {
                 if !(0.0..=LONGEST_WIDTH).contains(&duration) || duration == 0.0 {
                     let (name, column) = (&self.name, &wanted[2]);
                     return Err(format!(
-                        "{name}:{line}: `{column}` is `{}`: allowed is a number above zero, at most {LONGEST_WIDTH:e}",
+                        "{name}:{line}: `{column}` = `{}`: must be a number above zero and at most {LONGEST_WIDTH:e}",
                         shortened(&fields[2])
                     ));
                 }

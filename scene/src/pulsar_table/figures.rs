@@ -70,7 +70,10 @@ impl Pulsar {
     /// The value with this key.
     pub fn figure(&self, key: &str) -> Result<Figure, String> {
         let figures = self.figures()?;
-        figures.into_iter().find(|figure| figure.key == key).ok_or_else(|| format!("{}: no figure {key}", self.name))
+        figures
+            .into_iter()
+            .find(|figure| figure.key == key)
+            .ok_or_else(|| format!("{}: there is no figure {key}", self.name))
     }
 
     /// Standard deviations of the values, from all uncertainties.

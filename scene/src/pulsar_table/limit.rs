@@ -123,7 +123,7 @@ pub fn limit_over_directions(angle_to_sight: f64, mean: f64, deviation: f64) -> 
 /// The sine of the angle of the spin axis to the line of sight.
 fn sine_of_sight(angle: f64) -> Result<f64, Error> {
     let sine = angle.sin().abs();
-    let allowed = "above 2.2e-16 in size: a motion across the line of sight is not seen";
+    let allowed = "above 2.2e-16 in size; a motion across the line of sight cannot be seen";
     Error::ensure(sine > f64::EPSILON, "sine of the angle to the line of sight", sine, allowed)?;
     Ok(sine)
 }

@@ -63,7 +63,7 @@ fn width_change(entry: &Entry<'_>) -> Result<Quantity, Fault> {
     const MOST: f64 = 10.0;
     let change = quantity_within(entry, "from -10 to 10 [deg]", |change| change.abs() <= MOST, |_| MOST)?;
     if change.value == 0.0 && (change.spread == Spread::Rounded || change.uncertainty == 0.0) {
-        return Err(entry.refuse("a number other than zero, or 0 with an uncertainty above zero: zero is not a limit"));
+        return Err(entry.refuse("a number other than zero, or 0 with an uncertainty above zero; zero is not a limit"));
     }
     Ok(change)
 }
@@ -102,7 +102,7 @@ fn eta(section: &Section<'_>) -> Result<Eta<Quantity>, Fault> {
         return Ok(Eta::Given(quantity(&eta, "above 0 and at most 1e6", |x| x > 0.0 && x <= 1e6)?));
     }
     let Some(beta_0) = section.optional("beta_0") else { return Ok(Eta::Unknown) };
-    let allowed = "above 0 and below 180 [deg], 0.001 or more from 0, 90 and 180: an axis at rest gives no bound";
+    let allowed = "above 0 and below 180 [deg], 0.001 or more from 0, 90 and 180; an axis at rest gives no bound";
     let moves = |b: f64| [0.0, 90.0, 180.0].iter().all(|rest| (b - rest).abs() >= 1e-3) && b > 0.0 && b < 180.0;
     Ok(Eta::Inclination(quantity(&beta_0, allowed, moves)?))
 }
@@ -180,7 +180,7 @@ mod tests {
             }
             for number in refused {
                 let why = read(number).expect_err(last).to_string();
-                assert!(why.contains("allowed"), "{last}{number}: {why}");
+                assert!(why.contains("must be"), "{last}{number}: {why}");
             }
         }
     }

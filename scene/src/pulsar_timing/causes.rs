@@ -49,7 +49,7 @@ impl PulsarScene {
             let without = free.pulse_near(stretched)?.filter(|pulse| pulse.number == number);
             let without = without.ok_or_else(|| {
                 format!(
-                    "--causes: at the time of pulse {number} the star without Lorentz violation is in another turn, or has no pulse: allowed is a \
+                    "--causes: at the time of pulse {number} the star without Lorentz violation is in another turn, or has no pulse; use a \
                      violation that delays the pulses by less than a turn"
                 )
             })?;

@@ -55,7 +55,7 @@ impl PulsarScene {
         let lacks =
             |what: &str| format!("the scene lacks {what}, without which it has no arrival times (docs/pulsars.md)");
         if !scene.units.are_physical() {
-            return Err("the scene is in the paper's units: arrival times need a physical star (`star.mass`)".into());
+            return Err("the scene is in the paper's units; arrival times need a physical star (`star.mass`)".into());
         }
         let epoch = scene.epoch.ok_or_else(|| lacks("`time.epoch`"))?;
         let viewer = scene.observer.ok_or_else(|| lacks("the section [observer]"))?;
@@ -65,7 +65,7 @@ impl PulsarScene {
         let spheroid = RigidSpheroid { constant_c: spheroid.constant_c / (t_c * t_c), ..*spheroid };
         let initial = BodyState { momentum: initial.momentum / t_c, ..*initial };
         if initial.momentum == Vector3::zeros() {
-            return Err("the star does not rotate (its angular momentum is zero) and sends no pulses: allowed is a `star.spin_frequency` \
+            return Err("the star does not rotate (its angular momentum is zero) and sends no pulses; use a `star.spin_frequency` \
                         other than zero, or an [initial] with rates"
                 .into());
         }
@@ -149,7 +149,7 @@ impl PulsarScene {
         if pulses.len() < least {
             let (found, unknowns) = (pulses.len(), ["F0", "F0 and F1", "F0, F1 and F2"][least - 2]);
             return Err(Refusal::Input(format!(
-                "{found} different pulses at {} epochs: allowed are at least {least}, for a fit of {unknowns}",
+                "the number of different pulses at {} epochs is {found}: must be at least {least} for a fit of {unknowns}",
                 epochs.len()
             )));
         }

@@ -58,21 +58,21 @@ fn angles_to_line_of_sight(pulsar: &PulsarScene, epochs: &[Epoch]) -> Result<[f6
 fn sentence(nearest: f64, farthest: f64, half_opening: f64) -> String {
     if nearest >= half_opening {
         format!(
-            "no pulse: the beam never passes the line of sight at these epochs. The magnetic axis comes to {nearest:.6} rad of it at \
-             closest, and `pulsar.rho` is {half_opening} rad: allowed is a `pulsar.rho` above that distance, or a `pulsar.chi` or an \
+            "no pulse: the beam never crosses the line of sight at these epochs. The magnetic axis comes to {nearest:.6} rad of it at \
+             closest, and `pulsar.rho` is {half_opening} rad. Use a `pulsar.rho` above that distance, or a `pulsar.chi` or an \
              observer for which it is smaller"
         )
     } else if farthest <= half_opening {
         format!(
             "no pulse: the line of sight is always inside the beam at these epochs. The magnetic axis is {farthest:.6} rad from it at \
-             most ({nearest:.6} rad at closest), and `pulsar.rho` is {half_opening} rad: allowed is a `pulsar.rho` below that distance, \
+             most ({nearest:.6} rad at closest), and `pulsar.rho` is {half_opening} rad. Use a `pulsar.rho` below that distance, \
              or a `pulsar.chi` or an observer for which it is larger"
         )
     } else {
         format!(
             "no pulse: no turn near these epochs has both edges of a pulse within {:.1} rad of its middle. The magnetic axis is from \
-             {nearest:.6} to {farthest:.6} rad from the line of sight, and `pulsar.rho` is {half_opening} rad: pulses that last over \
-             more than a turn are not timed, allowed is another `pulsar.rho`",
+             {nearest:.6} to {farthest:.6} rad from the line of sight, and `pulsar.rho` is {half_opening} rad. Pulses that last \
+             more than a turn are not timed; use another `pulsar.rho`",
             1.5 * TAU
         )
     }
@@ -135,7 +135,7 @@ mod tests {
     fn pulses_longer_than_a_turn_are_told_from_no_passage_and_from_no_end() {
         for (nearest, farthest, part) in [
             (0.2, 0.8, "no turn near these epochs has both edges of a pulse within 9.4 rad"),
-            (0.8, 0.9, "never passes the line of sight"),
+            (0.8, 0.9, "never crosses the line of sight"),
             (0.2, 0.7, "always inside the beam"),
         ] {
             let text = sentence(nearest, farthest, 0.75);

@@ -30,13 +30,13 @@ impl FileFormat {
         let name = self.name;
         if Path::new(path).is_dir() {
             let or =
-                self.built_in.map(|(_, command)| format!(" or a built-in name, see `{command}`")).unwrap_or_default();
-            return Err(refuse(format!("is a directory: {name} is a TOML file{or}")));
+                self.built_in.map(|(_, command)| format!(" or a built-in name (see `{command}`)")).unwrap_or_default();
+            return Err(refuse(format!("is a directory; {name} must be a TOML file{or}")));
         }
         let file = File::open(path).map_err(|error| {
             if SWEEPS.iter().any(|sweep| sweep.name == path) {
                 return refuse(format!(
-                    "is a built-in sweep: `twofold scenes --print {path} > {path}.toml` writes its file"
+                    "is a built-in sweep; write its file with `twofold scenes --print {path} > {path}.toml`"
                 ));
             }
             let Some((names, _)) = self.built_in else {
@@ -133,7 +133,10 @@ impl<'a> Section<'a> {
         let allowed: Vec<_> = allowed.split(' ').collect();
         let (name, title) = (key.get_ref(), self.title());
         let (dotted, guess) = (self.dotted(&shortened(name)), did_you_mean(name, &allowed));
-        Err(Fault::at(key.span(), format!("unknown key `{dotted}`: {title} has {}.{guess}", listed(&allowed))))
+        Err(Fault::at(
+            key.span(),
+            format!("unknown key `{dotted}`; the keys of {title} are {}.{guess}", listed(&allowed)),
+        ))
     }
 
     pub(crate) fn has(&self, key: &str) -> bool {
@@ -191,7 +194,7 @@ impl<'a> Section<'a> {
         for (first, second) in pairs {
             if let (Some(_), Some(value)) = (self.find(first), self.find(second)) {
                 let (first, second) = (self.dotted(first), self.dotted(second));
-                let why = format!("`{second}` beside `{first}`: only one of the two is allowed");
+                let why = format!("`{second}` cannot be used with `{first}`; give only one of the two");
                 return Err(Fault::at(value.span(), why));
             }
         }
@@ -217,7 +220,7 @@ impl<'a> Section<'a> {
 
     /// The sections `key`, each written `[[key]]`, at least one; `meaning` is part of the message if they are missing.
     pub(crate) fn repeated_section(&self, key: &str, meaning: &str) -> Result<Vec<Section<'a>>, Fault> {
-        let allowed = format!("sections, each written [[{key}]]");
+        let allowed = format!("one or more sections, each written [[{key}]]");
         let missing = || self.missing(&format!("section [[{key}]] ({meaning})"));
         let list = self.optional(key).ok_or_else(missing)?;
         let entries = list.list(&allowed)?;
@@ -235,7 +238,7 @@ impl<'a> Section<'a> {
 
 impl<'a> Entry<'a> {
     pub(crate) fn refuse(&self, allowed: &str) -> Fault {
-        self.refuse_because(&format!("allowed is {allowed}"))
+        self.refuse_because(&format!("must be {allowed}"))
     }
 
     /// Refuses the value for a reason elsewhere in the scene.
@@ -287,7 +290,7 @@ impl<'a> Entry<'a> {
             DeValue::String(text) if self.replaced.get(&self.key).is_none() => {
                 let degrees = text.strip_suffix("deg").and_then(|number| number.trim_end().parse().ok());
                 let degrees = degrees.filter(|degrees: &f64| degrees.is_finite());
-                degrees.ok_or_else(|| self.refuse(&format!("{allowed}, or degrees as \"89.0 deg\"")))?.to_radians()
+                degrees.ok_or_else(|| self.refuse(&format!("{allowed}, or degrees as in \"89.0 deg\"")))?.to_radians()
             }
             _ => self.number()?,
         };
@@ -329,12 +332,12 @@ impl<'a> Entry<'a> {
 
     /// Different words from `names`, each with its entry; an empty list is allowed.
     pub(crate) fn words(&self, names: &[&str]) -> Result<Vec<(Entry<'a>, &'a str)>, Fault> {
-        let allowed = format!("a list of different names out of \"{}\"", names.join("\", \""));
+        let allowed = format!("a list of different names from \"{}\"", names.join("\", \""));
         let mut found: Vec<(Entry<'a>, &str)> = Vec::new();
         for entry in self.list(&allowed)? {
             let word = entry.word(names)?;
             if found.iter().any(|(_, other)| *other == word) {
-                return Err(entry.refuse(&allowed));
+                return Err(entry.refuse_because(&format!("is given twice; expected {allowed}")));
             }
             found.push((entry, word));
         }

@@ -18,6 +18,7 @@ use super::document::{Entry, Section};
 use super::fault::Fault;
 use super::observation::Pulsar;
 use super::rotation::{Rotation, WobbleAngles, rotation};
+use crate::significant::significant;
 
 /// Units of a scene file and of its output: those of the paper, or seconds and cgs units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,7 +84,7 @@ pub(super) fn read_star(section: &Section<'_>, angles: &WobbleAngles) -> Result<
 fn in_units_of_tc(section: &Section<'_>) -> Result<Star, Fault> {
     let ratio = section
         .required("inertia_ratio", "I^zz / I^xx")?
-        .number_in("from 1e-3 to 2: I^zz <= I^xx + I^yy for any distribution of mass", 1e-3..=2.0)?;
+        .number_in("from 1e-3 to 2; I^zz <= I^xx + I^yy for any distribution of mass", 1e-3..=2.0)?;
     let spin = section.required("spin", "Omega^z in 1/t_c")?.number()?;
     Ok(Star { spheroid: RigidSpheroid::in_units_of_tc(ratio), spin, bulge: 0.0, units: Units::PAPER })
 }
@@ -105,7 +106,7 @@ fn physical(section: &Section<'_>, angles: &WobbleAngles) -> Result<(Star, Optio
     if mean_radius <= 2.0 * mass * SOLAR_MASS {
         let horizon = 2.0 * mass * SOLAR_MASS / KILOMETRE;
         return Err(section.fault(format!(
-            "[star] has a mean radius of {:.3} km: allowed is above 2 G M / c^2 = {horizon:.3} km",
+            "[star] has a mean radius of {:.3} km: must be above 2 G M / c^2 = {horizon:.3} km",
             mean_radius / KILOMETRE
         )));
     }
@@ -117,8 +118,9 @@ fn physical(section: &Section<'_>, angles: &WobbleAngles) -> Result<(Star, Optio
     let break_up = break_up_frequency(&body);
     let caution = (frequency.abs() > break_up).then(|| {
         let why = format!(
-            "above {break_up:.4} Hz gravity does not hold the matter at the equator of this star (break-up); the model, a rigid body, \
-             takes any spin"
+            "above {} Hz (break-up) gravity does not hold the matter at the equator of this star; the model is a rigid body and \
+             accepts any spin",
+            significant(break_up, 5)
         );
         spin_entry.refuse_because(&why).message
     });
@@ -152,7 +154,7 @@ fn rigid_spheroid(oblateness: f64) -> RigidSpheroid<f64> {
 
 /// The coefficient `b` of the bulge in units of one over `I^xx`. For a fluid it is `1 / (4 I^xx)`: `C_f` is half of the rotational energy.
 fn bulge(entry: &Entry<'_>) -> Result<f64, Fault> {
-    let allowed = "\"fluid\", or the size of the bulge over that of a fluid, from 0 to 10";
+    let allowed = "\"fluid\", or the size of the bulge relative to that of a fluid, from 0 to 10";
     let size = match entry.string() {
         Ok("fluid") => 1.0,
         Ok(_) => return Err(entry.refuse(allowed)),
@@ -175,7 +177,7 @@ pub(super) struct Violation {
     pub(super) principal_from_given: Matrix3<f64>,
 }
 
-const COEFFICIENT: &str = "a number from -1 to 1: the violation is small";
+const COEFFICIENT: &str = "a number from -1 to 1; the violation must be small";
 
 pub(super) fn read_violation(section: &Section<'_>) -> Result<Violation, Fault> {
     section.only("eigenvalues tensor alpha_2 w")?;
@@ -207,7 +209,7 @@ fn eigenvalues(entry: &Entry<'_>) -> Result<Violation, Fault> {
 }
 
 fn tensor(entry: &Entry<'_>) -> Result<Violation, Fault> {
-    let allowed = "three rows of three numbers, symmetric";
+    let allowed = "a symmetric matrix, three rows of three numbers";
     let rows = entry.list(allowed)?;
     if rows.len() != 3 {
         return Err(entry.refuse(allowed));
@@ -235,7 +237,7 @@ fn preferred_frame(section: &Section<'_>) -> Result<Violation, Fault> {
     }
     let largest = alpha_2 * speed * speed;
     if largest.is_nan() || largest.abs() > 1.0 {
-        return Err(alpha_2_entry.refuse("a number with |alpha_2| |w|^2 <= 1: the violation is small"));
+        return Err(alpha_2_entry.refuse("a number with |alpha_2| |w|^2 <= 1; the violation must be small"));
     }
     let z = w / speed;
     let x = z.cross(&Matrix3::identity().column(z.iamin())).normalize();
@@ -282,7 +284,7 @@ pub(super) fn read_initial(
     }
     for key in ["momentum", "azimuth", "precession_phase"] {
         if let Some(entry) = section.optional(key) {
-            return Err(entry.refuse_because("it goes with `initial.wobble` only"));
+            return Err(entry.refuse_because("can only be used with `initial.wobble`"));
         }
     }
     let Some(constant) = CONSTANTS.iter().find(|key| section.has(key)) else { return from_angles(section, star) };
@@ -326,7 +328,7 @@ pub(super) fn outwards(l: &Vector3<f64>, azimuth: f64) -> Vector3<f64> {
 fn from_wobble(section: &Section<'_>, star: &Star, beam: Option<&Pulsar>) -> Result<Initial, Fault> {
     let wobble = section.required("wobble", "angle of the symmetry axis to L [rad]")?;
     let theta = wobble.angle_where("an angle from 0 to below pi/2 [rad]", |x| (0.0..FRAC_PI_2).contains(&x))?;
-    let allowed = "three numbers, not all zero: a direction";
+    let allowed = "a direction, three numbers that are not all zero";
     let l = match section.optional("momentum") {
         None => Vector3::z(),
         Some(entry) => {
@@ -364,16 +366,16 @@ fn from_constants(section: &Section<'_>, star: &Star, violation: &Violation) -> 
     };
     if star.spin == 0.0 {
         return Err(
-            kind_entry.refuse("the paper's constants only with a spin that is not zero: Eq. (34) divides by it")
+            kind_entry.refuse_because("the paper's constants need a spin that is not zero; Eq. (34) divides by it")
         );
     }
     let beta_entry = section.required("beta_0", "mean inclination [rad]")?;
     let beta_0 = beta_entry
-        .angle_where("an angle above 0 and below pi [rad]: Eq. (34) divides by sin(beta_0)", |x| {
+        .angle_where("an angle above 0 and below pi [rad]; Eq. (34) divides by sin(beta_0)", |x| {
             x > 0.0 && x < PI && x.sin() > f64::EPSILON
         })?;
     if kind == Precession::Twofold && beta_0.cos().abs() < 1e-12 {
-        return Err(beta_entry.refuse("not pi/2 for kind \"twofold\": its rate is omega / cos(beta_0)"));
+        return Err(beta_entry.refuse("other than pi/2 for kind \"twofold\"; its rate is omega / cos(beta_0)"));
     }
     let constants = Constants {
         alpha_0: section.required("alpha_0", "mean precession angle at the start [rad]")?.angle()?,
@@ -387,7 +389,7 @@ fn from_constants(section: &Section<'_>, star: &Star, violation: &Violation) -> 
     let start = printed.at(0.0);
     if !(0.0..=PI).contains(&start.beta) {
         return Err(section.fault(format!(
-            "[initial] gives an inclination beta = {} rad by Eq. (34): allowed is from 0 to pi; the perturbation solution \
+            "[initial] gives an inclination beta = {} rad by Eq. (34): must be from 0 to pi; the perturbation solution \
              does not describe such a motion",
             start.beta
         )));
@@ -423,7 +425,7 @@ fn refuse_overflow(section: &Section<'_>, state: &BodyState<f64>) -> Result<(), 
     if state.momentum.norm_squared().is_finite() {
         return Ok(());
     }
-    Err(section.fault("[initial] gives an angular momentum beyond double precision: allowed are smaller rates"))
+    Err(section.fault("[initial] gives an angular momentum beyond the range of doubles; use smaller rates"))
 }
 
 #[cfg(test)]

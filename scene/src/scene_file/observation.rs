@@ -102,16 +102,18 @@ pub(super) fn read_observer(
     let (theta_o, phi_o) = if let Some(entry) = section.optional("inclination") {
         let inclination = entry.angle_where("an angle from 0 to pi [rad]", |x| (0.0..=PI).contains(&x))?;
         let azimuth = section.optional("azimuth").map_or(Ok(0.0), |entry| entry.angle())?;
-        let l = l.ok_or_else(|| entry.refuse_because("the star has no angular momentum, from which it is counted"))?;
+        let l = l.ok_or_else(|| {
+            entry.refuse_because("the star has no angular momentum, from which the inclination is measured")
+        })?;
         angles_of(&(l * inclination.cos() + outwards(&l, azimuth) * inclination.sin()))
     } else if let Some(entry) = section.optional("frame") {
         if entry.string()? != "equatorial" {
-            return Err(entry.refuse("\"equatorial\": X to the equinox, Z to the north pole of the sky"));
+            return Err(entry.refuse("\"equatorial\", with X to the equinox and Z to the north pole of the sky"));
         }
         let position = catalogued.and_then(|catalogued| catalogued.position.as_ref());
         let (ascension, declination) = position.ok_or_else(|| {
             entry.refuse_because(
-                "it needs `pulsar.right_ascension` and `pulsar.declination`: the observer is on the other side",
+                "requires `pulsar.right_ascension` and `pulsar.declination`; the observer is in the opposite direction",
             )
         })?;
         // From the star to the observer.
@@ -127,7 +129,9 @@ pub(super) fn read_observer(
     };
     let distance = match section.optional("distance") {
         Some(entry) if !units.are_physical() => {
-            return Err(entry.refuse("a distance only for a physical star: in the paper's units h is that at r = 1"));
+            return Err(
+                entry.refuse_because("a distance is only for a physical star; in the paper's units h is that at r = 1")
+            );
         }
         Some(entry) => Some(entry.number_in("a distance from 1e-6 to 1e8 [kpc]", 1e-6..=1e8)? * KILOPARSEC),
         None => None,
@@ -166,14 +170,17 @@ pub(super) fn read_catalogued(section: &Section<'_>) -> Result<Option<Catalogued
     };
     let position = match (section.optional("right_ascension"), section.optional("declination")) {
         (None, None) => None,
-        (Some(_), None) => return Err(section.missing("`pulsar.declination` beside `pulsar.right_ascension`")),
-        (None, Some(_)) => return Err(section.missing("`pulsar.right_ascension` beside `pulsar.declination`")),
+        (Some(_), None) => return Err(section.missing("`pulsar.declination`, required by `pulsar.right_ascension`")),
+        (None, Some(_)) => return Err(section.missing("`pulsar.right_ascension`, required by `pulsar.declination`")),
         (Some(ascension), Some(declination)) => {
             let hours = Some(ascension.string()?).filter(|text| !text.starts_with(['+', '-']));
             let right = hours.and_then(|text| Sexagesimal::read(text, 24.0, 15.0));
-            let right = right.ok_or_else(|| ascension.refuse("hours, minutes and seconds as \"19:39:38.56\""))?;
+            let right = right.ok_or_else(|| ascension.refuse("hours, minutes and seconds, such as \"19:39:38.56\""))?;
             let up = Sexagesimal::read(declination.string()?, 90.0, 1.0);
-            Some((right, up.ok_or_else(|| declination.refuse("degrees, minutes and seconds as \"+21:34:59.1\""))?))
+            Some((
+                right,
+                up.ok_or_else(|| declination.refuse("degrees, minutes and seconds, such as \"+21:34:59.1\""))?,
+            ))
         }
     };
     let is_catalogued = name.is_some() || position.is_some();
@@ -249,11 +256,11 @@ pub(super) fn read_time(section: &Section<'_>, units: &Units) -> Result<Times, F
     let Some(years) = section.optional("years") else { return read_times(section) };
     section.not_both(&[("span", "years"), ("end", "years"), ("times", "years")])?;
     if !units.are_physical() {
-        return Err(years.refuse("a span in years only for a physical star; `time.span` is in t_c"));
+        return Err(years.refuse_because("a span in years is only for a physical star; use `time.span`, in t_c"));
     }
     let start = section.number_or("start", 0.0)?;
     let span =
-        years.number_where("a number of Julian years from -1e6 to 1e6, not zero", |x| x != 0.0 && x.abs() <= 1e6)?;
+        years.number_where("a nonzero number of Julian years from -1e6 to 1e6", |x| x != 0.0 && x.abs() <= 1e6)?;
     even_times(section, &years, start, start + span * JULIAN_YEAR)
 }
 
@@ -265,16 +272,16 @@ pub(super) fn read_epoch(
 ) -> Result<Option<(Epoch, Option<String>)>, Fault> {
     let Some(entry) = section.optional("epoch") else { return Ok(None) };
     if !units.are_physical() {
-        return Err(entry.refuse("an epoch only for a physical star, whose times are in seconds"));
+        return Err(entry.refuse_because("an epoch is only for a physical star, whose times are in seconds"));
     }
-    let allowed = "a modified Julian date from 0 to 1e7, as 55321.25 or in quotes with more digits";
+    let allowed = "a modified Julian date from 0 to 1e7, such as 55321.25, or in quotes with more digits";
     let text = if entry.is_string() { entry.string()?.to_owned() } else { entry.number()?.to_string() };
     let epoch: Epoch = text.parse().map_err(|_| entry.refuse(allowed))?;
     let span = times.last() - times.start();
     if epoch.after([span, 0.0]).is_err() {
         let days = span / DAY;
         return Err(section.fault(format!(
-            "[time] ends {days:.3e} days from its epoch: allowed beside `time.epoch` are at most 1e9 days, either way"
+            "[time] ends {days:.3e} days from its epoch: must be at most 1e9 days in either direction with `time.epoch`"
         )));
     }
     let caution = like_julian_date(&epoch).map(|why| entry.refuse_because(&why).message);
@@ -310,8 +317,8 @@ pub(crate) fn read_times(section: &Section<'_>) -> Result<Times, Fault> {
 /// The end of the span, with the entry that defines it.
 pub(crate) fn read_end<'a>(section: &Section<'a>, start: f64) -> Result<(f64, Entry<'a>), Fault> {
     match (section.optional("span"), section.optional("end")) {
-        (Some(span), _) => Ok((start + span.number_where("any number except zero", |x| x != 0.0)?, span)),
-        (None, Some(end)) => Ok((end.number_where("any number except `time.start`", |x| x != start)?, end)),
+        (Some(span), _) => Ok((start + span.number_where("a number other than zero", |x| x != 0.0)?, span)),
+        (None, Some(end)) => Ok((end.number_where("a number other than `time.start`", |x| x != start)?, end)),
         (None, None) => Err(section.missing("one of `time.span`, `time.end` and `time.times`")),
     }
 }
@@ -341,7 +348,7 @@ fn listed_times(section: &Section<'_>, start: f64) -> Result<Times, Fault> {
         let onward = if backwards { time < previous } else { time > previous };
         if !(onward || (i == 0 && time == start)) {
             return Err(entry
-                .refuse("a time of a list that is strictly increasing or strictly decreasing away from `time.start`"));
+                .refuse("part of a list that is strictly increasing or strictly decreasing away from `time.start`"));
         }
         previous = time;
     }
@@ -388,7 +395,7 @@ pub(super) fn read_output(section: &Section<'_>, scene: &mut Scene, used: bool) 
     let names = COLUMN_GROUPS.map(|(name, _)| name);
     let words = list.words(&names)?;
     if words.is_empty() {
-        return Err(list.refuse(&format!("a list of different names out of \"{}\"", names.join("\", \""))));
+        return Err(list.refuse(&format!("a list of different names from \"{}\"", names.join("\", \""))));
     }
     if used {
         scene.columns = columns_in(&words, scene)?;
@@ -436,13 +443,13 @@ impl Scene {
             let known = COLUMN_GROUPS.map(|(name, _)| name);
             let output = column_group(name).ok_or_else(|| unknown(name, "group of columns", &known))?;
             if wanted.contains(&output) {
-                return Err(format!("`{name}` is named twice"));
+                return Err(format!("`{name}` is given twice"));
             }
             self.has_what_is_needed_for(output).map_err(|why| format!("`{name}`: {why}"))?;
             wanted.push(output);
         }
         if wanted.is_empty() {
-            return Err("no group of columns is named".into());
+            return Err("expected at least one group of columns".into());
         }
         self.columns = in_table_order(&wanted);
         Ok(())
@@ -476,5 +483,5 @@ impl Scene {
 }
 
 fn unknown(name: &str, what: &str, known: &[&str]) -> String {
-    format!("`{name}` is not a {what}; allowed are {}.{}", listed(known), did_you_mean(name, known))
+    format!("`{name}` is not a {what}; expected one of {}.{}", listed(known), did_you_mean(name, known))
 }

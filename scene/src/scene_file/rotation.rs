@@ -44,11 +44,11 @@ enum Flattening<'a> {
 /// `(1 + epsilon) Omega^z / cos theta`, and pulses arrive at the rate of the magnetic axis about `L`: that of the symmetry axis, minus that of the
 /// precession if `theta < chi < pi - theta`.
 pub(super) fn rotation<'a>(section: &Section<'a>, angles: &WobbleAngles) -> Result<Rotation<'a>, Fault> {
-    const OBLATENESS: &str = "from 1e-15 to 0.99: an oblate star, for which C is above zero";
+    const OBLATENESS: &str = "from 1e-15 to 0.99; the star must be oblate, so that C is above zero";
     let in_range = |oblateness: &f64| (1e-15..=0.99).contains(oblateness);
     let wobble = |entry: &Entry<'a>| {
         let wobble = angles.wobble.filter(|wobble| (0.0..FRAC_PI_2).contains(wobble));
-        wobble.ok_or_else(|| entry.refuse_because("it needs `initial.wobble`, from 0 to below pi/2 [rad]"))
+        wobble.ok_or_else(|| entry.refuse_because("requires `initial.wobble`, from 0 to below pi/2 [rad]"))
     };
     let flattening = match section.optional("precession_period") {
         Some(entry) => {
@@ -63,9 +63,9 @@ pub(super) fn rotation<'a>(section: &Section<'a>, angles: &WobbleAngles) -> Resu
     let (entry, frequency) = match section.optional("frequency") {
         Some(entry) => {
             let wobble = wobble(&entry)?;
-            let chi = angles
-                .chi
-                .ok_or_else(|| entry.refuse_because("it needs `pulsar.chi`: pulses are those of the magnetic axis"))?;
+            let chi = angles.chi.ok_or_else(|| {
+                entry.refuse_because("requires `pulsar.chi`; the pulses are those of the magnetic axis")
+            })?;
             let observed = entry.number_in("from -1e5 to 1e5 [Hz]", -1e5..=1e5)?;
             let cos = wobble.cos();
             let goes_round = wobble < chi && chi < PI - wobble;
@@ -93,7 +93,7 @@ pub(super) fn rotation<'a>(section: &Section<'a>, angles: &WobbleAngles) -> Resu
             let oblateness = rate / frequency.abs();
             // I^zz = 1 + epsilon keeps four digits of the smallest.
             if !(1e-12..=0.99).contains(&oblateness) {
-                let why = format!("the oblateness is then {oblateness:e}: allowed is from 1e-12 to 0.99");
+                let why = format!("the oblateness is then {oblateness:e}, and must be from 1e-12 to 0.99");
                 return Err(period.refuse_because(&why));
             }
             oblateness

@@ -41,8 +41,8 @@ impl SpinDown {
         };
         if let (IndexOrSecond::Second(second), false) = (self.index, (-30.0..=30.0).contains(&index)) {
             return Err(format!(
-                "`spin_down.f2` = {second:e}: the braking index F0 F2 / F1^2 is then {index:.4e}, allowed is from -30 to 30. An F2 of timing noise is not \
-                 a braking law: leave it out"
+                "`spin_down.f2` = {second:e}: the braking index F0 F2 / F1^2 is then {index:.4e}, and must be from -30 to 30. An F2 of timing noise is not \
+                 a braking law; leave it out"
             ));
         }
         Ok(Braking { rate: -self.f1 / frequency, index, torque_share: self.torque_share })
@@ -54,12 +54,12 @@ const TORQUES: [(&str, f64); 3] = [("constant", 0.0), ("plasma", 0.5), ("vacuum"
 
 pub(super) fn read(section: &Section<'_>, units: &Units) -> Result<SpinDown, Fault> {
     if !units.are_physical() {
-        return Err(section.fault("[spin_down] is for a physical star (`star.mass`): allowed is a scene without it"));
+        return Err(section.fault("[spin_down] is only for a physical star (`star.mass`); leave it out"));
     }
     section.only("f1 f2 index torque damping_time")?;
     section.not_both(&[("f2", "index")])?;
     let f1 = section.required("f1", "the first derivative of the frequency of the pulses at the epoch [Hz/s]")?;
-    let f1 = f1.number_where("other than zero, from -1e-3 to 1e-3 [Hz/s]", |f1| f1 != 0.0 && f1.abs() <= 1e-3)?;
+    let f1 = f1.number_where("nonzero and from -1e-3 to 1e-3 [Hz/s]", |f1| f1 != 0.0 && f1.abs() <= 1e-3)?;
     let index = match (section.optional("f2"), section.optional("index")) {
         (Some(second), _) => IndexOrSecond::Second(second.number_in("from -1e-9 to 1e-9 [Hz/s^2]", -1e-9..=1e-9)?),
         (None, Some(index)) => IndexOrSecond::Index(index.number_in("from -30 to 30", -30.0..=30.0)?),
@@ -80,9 +80,7 @@ pub(super) fn read(section: &Section<'_>, units: &Units) -> Result<SpinDown, Fau
     let damping_time = match section.optional("damping_time") {
         None => None,
         Some(_) if index != IndexOrSecond::Index(3.0) => {
-            return Err(
-                section.fault("`damping_time` is for a braking index of 3: allowed is `index = 3` without `f2`")
-            );
+            return Err(section.fault("`damping_time` is only for a braking index of 3; use `index = 3` without `f2`"));
         }
         Some(entry) => Some(entry.number_in("from 1e-3 to 1e12 [d]", 1e-3..=1e12)? * DAY),
     };

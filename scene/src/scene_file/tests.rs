@@ -128,11 +128,7 @@ fn pulses_come_as_the_magnetic_axis_goes_round() {
 #[test]
 fn a_star_is_larger_than_its_horizon() {
     assert_taken(PHYSICAL, &["star.radius = 4.136"]);
-    assert_refused(
-        PHYSICAL,
-        &["star.radius = 4.134"],
-        "mean radius of 4.134 km: allowed is above 2 G M / c^2 = 4.135 km",
-    );
+    assert_refused(PHYSICAL, &["star.radius = 4.134"], "mean radius of 4.134 km: must be above 2 G M / c^2 = 4.135 km");
 }
 
 #[test]
@@ -140,6 +136,9 @@ fn a_spin_beyond_break_up_is_told_in_either_sense() {
     let cautions =
         |frequency: &str| assert_taken(PHYSICAL, &[&format!("star.spin_frequency = {frequency}")]).cautions.len();
     assert_eq!(["1000.0", "-1000.0", "2000.0", "-2000.0"].map(cautions), [0, 0, 1, 1]);
+    // Of a star of 1e7 km it is (G M / R^3)^(1/2) / 2 pi = 2.17e-6 Hz, to the oblateness.
+    let slow = assert_taken(PHYSICAL, &["star.radius = 1e7"]).cautions;
+    assert!(slow[0].contains("above 2.16") && slow[0].contains("e-6 Hz (break-up)"), "{slow:?}");
 }
 
 #[test]
@@ -222,7 +221,7 @@ fn constants_are_those_of_a_solution() {
     // The rate of twofold precession is omega / cos beta_0.
     assert!(of("twofold", FRAC_PI_2 - 2e-12).is_ok_and(|scene| scene.perturbation.is_ok()));
     for off in [5e-13, -5e-13] {
-        assert!(of("twofold", FRAC_PI_2 + off).is_err_and(|why| why.contains("not pi/2")), "{off}");
+        assert!(of("twofold", FRAC_PI_2 + off).is_err_and(|why| why.contains("other than pi/2")), "{off}");
     }
     assert!(of("single", 1.4).is_ok_and(|scene| scene.perturbation.is_ok()));
     for beta_0 in [0.0, PI, -0.7, 4.0] {
@@ -248,7 +247,7 @@ fn what_is_observed_is_taken_up_to_the_ends_of_its_ranges() {
     assert_range(PAPER, &[], "time.samples", ["2", "10000000"], ["1", "10000001"]);
     let years = ["time.end ="];
     assert_range(PHYSICAL, &years, "time.years", ["-1e6", "1e6"], ["-1.001e6", "1.001e6"]);
-    assert_refused(PHYSICAL, &["time.end =", "time.years = 0.0"], "not zero");
+    assert_refused(PHYSICAL, &["time.end =", "time.years = 0.0"], "nonzero");
 }
 
 /// Samples are more than four roundings of their times apart: of 2^-52 for times from one on.
@@ -360,7 +359,7 @@ fn a_pulsar_with_a_name_or_a_position_is_in_the_catalogues() {
 fn a_braking_law_is_taken_up_to_the_ends_of_its_ranges() {
     let f1 = ["spin_down.f1 = -1e-12"];
     assert_range(PHYSICAL, &[], "spin_down.f1", ["-1e-3", "1e-3"], ["-1.001e-3", "1.001e-3"]);
-    assert_refused(PHYSICAL, &["spin_down.f1 = 0.0"], "other than zero");
+    assert_refused(PHYSICAL, &["spin_down.f1 = 0.0"], "nonzero");
     assert_range(PHYSICAL, &f1, "spin_down.f2", ["-1e-9", "1e-9"], ["-1.001e-9", "1.001e-9"]);
     assert_range(PHYSICAL, &f1, "spin_down.index", ["-30.0", "30.0"], ["-30.01", "30.01"]);
     assert_range(PHYSICAL, &f1, "spin_down.torque", ["0.0", "1.0"], ["-0.001", "1.001"]);

@@ -18,7 +18,7 @@ pub(super) struct ChunkText {
 pub(super) fn guarded<T>(compute: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(compute)).unwrap_or_else(|panic| {
         let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
-        Err(format!("a defect of this program: {}", text.unwrap_or("it panicked")))
+        Err(format!("a bug in this program: {}", text.unwrap_or("it panicked")))
     })
 }
 
@@ -68,7 +68,7 @@ mod tests {
     #[test]
     fn a_panic_is_an_error_of_its_row() {
         let found: Result<(), _> = guarded(|| panic!("deliberately, in a test"));
-        assert_eq!(found, Err("a defect of this program: deliberately, in a test".to_owned()));
+        assert_eq!(found, Err("a bug in this program: deliberately, in a test".to_owned()));
         assert_eq!(guarded(|| Ok(3)), Ok(3));
     }
 }

@@ -112,14 +112,10 @@ impl<'t> Sweep<'t> {
         let scene = base.document();
         let with = |times| Scene::from_document(&scene, Columns::Unused, times).map_err(in_scene);
         if let Some(section) = scene.section("spin_down").map_err(in_scene)? {
-            return Err(in_scene(
-                section.fault("[spin_down] is for `twofold timing`: allowed in a sweep is a scene without it"),
-            ));
+            return Err(in_scene(section.fault("[spin_down] is only for `twofold timing`; leave it out for a sweep")));
         }
         if let Some(entry) = scene.section("star").map_err(in_scene)?.as_ref().and_then(|star| star.optional("bulge")) {
-            return Err(in_scene(
-                entry.refuse_because("a sweep is for rigid stars only: allowed is a scene without it"),
-            ));
+            return Err(in_scene(entry.refuse_because("a sweep is only for rigid stars; leave it out")));
         }
         // The scene's own times, if it has any, are checked although they are not used.
         let own = scene.has("time").then(|| with(None)).transpose()?;
@@ -142,14 +138,14 @@ impl<'t> Sweep<'t> {
         scene.check_rotation(&needed).map_err(|why| in_sweep(section.fault(why)))?;
         let count = parameters.count().filter(|count| *count <= MOST_SCENES);
         let scenes = count.ok_or_else(|| {
-            in_sweep(section.fault(format!("the sweep has too many scenes: allowed are {MOST_SCENES:.0e}")))
+            in_sweep(section.fault(format!("the sweep has too many scenes; at most {MOST_SCENES:.0e} are possible")))
         })?;
         let (tolerance, method, units) = (scene.tolerance, scene.method, scene.units);
         let rotation = scene.rotation();
         let sweep = Sweep { about, base, parameters, outputs, scenes, cautions, tolerance, method, units, rotation };
         let columns = sweep.header().len();
         if columns > MOST_COLUMNS {
-            let why = format!("the sweep has {columns} columns: allowed are {MOST_COLUMNS}; ask for fewer times");
+            let why = format!("the sweep has {columns} columns: must be at most {MOST_COLUMNS}; use fewer times");
             return Err(in_sweep(section.fault(why)));
         }
         Ok(sweep)
@@ -178,7 +174,7 @@ fn times(document: &Section<'_>) -> Result<Times, Fault> {
     let start = section.number_or("start", 0.0)?;
     let (end, _) = read_end(&section, start)?;
     if end == start || !end.is_finite() {
-        return Err(section.fault("[time] has a span that is lost in the rounding of its ends"));
+        return Err(section.fault("[time] has a span that is lost in the rounding of its ends; use a longer one"));
     }
     Ok(Times::Listed { start, times: vec![end] })
 }
@@ -196,7 +192,7 @@ fn parameters(
         section.not_both(&[("values", "grid"), ("values", "random"), ("grid", "random"), ("together", "random")])?;
         let parameter = section.required("parameter", "dotted key of a number of the scene")?;
         if parameter.string().is_ok_and(&in_degrees) {
-            return Err(parameter.refuse_because("the scene has it as a text: allowed is a number there, in rad"));
+            return Err(parameter.refuse_because("the scene gives it in degrees; write a number there, in rad"));
         }
         found.keys.push(parameter_key(&parameter, known, &found.keys)?);
         let (length, source) = match source(&section, streams)? {
@@ -212,7 +208,9 @@ fn parameters(
         let axis = group.map_or(found.lengths.len(), |group| group.1);
         match (found.lengths.get(axis), name) {
             (Some(first), Some((entry, _))) if *first != length => {
-                return Err(entry.refuse_because(&format!("{length} points beside {first}: allowed are as many")));
+                return Err(entry.refuse_because(&format!(
+                    "the number of points is {length}: must be {first}, as for the others of the group"
+                )));
             }
             (Some(_), _) => {}
             (None, name) => {
@@ -248,19 +246,19 @@ fn random_axis(document: &Section<'_>, is_random: bool, found: &mut Parameters) 
 fn parameter_key(entry: &Entry<'_>, known: &[String], taken: &[String]) -> Result<String, Fault> {
     let key = entry.string()?;
     if taken.iter().any(|taken| taken == key) {
-        return Err(entry.refuse_because("is varied already"));
+        return Err(entry.refuse_because("is already varied"));
     }
     if known.iter().any(|known| known == key) {
         return Ok(key.to_owned());
     }
     let known: Vec<_> = known.iter().map(String::as_str).collect();
     let guess = did_you_mean(key, &known);
-    Err(entry.refuse_because(&format!("allowed is a number of the scene file: {}.{guess}", listed(&known))))
+    Err(entry.refuse_because(&format!("must be a number of the scene file, one of {}.{guess}", listed(&known))))
 }
 
 /// The source of the numbers and their count; `None` if they are drawn at random.
 fn source(section: &Section<'_>, stream: u64) -> Result<(Option<u64>, Source), Fault> {
-    const LISTS: &str = "a list of one number or more";
+    const LISTS: &str = "a list of at least one number";
     if let Some(entry) = section.optional("values") {
         let values = entry.list(LISTS)?.iter().map(Entry::number).collect::<Result<Vec<_>, _>>()?;
         if values.is_empty() {
@@ -308,15 +306,16 @@ fn law(section: &Section<'_>) -> Result<Law, Fault> {
 fn ends(section: &Section<'_>, by_ratios: bool) -> Result<(f64, f64), Fault> {
     let from_entry = section.required("from", "first end")?;
     let from = if by_ratios {
-        from_entry.number_where("a number other than zero: the points are in equal ratios", |x| x != 0.0)?
+        from_entry.number_where("a number other than zero; the points are in equal ratios", |x| x != 0.0)?
     } else {
         from_entry.number()?
     };
     let to = section.required("to", "last end")?;
     let to = if by_ratios {
-        to.number_where("a number of the same sign as `from`, but not equal: the points are in equal ratios", |x| {
-            x * from.signum() > 0.0 && x != from
-        })?
+        to.number_where(
+            "a number of the same sign as `from`, but not equal to it; the points are in equal ratios",
+            |x| x * from.signum() > 0.0 && x != from,
+        )?
     } else {
         to.number_where("a number other than `from`", |x| x != from)?
     };
@@ -346,7 +345,7 @@ fn outputs(document: &Section<'_>, scene: &mut Scene, times: Times) -> Result<Ou
         }
     }
     if outputs.groups.is_empty() && !outputs.errors && outputs.summaries.is_empty() {
-        return Err(section.fault("[output] requests nothing: allowed are columns, summaries or both"));
+        return Err(section.fault("[output] requests nothing; give columns, summaries or both"));
     }
     Ok(outputs)
 }

@@ -37,13 +37,13 @@ impl Identity {
         }
         let differs = |key: &str| journal[key] != self.facts[key];
         Some(if differs("journal") || differs("program") {
-            format!("it was begun by {}, and this is {}", journal["program"], self.facts["program"])
+            format!("it was begun by {}, but this is {}", journal["program"], self.facts["program"])
         } else if differs("sweep") {
             changed_line(&format!("the sweep file {}", self.file), &journal["sweep"], &self.facts["sweep"])
         } else if differs("scene") {
             changed_line("the scene", &journal["scene"], &self.facts["scene"])
         } else {
-            format!("it holds the scenes {} (from, to) and not {}", journal["scenes"], self.facts["scenes"])
+            format!("it holds the scenes {} (from, to), not {}", journal["scenes"], self.facts["scenes"])
         })
     }
 }
@@ -90,7 +90,7 @@ mod tests {
                 of("a = 1\nb = 2\n", Some("x\nc = 3\nd = 4\n"), 0..10),
                 "the scene has changed since: line 1 was `c = 3` and is `x`",
             ),
-            (of("a = 1\nb = 2\n", Some("c = 3\nd = 4\n"), 0..9), "it holds the scenes [0,10] (from, to) and not [0,9]"),
+            (of("a = 1\nb = 2\n", Some("c = 3\nd = 4\n"), 0..9), "it holds the scenes [0,10] (from, to), not [0,9]"),
         ] {
             assert_eq!(difference(now).as_deref(), Some(told));
         }

@@ -56,7 +56,7 @@ pub fn merge(
         }
         for (number, row) in samples {
             if sweep.rows(number..number + 1).0[0] != row {
-                let why = "has other numbers here: allowed are parts of this scene, tolerance and method, merged where they were computed";
+                let why = "has other numbers here; the parts must be of this scene, tolerance and method, and merged where they were computed";
                 return Err(not_next(format!("is of another sweep: its scene {number} {why}")));
             }
         }
@@ -64,7 +64,7 @@ pub fn merge(
     }
     if next != sweep.scenes {
         let part = parts.last().map_or("", |(part, _)| part);
-        return Err(format!("{part} is the last and ends before scene {next}: the sweep has {}", sweep.scenes));
+        return Err(format!("{part} is the last and ends before scene {next}; the sweep has {} scenes", sweep.scenes));
     }
     Ok(all_failed)
 }
@@ -74,16 +74,17 @@ fn is_failed(names: &[String], status: usize, row: &[u8]) -> Result<bool, String
     let row = String::from_utf8_lossy(row);
     let fields: Vec<_> = row.trim_end_matches('\n').split(',').collect();
     if fields.len() != names.len() {
-        return Err(format!("{} fields: allowed are {}", fields.len(), names.len()));
+        let plural = if fields.len() == 1 { "" } else { "s" };
+        return Err(format!("{} field{plural}: must be {}", fields.len(), names.len()));
     }
     let (is_failed, allowed) = match fields[status] {
-        "ok" => (false, "a number or nothing"),
-        "failed" => (true, "nothing, since it failed"),
-        other => return Err(format!("the status `{other}`: allowed is ok or failed")),
+        "ok" => (false, "a number or empty"),
+        "failed" => (true, "empty, since the scene failed"),
+        other => return Err(format!("the status `{other}`: must be ok or failed")),
     };
     let is_wrong = |field: &str| !field.is_empty() && (is_failed || field.parse::<f64>().is_err());
     match (status + 1..fields.len()).find(|&i| is_wrong(fields[i])) {
-        Some(i) => Err(format!("`{}` = `{}`: allowed is {allowed}", names[i], fields[i])),
+        Some(i) => Err(format!("`{}` = `{}`: must be {allowed}", names[i], fields[i])),
         None => Ok(is_failed),
     }
 }
@@ -118,7 +119,8 @@ pub fn merge_errors(
         count += 1;
     }
     if count != failed {
-        return Err(format!("{part} has {count} rows: allowed is one for each scene that failed, {failed}"));
+        let plural = if count == 1 { "" } else { "s" };
+        return Err(format!("{part} has {count} row{plural}: must be {failed}, one for each scene that failed"));
     }
     writer.flush().map_err(|error| format!("the table of errors: {error}"))
 }

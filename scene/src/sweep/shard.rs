@@ -25,7 +25,7 @@ impl FromStr for Shard {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let allowed = || "allowed is i/n with whole numbers 1 <= i <= n <= 1000000, such as 3/16".to_owned();
+        let allowed = || "must be i/n with whole numbers 1 <= i <= n <= 1000000, such as 3/16".to_owned();
         let (part, parts) = text.split_once('/').ok_or_else(allowed)?;
         let (part, parts) = (part.parse().map_err(|_| allowed())?, parts.parse().map_err(|_| allowed())?);
         if 1 <= part && part <= parts && parts <= 1_000_000 { Ok(Self { part, parts }) } else { Err(allowed()) }

@@ -112,7 +112,7 @@ impl Spool {
         }
         if unknown && files.rows.exists() {
             let _ = fs::remove_file(&files.journal);
-            return Err(SpoolError::Different("it has no journal beside it".to_owned()));
+            return Err(SpoolError::Different("its journal is missing".to_owned()));
         }
         let journal = Journal::read(&journal_file).map_err(refused(&files.journal))?;
         let difference = journal.identity.as_ref().and_then(|there| identity.difference_from(there));
@@ -121,7 +121,9 @@ impl Spool {
         }
         if let Some((mark, _)) = journal.marks.iter().find(|(mark, _)| !mark.is_of(&scenes)) {
             let (next, failed) = (mark.next, mark.failed);
-            return Err(SpoolError::Different(format!("its journal is up to scene {next}, with {failed} that failed")));
+            return Err(SpoolError::Different(format!(
+                "its journal is for other scenes: it is complete up to scene {next}, with {failed} failed"
+            )));
         }
         let (rows, errors) = (open(&files.rows)?, open(&files.errors)?);
         let intact = [(&rows, &files.rows), (&errors, &files.errors)].map(|(file, path)| (file, refused(path)));
@@ -414,7 +416,7 @@ mod tests {
         drop(first);
         fs::remove_file(&files.journal).expect("a journal");
         let refused = open().expect_err("a table without a journal").to_string();
-        assert!(refused.contains("no journal") && !files.journal.exists(), "{refused}");
+        assert!(refused.contains("journal is missing") && !files.journal.exists(), "{refused}");
         assert_eq!(bytes(folder), before);
     }
 

@@ -99,7 +99,7 @@ fn scenes_are_counted_up_to_the_doubles() {
     let whole = text(&format!("{}{time}", grid("initial.beta_0", 1_000_000_000_000_000)));
     assert_eq!(Sweep::new(&whole).map(|sweep| sweep.scenes), Ok(1_000_000_000_000_000));
     let two = [grid("initial.beta_0", 1001), grid("initial.amplitude", 999_000_999_001)].concat();
-    assert!(refusal(&format!("{two}{time}")).is_some_and(|why| why.contains("too many scenes: allowed are 1e15")));
+    assert!(refusal(&format!("{two}{time}")).is_some_and(|why| why.contains("too many scenes; at most 1e15")));
 }
 
 /// The mean angle, and pulses, require every turn to be followed; the end of a motion alone may be far away.

@@ -41,7 +41,7 @@ impl fmt::Display for TrajectoryError {
             TrajectoryError::Undefined(column) => {
                 write!(
                     f,
-                    "`{column}` does not exist in all states of the motion, where an axis is on a pole, and so has no lines"
+                    "`{column}` has no lines: it is undefined in some states of the motion, where an axis is on a pole"
                 )
             }
             TrajectoryError::Write(error) => write!(f, "the table could not be written: {error}"),

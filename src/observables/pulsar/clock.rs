@@ -144,7 +144,7 @@ impl PulsarClock {
             (0.0..=MOST_ROTATION).contains(&rotation),
             "rotation (rad) of the body in a turn of the magnetic axis about L",
             rotation,
-            "above zero, and at most 1e5: all of it is searched for pulses",
+            "above zero and at most 1e5; all of it is searched for pulses",
         )?;
         Ok(Self { bounds, turns, time: StretchedTime::uniform(), motion, beam: *beam, observer: *observer })
     }

@@ -66,5 +66,10 @@ pub fn axis_along_line_of_sight_in_azimuth<S: Scalar>(theta: S, phi: S, theta_o:
 /// Refuses a magnetic axis on the Z axis, given `sin^2 Theta`.
 fn refuse_pole(sin_squared: f64) -> Result<(), Error> {
     let sin = sin_squared.sqrt();
-    Error::ensure(sin > f64::EPSILON, "sin Theta of the magnetic axis", sin, "above 2.2e-16: on Z it has no azimuth")
+    Error::ensure(
+        sin > f64::EPSILON,
+        "sin Theta of the magnetic axis",
+        sin,
+        "above 2.2e-16; on Z the axis has no azimuth",
+    )
 }

@@ -66,7 +66,7 @@ impl<P: Margin> EdgeSearch<P> {
             mismatch <= allowed || mismatch <= allowed + 300.0 * self.margin.estimated_error(to.time),
             "third derivative of m.n times h^3, over a stretch of length h, by the stated law less that by the states",
             mismatch,
-            "what the bounds of the angular velocity leave open: the states do not turn as the motion's `turning` says",
+            "within the bounds of the angular velocity; the states do not turn as the motion's `turning` says",
         )
     }
 
@@ -140,13 +140,13 @@ impl<P: Margin> EdgeSearch<P> {
             reach > GRAZING && from.time < middle && middle < to.time,
             "|m.n - cos rho| over a stretch of time",
             reach,
-            "above 1e-13: the line of sight stays on the edge of the beam, and rounding decides what it sees",
+            "above 1e-13; the line of sight stays on the edge of the beam, and rounding decides what it sees",
         )?;
         Error::ensure(
             self.divisions.get() > 0,
             "length of time after 10,000 divisions of a piece of the search for edges",
             length,
-            "long enough to tell edges apart: m.n does not keep to the equations of motion closely enough",
+            "long enough to tell edges apart; m.n does not follow the equations of motion closely enough",
         )?;
         self.divisions.set(self.divisions.get() - 1);
         let middle = self.jet(middle)?;

@@ -29,7 +29,7 @@ use crate::numerics::scalar::Real;
 /// # Errors
 /// [`Error::Domain`] for a rate of zero or one that is not finite: at a double root `t` is not a function of `p`.
 pub fn event_time<S: Real>(t: f64, value: S, rate: f64) -> Result<S, Error> {
-    Error::ensure(rate.abs() > 0.0 && rate.is_finite(), "rate at a root", rate, "finite and not zero: no touch")?;
+    Error::ensure(rate.abs() > 0.0 && rate.is_finite(), "rate at a root", rate, "finite and nonzero at a crossing")?;
     Ok(S::from_f64(t) - value / rate)
 }
 

@@ -120,6 +120,6 @@ pub fn rotating_vector_gradient<S: Scalar>(theta: S, phi: S, theta_o: S, phi_o: 
 /// Refuses a magnetic axis along the line of sight, given its projection on the sky.
 fn refuse_line_of_sight<S: Real>(north: S, east: S) -> Result<(), Error> {
     let across = north.re().hypot(east.re());
-    let allowed = "above 2.2e-16: along the line of sight it has no position angle";
+    let allowed = "above 2.2e-16; along the line of sight m has no position angle";
     Error::ensure(across > f64::EPSILON, "sine of the angle between m and the line of sight", across, allowed)
 }

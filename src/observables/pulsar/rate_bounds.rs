@@ -63,7 +63,7 @@ impl RateBounds {
             Turning::Given { bounds, .. } => bounds,
         };
         for &bound in bounds {
-            let allowed = "a number, zero or above";
+            let allowed = "finite and not negative";
             Error::ensure(bound >= 0.0 && bound.is_finite(), "bound on a derivative of Omega", bound, allowed)?;
         }
         Ok(Self::of_angular_velocity(bounds))
@@ -80,7 +80,7 @@ impl RateBounds {
             rotation <= MOST_COUNTED,
             "rotation (rad)",
             rotation,
-            "at most 1e9: turns are looked at one by one",
+            "at most 1e9; turns are examined one by one",
         )?;
         let latest = from.abs().max(to.abs());
         Error::ensure(

@@ -52,7 +52,7 @@ impl SpinFit {
         different.sort_by(f64::total_cmp);
         different.dedup();
         let count = different.len() as f64;
-        let at_least = "at least two, three with F1, four with F2";
+        let at_least = "at least 2, or 3 with F1, or 4 with F2";
         Error::ensure(count >= wanted, "number of different times", count, at_least)?;
 
         let mut numbers: Vec<_> = points.iter().map(|(number, _)| *number).collect();

@@ -25,12 +25,12 @@ impl ConstantPeriod {
     pub fn fit(points: &[(i64, f64)], weights: Option<&[f64]>) -> Result<Self, Error> {
         let equal = vec![1.0; points.len()];
         let weights = weights.unwrap_or(&equal);
-        let (counted, wanted) = (weights.len() as f64, "one weight for each point");
+        let (counted, wanted) = (weights.len() as f64, "the number of points");
         Error::ensure(weights.len() == points.len(), "number of weights", counted, wanted)?;
         for (&(number, time), &weight) in points.iter().zip(weights) {
             check_number(number)?;
             Error::ensure(time.is_finite(), "time of arrival", time, "a finite number")?;
-            Error::ensure(weight >= 0.0 && weight.is_finite(), "weight", weight, "a finite number, not negative")?;
+            Error::ensure(weight >= 0.0 && weight.is_finite(), "weight", weight, "finite and not negative")?;
         }
         // Relative to the first point, so that the means lose no digits.
         let (first, start) = points.first().copied().unwrap_or_default();
@@ -43,7 +43,12 @@ impl ConstantPeriod {
         let centred = || offsets().map(|(number, time)| (number - mean_number, time - mean_time));
         let variance = mean(&mut centred().map(|(number, _)| number * number));
         let covariance = mean(&mut centred().map(|(number, time)| number * time));
-        Error::ensure(variance > 0.0, "variance of the pulse numbers", variance, "above zero: two different numbers")?;
+        Error::ensure(
+            variance > 0.0,
+            "variance of the pulse numbers",
+            variance,
+            "above zero; at least two numbers must differ",
+        )?;
         let period = covariance / variance;
         Ok(Self {
             period,

@@ -223,10 +223,15 @@ impl<P: Margin> EdgeSearch<P> {
 
 pub(super) fn check_beam(beam: &Beam<f64>, line_of_sight: &Vector3<f64>) -> Result<(), Error> {
     for (length, name) in [(beam.axis.norm(), "length of the magnetic axis m"), (line_of_sight.norm(), "length of n")] {
-        Error::ensure((length - 1.0).abs() < 1e-9, name, length, "one, to 1e-9")?;
+        Error::ensure((length - 1.0).abs() < 1e-9, name, length, "1 to within 1e-9")?;
     }
     let opening = beam.half_opening;
-    Error::ensure(0.0 < opening && opening < core::f64::consts::PI, "semi-open angle rho", opening, "in (0, pi) rad")
+    Error::ensure(
+        0.0 < opening && opening < core::f64::consts::PI,
+        "semi-open angle rho",
+        opening,
+        "above 0 and below pi rad",
+    )
 }
 
 #[cfg(test)]

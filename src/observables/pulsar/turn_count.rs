@@ -79,7 +79,7 @@ impl TurnCount {
                 }
                 let off = winding - count.windings[along] as f64;
                 let allowed =
-                    "zero: the line of sight is along L at some phases, and turns about L change their number there";
+                    "zero; the line of sight is along L at some phases, where the number of turns about L changes";
                 Error::ensure(
                     off.abs() < 0.5,
                     "turns that differ between paths round the torus",
@@ -107,7 +107,7 @@ impl TurnCount {
             nearest > BETWEEN_POINTS * (most - least),
             "distance of the angles of the wobble from that of the beam (rad)",
             nearest,
-            "above a tenth of their range: within it the magnetic axis comes along L, and turns about L change their number",
+            "above a tenth of their range; within it the magnetic axis comes along L, where the number of turns about L changes",
         )
     }
 
@@ -131,7 +131,7 @@ impl TurnCount {
             i128::from(self.windings[i]) * whole
         });
         let most = whole.iter().map(|turns| turns.unsigned_abs() as f64).sum();
-        let allowed = "at most 4e18 either way, for a number of 64 bits";
+        let allowed = "at most 4e18 in size, to fit in 64 bits";
         Error::ensure(most <= MOST_TURNS, "number of turns since the start", most, allowed)?;
         let [_, followed] =
             self.followed(motion, self.start.map(|turns| turns.fraction), moved.map(|turns| turns - turns.round()))?;

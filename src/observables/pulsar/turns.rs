@@ -73,10 +73,10 @@ impl<'a, M: Motion<f64, State = BodyState<f64>>> Turns<'a, M> {
 /// Azimuth of the magnetic axis about the angular momentum of a state, from that of the line of sight, from -pi to pi.
 pub(super) fn phase(beam: &Beam<f64>, n: &Vector3<f64>, state: &BodyState<f64>) -> Result<f64, Error> {
     let momentum = state.momentum.norm();
-    Error::ensure(momentum > 0.0, "|L|", momentum, "above zero: a star at rest has no azimuth about L")?;
+    Error::ensure(momentum > 0.0, "|L|", momentum, "above zero; a star at rest has no azimuth about L")?;
     let (l, m) = (state.momentum / momentum, beam.direction(state));
     let (x, y) = (n.dot(&m) - l.dot(n) * l.dot(&m), l.dot(&n.cross(&m)));
-    let allowed = "above 2.2e-16: along L neither m nor n has an azimuth about it";
+    let allowed = "above 2.2e-16; along L neither m nor n has an azimuth about it";
     Error::ensure(
         x.hypot(y) > f64::EPSILON,
         "product of the sines of the angles of m and n with L",

@@ -109,9 +109,9 @@ impl QuasiPeriodicMotion {
             counts[angle] *= 2;
             Error::ensure(
                 counts.iter().product::<usize>() <= MOST_POINTS,
-                "amplitude at the edge of a quarter of a million points of the torus, of the strongest line",
+                "amplitude, of the strongest line, at the edge of a grid of a quarter of a million points of the torus",
                 edges[angle] / strongest,
-                "a tenth of the least amplitude: the lines of this function fall off slowly, as where it has a jump or nearly so",
+                "at most a tenth of the least amplitude; the lines of this function fall off slowly, as for a function with a jump",
             )?;
         }
     }

@@ -68,7 +68,7 @@ impl<S: Real> SymmetricMotion<S> {
             nearest >= NEAREST_TO_POLE,
             "least distance from the symmetry axis of s^IJ (sine)",
             nearest,
-            "at least 1e-9: nearer to it the Euler angles are singular",
+            "at least 1e-9; nearer to it the Euler angles are singular",
         )?;
         let real = spheroid.map(S::re);
         let start = Start {

@@ -93,7 +93,7 @@ impl<S: Real> UniformMotion<S> {
                 off <= 32.0 * f64::EPSILON,
                 "distance of the state from a steady precession, relative",
                 off,
-                "at most 32 roundings: Eq. (26) holds for states of constant inclination and rate",
+                "at most 32 roundings; Eq. (26) holds for states of constant inclination and rate",
             )?;
             let (cos, sin) = (pole.dot(&n), pole.cross(&n).norm());
             let stiffness = (rate * sin).powi(2) + omega * omega + pull * (sin * sin - 4.0 * cos * cos);
@@ -101,7 +101,7 @@ impl<S: Real> UniformMotion<S> {
                 stiffness > 0.0,
                 "squared frequency about the steady precession",
                 stiffness,
-                "above zero: where it is unstable rounding grows exponentially",
+                "above zero; an unstable precession amplifies rounding errors exponentially",
             )?;
             (turn, 1.0 + speed * speed / (stiffness * sin * sin), off * speed)
         };
@@ -206,7 +206,7 @@ fn precession_of<S: Real>(problem: &Problem<S>, axis_rate: &Vector3<S>) -> Resul
         square.re() > f64::EPSILON * f64::EPSILON,
         "sine of the inclination to the symmetry axis of s^IJ, squared",
         square.re(),
-        "above zero: on the pole there is no precession to be steady",
+        "above zero; on the pole there is no precession",
     )?;
     Ok((pole, across.dot(axis_rate) / square))
 }

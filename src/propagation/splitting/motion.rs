@@ -62,7 +62,7 @@ impl<const V: usize> PrincipalProblem<V> {
             largest_rate.is_finite(),
             "rate at which the body turns",
             largest_rate,
-            "within the range of doubles with its square: choose other units",
+            "within the range of doubles, and so must its square; choose other units",
         )?;
         Ok(Self {
             field,
@@ -247,7 +247,7 @@ impl<const V: usize> KeptStates<V> {
         states.push(state);
         steps.keep(&mut state, scene.casimir, (stride, step_count / stride), &mut states);
         let end = states.last().map_or(0.0, |state| state.vectors.iter().flatten().sum());
-        Error::ensure(end.is_finite(), "step", step, "shorter: with this one the motion leaves the range of numbers")?;
+        Error::ensure(end.is_finite(), "step", step, "shorter; with this step the motion leaves the range of doubles")?;
         let (spheroid, coefficients, estimate) = (*problem.spheroid(), *problem.coefficients(), OnceLock::new());
         Ok(Self {
             spheroid,

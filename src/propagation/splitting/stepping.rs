@@ -38,7 +38,7 @@ impl Splitting {
     /// As for [`Problem::splitting_by`], and for a step that is zero or not finite.
     pub fn new<X: RotationState<f64>>(problem: &Problem<f64, X>, scheme: &Scheme, step: f64) -> Result<Self, Error> {
         check_request((0.0, step), TOLERANCE_RANGE.0)?;
-        Error::ensure(step != 0.0, "step", step, "not zero")?;
+        Error::ensure(step != 0.0, "step", step, "nonzero")?;
         let scene = PrincipalProblem::new(problem)?;
         let steps = DoubleSteps::new(scheme, &scene.field, step, scene.largest_rate);
         let mut state = scene.start;

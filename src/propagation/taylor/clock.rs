@@ -46,7 +46,7 @@ impl Clock {
             wanted > 0.0,
             "step of the motion",
             wanted,
-            "above zero: in these units the motion is out of range",
+            "above zero; in these units the motion is out of range",
         )?;
         let start = self.elapsed;
         let remaining = (duration - start.high) - start.low;

@@ -58,7 +58,7 @@ pub(crate) const ROOM_FOR_STEPS: f64 = 1.5;
 
 const LIMIT: StepLimit = StepLimit {
     steps: STEP_LIMIT,
-    allowed: "at most 500,000 steps: take a shorter span (and go on from its end) or a larger tolerance",
+    allowed: "at most 500,000 steps; use a shorter span (and continue from its end) or a larger tolerance",
 };
 
 /// A motion stored as Taylor series on adjoining steps: [`Problem::taylor`].

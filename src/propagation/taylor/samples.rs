@@ -14,7 +14,7 @@ use crate::propagation::third_angle::body_state;
 
 /// Largest number of steps of a motion that is not stored: they take about an hour.
 pub(super) const LIMIT: StepLimit =
-    StepLimit { steps: 10_000_000_000, allowed: "at most 1e10 steps: take earlier times or a larger tolerance" };
+    StepLimit { steps: 10_000_000_000, allowed: "at most 1e10 steps; use earlier times or a larger tolerance" };
 
 /// States at given times.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,7 +56,7 @@ pub(in crate::propagation) fn span_of(start: f64, times: &[f64]) -> Result<(f64,
     let mut before = start;
     for &t in times {
         let onwards = if last >= start { before <= t && t <= last } else { before >= t && t >= last };
-        Error::ensure(onwards, "time t", t, "times in the order in which the motion reaches them from its start")?;
+        Error::ensure(onwards, "time t", t, "in the order in which the motion reaches the times from its start")?;
         before = t;
     }
     Ok((start, last))

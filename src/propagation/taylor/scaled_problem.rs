@@ -53,7 +53,7 @@ impl<S: Real, const V: usize> ScaledProblem<S, V> {
             scale.turning_rate.is_finite(),
             "rate at which the body turns",
             scale.turning_rate,
-            "within the range of doubles with the squares of L and s^IJ: choose other units",
+            "within the range of doubles, and so must the squares of L and s^IJ; choose other units",
         )?;
         // An error made at one time turns into a phase error that grows with the rotation. The error budget per unit of time
         // is the tolerance divided by that growth, averaged over the span.

@@ -55,7 +55,7 @@ pub fn middle_axis_growth(
     )?;
     let k = potential.at(size, along / size, h, m).tensor(&s, size);
     let square = (k.z - k.y) * (k.y - k.x);
-    Error::ensure(square > 0.0, "(k1 - k2)(k2 - k3)", square, "above zero: else L stays near the middle axis")?;
+    Error::ensure(square > 0.0, "(k1 - k2)(k2 - k3)", square, "above zero; otherwise L stays near the middle axis")?;
     Ok(square.sqrt())
 }
 
@@ -68,7 +68,7 @@ pub fn middle_axis_growth(
 /// [`Error::Domain`] unless the growth is above zero and `k'^2` within (0, 1].
 pub fn period_near_separatrix(growth: f64, complement: f64) -> Result<f64, Error> {
     Error::ensure(growth > 0.0 && growth.is_finite(), "growth rate", growth, "above zero and finite")?;
-    Error::ensure(complement > 0.0 && complement <= 1.0, "k'^2", complement, "above zero, at most 1")?;
+    Error::ensure(complement > 0.0 && complement <= 1.0, "k'^2", complement, "above zero and at most 1")?;
     Ok(4.0 / growth * (4.0 / complement.sqrt()).ln())
 }
 

@@ -69,7 +69,7 @@ fn require_round<S: Real>(top: &Top<S>) -> Result<(), Error> {
 fn traceless_principal_values<S: Real>(problem: &Problem<S>) -> Result<Vector3<S>, Error> {
     let off_diagonal = [(0, 1), (0, 2), (1, 2)].map(|place| problem.coefficients()[place].re().abs());
     let largest = off_diagonal.into_iter().fold(0.0, f64::max);
-    Error::ensure(largest == 0.0, "largest s^IJ off the diagonal", largest, "zero: use the principal frame of s^IJ")?;
+    Error::ensure(largest == 0.0, "largest s^IJ off the diagonal", largest, "zero; use the principal frame of s^IJ")?;
     let values = problem.coefficients().diagonal();
     Ok(values.map(|value| value - (values.x + values.y + values.z) / 3.0))
 }
@@ -85,7 +85,7 @@ fn strengths<S: Real>(problem: &Problem<S>, s: &Vector3<S>, size: S) -> Result<[
         of_torque.re() < LARGEST_STRENGTH,
         "|C| (s_max - s_min) I^xx / |L|^2",
         of_torque.re(),
-        "below 0.2: the body must turn fast against the torque",
+        "below 0.2; the body must turn fast compared with the torque",
     )?;
     let of_bulge = problem.bulge().abs() * spread * inertia_xx;
     let together = (of_torque + of_bulge).re();
@@ -93,7 +93,7 @@ fn strengths<S: Real>(problem: &Problem<S>, s: &Vector3<S>, size: S) -> Result<[
         together < LARGEST_STRENGTH,
         "(|C| / |L|^2 + |b|) (s_max - s_min) I^xx of a star with a bulge",
         together,
-        "below 0.2: the body must turn fast against what turns L",
+        "below 0.2; the body must turn fast compared with the motion of L",
     )?;
     Ok([of_torque, of_bulge])
 }
@@ -121,7 +121,7 @@ fn excess_of_mean_momentum<S: Real>(
         g.re() > 0.0 && last.re().abs() <= 1e-12 * g.re(),
         "last correction of the mean |L|, relative",
         last.re() / g.re(),
-        "below 1e-12: the mean energy must determine it",
+        "below 1e-12; the mean energy must determine it",
     )?;
     Ok(excess)
 }
@@ -262,7 +262,7 @@ impl<S: Real> AveragedSolution<S> {
             spread > 0.0,
             "largest difference of two eigenvalues of s^IJ",
             spread,
-            "above zero: derivatives of the averaged motion need an anisotropic s^IJ",
+            "above zero; derivatives of the averaged motion need an anisotropic s^IJ",
         )?;
         require_round(&self.top)
     }

@@ -78,7 +78,7 @@ pub fn slow_precession<S: Real>(
         ratio > f64::EPSILON * f64::EPSILON,
         "k'^2, distance from the separatrix",
         ratio,
-        "above 5e-32: on the separatrix L approaches the middle axis and has no mean rate",
+        "above 5e-32; on the separatrix L approaches the middle axis and has no mean rate",
     )?;
     let mean = ArithmeticGeometricMean::new(p_squared.sqrt(), q_squared.sqrt()).limit();
     Ok(SlowPrecession { axis: end.0, rate: kappa * mean * sense })

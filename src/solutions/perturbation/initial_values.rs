@@ -33,7 +33,7 @@ pub fn constants_from_initial_values<S: Real>(
     spin: S,
     initial: &AxisAngles<S>,
 ) -> Result<Constants<S>, Error> {
-    Error::ensure(spin.re() != 0.0, "spin Omega^z", spin.re(), "nonzero: Eq. (34) divides by it")?;
+    Error::ensure(spin.re() != 0.0, "spin Omega^z", spin.re(), "nonzero; Eq. (34) divides by it")?;
     // Eq. (34) is periodic in alpha with a full turn: near zero Newton's method loses no digits of alpha.
     let turns = whole_turns(initial.alpha.re());
     let initial = &AxisAngles { alpha: initial.alpha - S::from_f64(turns), ..*initial };

@@ -171,7 +171,7 @@ impl<S: Real> Perturbation<S> {
             rate.abs() > 4.0 * f64::EPSILON * terms,
             "precession rate a of Eq. (32)",
             rate,
-            "nonzero beyond rounding: Eq. (33) divides by it (for single precession 2 s^ZZ - s^XX - s^YY must not vanish)",
+            "nonzero beyond rounding; Eq. (33) divides by it (for single precession 2 s^ZZ - s^XX - s^YY must not vanish)",
         )?;
         Ok(self)
     }
@@ -211,15 +211,15 @@ fn check_domain<S: Real>(spin: S, beta_0: S) -> Result<(), Error> {
         sb.re().abs() > f64::EPSILON,
         "sine of the mean inclination, sin beta_0",
         sb.re(),
-        "|sin beta_0| > 2.2e-16: Eqs. (30)-(34) divide by it",
+        "above 2.2e-16 in size; Eqs. (30)-(34) divide by it",
     )?;
     Error::ensure(
         cb.re().abs() > f64::EPSILON,
         "cosine of the mean inclination, cos beta_0",
         cb.re(),
-        "|cos beta_0| > 2.2e-16: twofold precession has the rate omega / cos beta_0, single precession none at a right angle",
+        "above 2.2e-16 in size; twofold precession has the rate omega / cos beta_0, and single precession has none at a right angle",
     )?;
-    Error::ensure(spin.re() != 0.0, "spin Omega^z", spin.re(), "nonzero: Eq. (31) divides by it")
+    Error::ensure(spin.re() != 0.0, "spin Omega^z", spin.re(), "nonzero; Eq. (31) divides by it")
 }
 
 /// Sine and cosine of twice the angle.

@@ -84,10 +84,15 @@ impl<S: Real> SymmetricSolution<S> {
             s.asymmetry().re() == 0.0,
             "asymmetry s^XX - s^YY",
             s.asymmetry().re(),
-            "zero: use a frame whose Z axis is the symmetry axis of s^IJ",
+            "zero; use a frame whose Z axis is the symmetry axis of s^IJ",
         )?;
         let (sin, cos) = angles.beta.sin_cos();
-        Error::ensure(sin.re() > f64::EPSILON, "sin beta", sin.re(), "above 2.2e-16: beta in (0, pi), not on a pole")?;
+        Error::ensure(
+            sin.re() > f64::EPSILON,
+            "sin beta",
+            sin.re(),
+            "above 2.2e-16; beta must be above 0 and below pi, not on a pole",
+        )?;
         let spin = rates.alpha * cos + rates.gamma;
         let omega = spheroid.free_precession_constant(spin);
         let k = spheroid.constant_c * (s.zz - s.xx) * 2.0 / spheroid.inertia_xx;
@@ -117,7 +122,12 @@ impl<S: Real> SymmetricSolution<S> {
         let rounding = 8.0 * f64::EPSILON * slope.iter().map(|x| x.re().abs()).sum::<f64>();
         let [p0, p1, p2, ..] = quartic.coefficients;
         let motion = if p1.re().abs() <= rounding && p0.re() * p2.re().abs() <= rounding * rounding {
-            Error::ensure(p2.re() < 0.0, "half of P'' at the steady inclination", p2.re(), "below zero: stable")?;
+            Error::ensure(
+                p2.re() < 0.0,
+                "half of P'' at the steady inclination",
+                p2.re(),
+                "below zero, so that it is stable",
+            )?;
             Motion::Steady(Steady { rates: *rates, frequency: (-p2).sqrt(), sin, cos, acceleration: p1 * 0.5 })
         } else {
             Motion::Nutating(Nutating::new(&quartic, angles, rates)?)

@@ -72,7 +72,7 @@ impl<S: Real> Nutating<S> {
             period > 0.0 && turns.is_finite(),
             "half the period of the inclination",
             period,
-            "within the range of doubles with its fourth power: choose another unit of time",
+            "within the range of doubles, and so must its fourth power; choose another unit of time",
         )?;
         Ok(Self {
             north_distance: (north_far, north_near),

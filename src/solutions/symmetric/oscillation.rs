@@ -93,7 +93,7 @@ impl<S: Real> Oscillation<S> {
                 quantity > least * largest,
                 "distance of the roots of P(cos beta), relative",
                 quantity / largest,
-                "above rounding: on the separatrix the period is infinite",
+                "above the rounding error; on the separatrix the period is infinite",
             )
         };
         let span = high - low;

@@ -52,7 +52,7 @@ impl<'a> TorusDerivative<'a> {
     /// number of frequencies; [`Error::Unsupported`] if a closed orbit is not finite.
     pub fn new(solution: &'a TorusSolution, problem: &Problem<Dual64>) -> Result<Self, Error> {
         if solution.width <= THINNEST {
-            let what = "derivatives on the torus: n is on L, or L on an axis";
+            let what = "derivatives on the torus, as where n is on L or L is on an axis";
             return Err(Error::NotConverged { what, iterations: 1, residual: solution.width });
         }
         let (spheroid, coefficients) = (problem.spheroid(), problem.coefficients());
@@ -75,7 +75,7 @@ impl<'a> TorusDerivative<'a> {
             let mut end = found.integrals.moved(*period, &start);
             let open = change - joined(&end, size, derivative);
             if !open.norm().is_finite() {
-                return Err(Error::not_found("periods of the tori beside that of the motion"));
+                return Err(Error::not_found("periods of the tori next to that of the motion"));
             }
             let rates = found.integrals.both_rates(&end);
             let tangents = tangents(&rates, size);

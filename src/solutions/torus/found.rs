@@ -90,7 +90,7 @@ impl Torus {
         let [high, middle, low] = order;
         values.add_scalar_mut(-values[middle]);
         let spread = values[high] - values[low];
-        Error::ensure(spread > 0.0, "s_max - s_min", spread, "above zero: without it there is no torus")?;
+        Error::ensure(spread > 0.0, "s_max - s_min", spread, "above zero; otherwise there is no torus")?;
         let (spheroid, initial) = (*problem.spheroid(), principal.initial());
         let pull = (2.0 * spheroid.inertia_xx * spheroid.constant_c.abs() * spread).sqrt();
         let unit = initial.momentum.norm().max(pull);
@@ -111,7 +111,7 @@ impl Torus {
             || near_neutral_rest(&given, &initial.axis, &initial.momentum, unit)
         {
             let what = "a series on the torus";
-            return Err(Error::Unsupported { what, why: "n and L are nearly at rest, where a deviation grows" });
+            return Err(Error::Unsupported { what, why: "n and L are nearly at rest, where deviations grow" });
         }
         let (turn, integrals, start) = in_frame(x);
         let found = lattice(&integrals, unit, &start)

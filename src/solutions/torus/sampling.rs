@@ -78,7 +78,7 @@ pub(super) fn coefficients(
             }
         }
     }
-    let what = "Fourier series on the torus: this is near the separatrix";
+    let what = "Fourier series on the torus near the separatrix";
     Err(Error::NotConverged { what, iterations: grid.quarter, residual: tolerance })
 }
 

@@ -31,7 +31,7 @@ pub fn separatrix_motion(
         gap > 0.0,
         "least difference of two eigenvalues of s",
         gap,
-        "above zero: else there is no separatrix",
+        "above zero; otherwise there is no separatrix",
     )?;
     // In a plane the slope of K does not depend on its value.
     let wanted = Wanted::new(spheroid, &FirstIntegrals { energy, spin, clebsch: 0.0 })?;
@@ -43,7 +43,7 @@ pub fn separatrix_motion(
         other < 0.0,
         "slope of K along the plane of the largest and the middle eigenvalue, at one end with the sign of that at the other",
         other,
-        "below zero: n turns fast about an L near the middle axis",
+        "below zero; n turns fast about an L near the middle axis",
     )?;
     loop {
         let middle = 0.5 * (left + right);

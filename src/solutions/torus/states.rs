@@ -66,14 +66,14 @@ pub fn states_with_integrals(
     }
     let wanted = Wanted::new(spheroid, integrals)?;
     let spread = values.max() - values.min();
-    Error::ensure(spread > 0.0, "s_max - s_min", spread, "above zero: without it K says no more than E and Omega^z")?;
+    Error::ensure(spread > 0.0, "s_max - s_min", spread, "above zero; otherwise K adds nothing to E and Omega^z")?;
     let spin_energy = inertia_zz * spin * spin / 2.0;
     let pull = values * constant_c;
     Error::ensure(
         energy - spin_energy >= pull.min(),
         "energy E without that of the spin, I^zz Omega^z^2 / 2",
         energy - spin_energy,
-        "at least the least eigenvalue of C s: the spin takes more than there is",
+        "at least the least eigenvalue of C s; the energy of the spin is too large for this E",
     )?;
     let planes = [0, 1, 2].map(|normal| wanted.in_plane(&values, normal));
     let absent = planes.iter().filter(|states| states.is_empty()).count();

@@ -116,7 +116,7 @@ pub fn axisymmetric_integrals<S: Real>(
     body: &impl AxisymmetricBody<S>,
     degree: usize,
 ) -> Result<AxisymmetricIntegrals<S>, Error> {
-    let allowed = "a positive multiple of 4: half of it is used for the extrapolation";
+    let allowed = "a positive multiple of 4; half of it is used for the extrapolation";
     Error::ensure(degree > 0 && degree.is_multiple_of(4), "highest Legendre degree", degree as f64, allowed)?;
     let rule = unit_rule(NonZeroUsize::MIN.saturating_add(degree + MORE_NODES - 1));
     let (equator, pole) = (body.surface(S::zero()).0, body.surface(S::one()).0);

@@ -94,7 +94,7 @@ impl TimingModel {
         Error::ensure(frequency.high > 0.0, "f0 (Hz)", frequency.high, "above zero")?;
         Error::ensure((0.0..PI / 2.0).contains(&of(Wobble)), "wobble (rad)", of(Wobble), "from 0 to below pi / 2")?;
         let least = of(Chi).min(PI - of(Chi));
-        let beyond = "above the wobble, and so is pi - chi: the path of the magnetic axis about n encircles L";
+        let beyond = "above the wobble, and so must pi - chi; the path of the magnetic axis about n must encircle L";
         Error::ensure(least > of(Wobble), "chi (rad)", of(Chi), beyond)?;
         Error::ensure((0.0..=PI).contains(&of(Inclination)), "inclination (rad)", of(Inclination), "from 0 to pi")?;
         Error::ensure((0.0..PI).contains(&of(Rho)), "rho (rad)", of(Rho), "from 0 to below pi")?;
@@ -210,7 +210,7 @@ impl TimingModel {
     pub fn width_and_derivatives(&self, t: f64) -> Result<(f64, [f64; COUNT]), Error> {
         let (seeded, moved, _) = self.seeded([t, 0.0])?;
         let Some(azimuth) = azimuth_of_pulse(&seeded, moved, t) else {
-            let allowed = "a beam whose edge the line of sight crosses";
+            let allowed = "such that the line of sight crosses the edge of the beam";
             return Err(Error::Domain { quantity: "rho (rad)", value: self.value(Rho), allowed });
         };
         let duration = azimuth / (seeded[F0 as usize] * slowing(&braking(&seeded), &precession(&seeded), moved) * TAU);
@@ -231,7 +231,7 @@ impl TimingModel {
 
 /// Refuses pulse numbers that are too large, and NaN.
 pub(crate) fn check_turns(turns: f64) -> Result<(), Error> {
-    Error::ensure(turns.abs() <= MOST_TURNS, "phase (turns)", turns, "at most 9e15 either way")
+    Error::ensure(turns.abs() <= MOST_TURNS, "phase (turns)", turns, "at most 9e15 in size")
 }
 
 fn derivatives(value: &Dual) -> [f64; COUNT] {
