@@ -19,7 +19,7 @@ impl<'py> FromPyObject<'_, 'py> for Number {
     const INPUT_TYPE: PyStaticExpr = f64::INPUT_TYPE;
 
     fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        let refused = || PyTypeError::new_err("allowed is a real number");
+        let refused = || PyTypeError::new_err("must be a real number");
         if given.is_instance_of::<PyBool>() {
             return Err(refused());
         }
@@ -48,7 +48,7 @@ impl<'py> FromPyObject<'_, 'py> for Names {
 
     fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(text) = given.cast::<PyString>() {
-            return Err(PyTypeError::new_err(format!("the text {}: allowed is a list of names", text.repr()?)));
+            return Err(PyTypeError::new_err(format!("must be a list of names, not the text {}", text.repr()?)));
         }
         given.extract().map(Self)
     }
@@ -58,12 +58,10 @@ impl Names {
     /// The names as the command's list. Names that would be a different list there are refused. `argument` is the name of the argument.
     pub fn listed(&self, argument: &str) -> PyResult<String> {
         if self.0.is_empty() {
-            return Err(raised(format!("{argument}: none: allowed are one name and more")));
+            return Err(raised(format!("{argument}: must be a list of at least one name")));
         }
         match self.0.iter().find(|name| name.contains([',', ':'])) {
-            Some(name) => {
-                Err(raised(format!("{argument}: `{name}` is not a name: allowed is one name without `,` and `:`")))
-            }
+            Some(name) => Err(raised(format!("{argument}: `{name}` must be a single name, without `,` or `:`"))),
             None => Ok(self.0.join(",")),
         }
     }
@@ -72,7 +70,7 @@ impl Names {
 /// A message of the command with Python's arguments in place of the command's options.
 pub fn by_arguments(message: impl ToString) -> PyErr {
     let options = [
-        ("--simulate and strains", "strains"),
+        ("--simulate or strains", "strains"),
         ("--observe", "observe"),
         ("--parameters", "parameters"),
         ("--causes", "causes"),

@@ -30,10 +30,10 @@ impl<'py> FromPyObject<'_, 'py> for Numbers {
             return Ok(Self { values: vec![given.extract()?], shape: None });
         }
         let py = given.py();
-        let refused = || PyTypeError::new_err("allowed is a real number or an array of real numbers");
+        let refused = || PyTypeError::new_err("must be a real number or an array of real numbers");
         let numpy = py.import(pyo3::intern!(py, "numpy"))?;
         if given.hasattr(pyo3::intern!(py, "mask"))? {
-            return Err(PyTypeError::new_err("an array with a mask: allowed is one without"));
+            return Err(PyTypeError::new_err("must be an array without a mask"));
         }
         let array = numpy.call_method1(pyo3::intern!(py, "asarray"), (given,)).map_err(|_| refused())?;
         let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
@@ -66,7 +66,7 @@ impl Numbers {
             None => Ok(vec![other.values[0]; self.values.len()]),
             shape if shape == self.shape => Ok(other.values),
             Some(shape) => Err(raised(format!(
-                "{name}: an array of shape {shape:?} beside one of {:?}: allowed is the same shape, or one number",
+                "{name} has the shape {shape:?}: must be one number, or have the shape {:?}",
                 self.shape.as_deref().unwrap_or(&[])
             ))),
         }
@@ -76,7 +76,7 @@ impl Numbers {
     pub fn list(self, name: &str) -> PyResult<Vec<f64>> {
         match self.shape {
             Some(shape) if shape.len() == 1 => Ok(self.values),
-            _ => Err(raised(format!("{name}: allowed is an array of one dimension"))),
+            _ => Err(raised(format!("{name}: must be an array of one dimension"))),
         }
     }
 
@@ -90,7 +90,7 @@ impl Numbers {
             return Ok(found);
         }
         Err(raised(format!(
-            "{name}: {} numbers beside {count} times: allowed are as many, or one for all",
+            "{name} has the length {}: must be one number, or have the length {count} of the times",
             found.len()
         )))
     }

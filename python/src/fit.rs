@@ -46,7 +46,7 @@ impl TimingData {
         let of = |name: &str, given: Option<Numbers>| given.map(|given| given.list_of(name, count)).transpose();
         let sigmas = of("sigmas", sigmas)?.unwrap_or_default();
         if sigmas.len() != count {
-            return Err(raised("times without sigmas: allowed are arrival times with a standard deviation each"));
+            return Err(raised("times without sigmas; each arrival time needs a standard deviation"));
         }
         let rest = of("rest", rest)?.unwrap_or(vec![0.0; count]);
         let numbers = of("numbers", numbers)?;
@@ -62,7 +62,7 @@ impl TimingData {
         let errors = read("width_sigmas", width_sigmas)?;
         if wide.len() != at.len() || errors.len() != at.len() {
             return Err(raised(format!(
-                "{} width_times, {} widths and {} width_sigmas: allowed are as many of each",
+                "width_times, widths and width_sigmas have the lengths {}, {} and {}: must be equal",
                 at.len(),
                 wide.len(),
                 errors.len()
@@ -78,7 +78,7 @@ impl TimingData {
         let (arrivals, widths) = ((0..count).map(arrival).collect(), (0..at.len()).map(width).collect());
         let data = inference::TimingData { arrivals, widths, priors: Vec::new() };
         if let Some([time, _]) = measured_twice(&data) {
-            return Err(raised(format!("the datum at t = {time:?} s is there twice: allowed are data measured once")));
+            return Err(raised(format!("the datum at t = {time:?} s occurs twice; each datum can be given only once")));
         }
         Ok(Self { data })
     }
@@ -154,7 +154,7 @@ impl TimingData {
 fn read_epoch(given: &Bound<'_, PyAny>) -> PyResult<twofold::epoch::Epoch> {
     match given.extract::<String>() {
         Ok(text) => text.parse().map_err(raised),
-        Err(_) => epoch(number(given).map_err(|_| PyTypeError::new_err("epoch: allowed is a modified Julian date"))?),
+        Err(_) => epoch(number(given).map_err(|_| PyTypeError::new_err("epoch: must be a modified Julian date"))?),
     }
 }
 
@@ -319,11 +319,11 @@ pub fn fit_timing(
         let name: String = name.extract()?;
         let parameter = timing_parameter(&name)?;
         let [Number(mean), Number(sigma)] = prior.extract().map_err(|_| {
-            raised(format!("priors[{name:?}]: allowed is a pair of numbers, the mean and the standard deviation"))
+            raised(format!("priors[{name:?}]: must be a pair of numbers, the mean and the standard deviation"))
         })?;
         twofold::Error::ensure(mean.is_finite(), "mean of a prior", mean, "a finite number").map_err(raised)?;
         if !unknowns.contains(&parameter) {
-            return Err(raised(format!("priors[{name:?}]: allowed is an unknown")));
+            return Err(raised(format!("priors[{name:?}]: must be one of the unknowns")));
         }
         data.priors.push(Prior { parameter, mean, sigma });
     }
@@ -380,7 +380,7 @@ pub fn wobble_posterior<'py>(
     for (name, column) in ["along", "across"].into_iter().zip(&columns) {
         if column.len() != residuals.len() {
             let (found, allowed) = (column.len(), residuals.len());
-            return Err(raised(format!("{name}: {found} numbers: allowed are as many as residuals, {allowed}")));
+            return Err(raised(format!("{name} has the length {found}: must have the length of residuals, {allowed}")));
         }
     }
     let columns = DMatrix::from_vec(residuals.len(), 2, columns.concat());

@@ -26,7 +26,7 @@ pub mod kernels {
 
     /// A result that is a finite double.
     fn result(name: &'static str, value: f64) -> Result<f64, Error> {
-        Error::ensure(value.is_finite(), name, value, "a finite double; other arguments give one").map(|()| value)
+        Error::ensure(value.is_finite(), name, value, "finite; use other arguments").map(|()| value)
     }
 
     fn positive(name: &'static str, value: f64) -> Result<(), Error> {

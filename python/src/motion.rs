@@ -54,7 +54,7 @@ impl Motion {
         if (first..=last).contains(&t) {
             return Ok(t);
         }
-        Err(format!("t = {t:?} {unit}: allowed is the span of the motion, from {first:?} to {last:?} {unit}"))
+        Err(format!("t = {t:?} {unit}: must be within the span of the motion, from {first:?} to {last:?} {unit}"))
     }
 
     /// Evaluates a function at times of the span.

@@ -49,7 +49,7 @@ impl Pulsar {
             }
         };
         if epochs.is_empty() {
-            return Err(raised("epochs: none: allowed are one and more"));
+            return Err(raised("epochs: must contain at least one epoch"));
         }
         let derivatives = derivatives.unwrap_or(if scene.spin_down.is_some() { 2 } else { 0 });
         let found = py.detach(|| {

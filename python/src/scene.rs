@@ -112,7 +112,7 @@ fn changed(py: Python<'_>, text: &str, sections: &Bound<'_, PyDict>) -> PyResult
         };
         let whole = match document.get_item(&name)? {
             Some(found) => {
-                found.cast_into::<PyDict>().map_err(|_| raised(format!("{name} is no section of the scene")))?
+                found.cast_into::<PyDict>().map_err(|_| raised(format!("{name} is not a section of the scene")))?
             }
             None => PyDict::new(py),
         };
@@ -153,9 +153,9 @@ impl Scene {
         sections: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let (name, text) = match (source, toml) {
-            (Some(_), Some(_)) => return Err(raised("a scene has one source: allowed is a name or path, or toml=")),
+            (Some(_), Some(_)) => return Err(raised("a scene has one source; give either a name or path, or toml=")),
             (None, None) if sections.is_none() => {
-                return Err(raised("no scene: allowed are a name, a path, toml= and sections as star={...}"));
+                return Err(raised("no scene; give a name, a path, toml= or sections such as star={...}"));
             }
             (None, text) => ("scene".to_owned(), text.unwrap_or_default()),
             (Some(source), None) => {
@@ -264,7 +264,7 @@ impl Scene {
         #[pyo3(from_py_with = number)] least: f64,
         most: usize,
     ) -> PyResult<Table> {
-        twofold::Error::ensure(most > 0, "most", most as f64, "1 and above").map_err(raised)?;
+        twofold::Error::ensure(most > 0, "most", most as f64, "at least 1").map_err(raised)?;
         twofold::Error::ensure((1e-12..=1.0).contains(&least), "least", least, "from 1e-12 to 1").map_err(raised)?;
         let column = Column::oscillating(column, &self.scene).map_err(raised)?;
         let wanted = LinesWanted { least, most, in_turns: false };

@@ -57,7 +57,7 @@ impl Sweep {
                 SweepText::read(&path)
             }
             (None, Some(text)) => SweepText::of("sweep", text),
-            _ => return Err(raised("a sweep has one source: allowed is a path or toml=")),
+            _ => return Err(raised("a sweep has one source; give either a path or toml=")),
         };
         Self::of_text(text.map_err(raised)?)
     }
@@ -83,7 +83,7 @@ impl Sweep {
     ) -> PyResult<(Bound<'py, PyBytes>, Bound<'py, PyBytes>, u64)> {
         if !(start <= stop && stop <= self.scenes) {
             let count = self.scenes;
-            return Err(raised(format!("scenes {start} to {stop}: allowed are parts of 0 to {count}")));
+            return Err(raised(format!("scenes {start} to {stop}: must be within 0 to {count}")));
         }
         let sweep = Checked::new(&self.text).map_err(raised)?;
         let [mut rows, mut errors] = [Vec::new(), Vec::new()];
@@ -157,7 +157,7 @@ impl SweepFile {
         // Whether errors come from an earlier attempt to name the table is checked when the table is named.
         for (path, replaced) in [(&out, replace), (&errors_beside(&out), replace || named_before)] {
             if (path.exists() || path.is_symlink()) && !replaced {
-                return Err(raised(format!("{} exists: allowed is replace=True", path.display())));
+                return Err(raised(format!("{} exists; use replace=True to replace it", path.display())));
             }
         }
         let errors_header = csv_line(&Checked::new(&sweep.text).map_err(raised)?.errors_header());

@@ -31,7 +31,7 @@ impl Table {
         let (columns, rows) = columns_of(&csv)?;
         let mut names = HashSet::new();
         if let Some(twice) = columns.iter().find(|column| !names.insert(&column.name)) {
-            return Err(format!("two columns have the name `{}`: allowed is one", twice.name));
+            return Err(format!("two columns have the name `{}`", twice.name));
         }
         Ok(Self { csv, columns, rows })
     }
@@ -77,9 +77,10 @@ impl Table {
         match found.map(|column| &column.values) {
             Some(Values::Numbers(numbers)) => Ok(PyArray1::from_slice(py, numbers).into_any()),
             Some(Values::Words(words)) => Ok(PyList::new(py, words)?.into_any()),
-            None => {
-                Err(PyKeyError::new_err(format!("`{name}` is not a column; this table has {}", self.keys().join(", "))))
-            }
+            None => Err(PyKeyError::new_err(format!(
+                "`{name}` is not a column; expected one of {}",
+                self.keys().join(", ")
+            ))),
         }
     }
 

@@ -187,6 +187,6 @@ fn values(given: &Bound<'_, PyDict>) -> PyResult<Vec<(TimingParameter, f64)>> {
 pub fn timing_parameter(name: &str) -> PyResult<TimingParameter> {
     match named(name, &TimingParameter::ALL).map_err(raised)?[..] {
         [parameter] => Ok(parameter),
-        _ => Err(raised(format!("`{name}`: allowed is the name of one parameter"))),
+        _ => Err(raised(format!("`{name}`: must be the name of one parameter"))),
     }
 }

@@ -343,19 +343,19 @@ def test_a_changed_parameter_is_seen(spread):
 
 
 REFUSED = [
-    ({"WOBBLE": -0.5}, r"WOBBLE = -0.5 deg: allowed is 0 or more; .* WOBBLE = 0.5 deg and WOBPHASE = 210.0 deg"),
+    ({"WOBBLE": -0.5}, r"WOBBLE = -0.5 deg: must be 0 or more; .* WOBBLE = 0.5 deg and WOBPHASE = 210.0 deg"),
     ({"WOBBLE": -0.5, "WOBPHASE": 200.0}, r"has WOBBLE = 0.5 deg and WOBPHASE = 20.0 deg"),
-    ({"WOBBLE": 70.0}, r"WOBBLE = 70 deg: allowed is below 70 deg, .*WOBCHI = 70 deg"),
-    ({"WOBBLE": 75.0}, r"WOBBLE = 75 deg: allowed is below 70 deg, .*WOBCHI = 70 deg"),
-    ({"WOBCHI": 179.0}, r"WOBBLE = 2 deg: allowed is below 1 deg"),
-    ({"WOBCHI": 0.0}, r"WOBCHI = 0 deg: allowed is above 0 and below 180 deg"),
-    ({"WOBCHI": 190.0}, r"WOBCHI = 190 deg: allowed is above 0 and below 180 deg"),
-    ({"WOBPERIOD": 0.0}, r"WOBPERIOD = 0.0 d: allowed is above 0"),
-    ({"WOBPERIOD": -3.0}, r"WOBPERIOD = -3.0 d: allowed is above 0"),
-    ({"WOBPERIOD": float("nan")}, r"WOBPERIOD = nan d: allowed is above 0"),
-    ({"WOBPERIOD": float("inf")}, r"WOBPERIOD = inf d: allowed is above 0, and finite"),
+    ({"WOBBLE": 70.0}, r"WOBBLE = 70 deg: must be below 70 deg, .*WOBCHI = 70 deg"),
+    ({"WOBBLE": 75.0}, r"WOBBLE = 75 deg: must be below 70 deg, .*WOBCHI = 70 deg"),
+    ({"WOBCHI": 179.0}, r"WOBBLE = 2 deg: must be below 1 deg"),
+    ({"WOBCHI": 0.0}, r"WOBCHI = 0 deg: must be above 0 and below 180 deg"),
+    ({"WOBCHI": 190.0}, r"WOBCHI = 190 deg: must be above 0 and below 180 deg"),
+    ({"WOBPERIOD": 0.0}, r"WOBPERIOD = 0.0 d: must be above 0"),
+    ({"WOBPERIOD": -3.0}, r"WOBPERIOD = -3.0 d: must be above 0"),
+    ({"WOBPERIOD": float("nan")}, r"WOBPERIOD = nan d: must be above 0"),
+    ({"WOBPERIOD": float("inf")}, r"WOBPERIOD = inf d: must be above 0 and finite"),
     ({"WOBPHASE": float("nan")}, r"precession_phase"),
-    ({"WOBTORQUE": 1.5}, r"WOBTORQUE = 1.5: allowed is from 0 to 1"),
+    ({"WOBTORQUE": 1.5}, r"WOBTORQUE = 1.5: must be from 0 to 1"),
     ({"f1": -1e-6}, r"WOBPERIOD = 400 d: change of the rotation by the varying torque .* at most 0.01"),
 ]
 
@@ -369,13 +369,13 @@ def test_what_is_refused(changes, error):
 @pytest.mark.parametrize("name", ["WOBCHI", "WOBPERIOD"])
 def test_what_must_be_given(name):
     given = "".join(f"{one} {value}\n" for one, value in WOBBLE.items() if one != name)
-    with pytest.raises(MissingParameter, match=f"{name} has no value: allowed is a number, in (deg|d)"):
+    with pytest.raises(MissingParameter, match=f"{name} has no value: must be a number, in (deg|d)"):
         model_of("F0 2.5\n" + given)
 
 
 def test_an_epoch_must_be_given():
     lines = wobbling(f1=0.0).as_parfile().splitlines()
-    with pytest.raises(MissingParameter, match="PEPOCH has no value: WOBPHASE is that of this epoch") as error:
+    with pytest.raises(MissingParameter, match="PEPOCH has no value; WOBPHASE is the phase at this epoch") as error:
         model_of_par("\n".join(line for line in lines if not line.startswith(("PEPOCH", "F1"))))
     assert (error.value.module, error.value.param) == ("Wobble", "PEPOCH")
 
@@ -406,7 +406,7 @@ def test_a_step_of_a_fit_that_leaves_the_model_is_refused(spread):
     with pytest.raises(InvalidModelParameters, match="WOBBLE = 71 deg"):
         Residuals(spread, model)
     model = wobbling(f1=-2.5 * 0.2 / 1.5e8, WOBTORQUE=0.0)
-    with pytest.raises(InvalidModelParameters, match="F1 t / F0 = .*: allowed is at most 0.1 in size"):
+    with pytest.raises(InvalidModelParameters, match="F1 t / F0 = .*: must be at most 0.1 in size"):
         Residuals(spread, model)
 
 
@@ -431,17 +431,17 @@ def test_a_wobble_is_added_as_given(spread):
     assert model.WOBPERIOD.value == pytest.approx(0.36525) and model.WOBCHI.value == pytest.approx(np.degrees(1))
     assert component.free_params_component == ["WOBBLE"]
     assert (model.WOBBLE.quantity.to_value(u.rad), model.WOBPHASE.quantity.to_value(u.rad)) == pytest.approx((0.1, 1.0))
-    with pytest.raises(ValueError, match="model: it has a Wobble component"):
+    with pytest.raises(ValueError, match="model: must not have a Wobble component"):
         add_wobble(model, spread, period=1 * u.yr, chi=1 * u.rad)
 
 
 @pytest.mark.parametrize(
     ("given", "error"),
     [
-        ({"wobble": 2 * u.rad}, "WOBBLE = 114.59.* deg: allowed is below"),
-        ({"free": ["WOBBLE", "WAVE"]}, "free = WAVE: allowed is one of WOBBLE, WOBCHI"),
-        ({"wobble": None}, "toas = None: allowed are arrival times, or both"),
-        ({"period": -1 * u.day}, "WOBPERIOD = -1.0 d: allowed is above 0"),
+        ({"wobble": 2 * u.rad}, "WOBBLE = 114.59.* deg: must be below"),
+        ({"free": ["WOBBLE", "WAVE"]}, "free = WAVE: must be one of WOBBLE, WOBCHI"),
+        ({"wobble": None}, "toas = None: give arrival times, or both"),
+        ({"period": -1 * u.day}, "WOBPERIOD = -1.0 d: must be above 0"),
     ],
 )
 def test_a_wobble_that_cannot_be_is_not_added(given, error):
@@ -590,7 +590,7 @@ def test_starts_of_any_star(exact):
     assert component.WOBBLE.quantity.to_value(u.rad) == pytest.approx(0.2)
     days, years = (add_wobble(copy.deepcopy(model), toas, period=period, chi=0.9 * u.rad) for period in (400 * u.day, 400 / 365.25 * u.yr))
     assert years.WOBPHASE.value == pytest.approx(days.WOBPHASE.value, rel=1e-6)
-    with pytest.raises(InvalidModelParameters, match="WOBPERIOD = 0.0 d: allowed is above 0"):
+    with pytest.raises(InvalidModelParameters, match="WOBPERIOD = 0.0 d: must be above 0"):
         add_wobble(copy.deepcopy(model), toas, period=0 * u.day, chi=0.9 * u.rad)
     falling = model_of(f"F0 2.5 1\nF1 {-2.5 * 0.2 / 1.29e8} 1\n")
     with pytest.raises(InvalidModelParameters, match="F1 t / F0"):
@@ -631,7 +631,7 @@ def test_errors_of_arrivals_must_be_above_zero(exact):
     model, toas = exact
     toas = copy.deepcopy(toas)
     toas.table["error"][3] = 0.0
-    with pytest.raises(ValueError, match="toas: allowed are arrival times with errors above zero"):
+    with pytest.raises(ValueError, match="toas: must be arrival times with errors above zero"):
         wobble_limits(model, toas, 100 * u.day)
 
 
@@ -648,10 +648,10 @@ def test_phases_of_a_positive_wobble(given, expected):
 
 def test_stars_that_a_fit_may_try(spread):
     for name, value, words in (
-        ("WOBPERIOD", 0.0, "WOBPERIOD = 0 d: allowed is above 0"),
-        ("WOBPERIOD", -3.0, "WOBPERIOD = -3 d: allowed is above 0"),
-        ("WOBTORQUE", -0.1, "WOBTORQUE = -0.1: allowed is from 0 to 1"),
-        ("WOBBLE", -71.0, "WOBBLE = -71 deg: allowed is below 70 deg"),
+        ("WOBPERIOD", 0.0, "WOBPERIOD = 0 d: must be above 0"),
+        ("WOBPERIOD", -3.0, "WOBPERIOD = -3 d: must be above 0"),
+        ("WOBTORQUE", -0.1, "WOBTORQUE = -0.1: must be from 0 to 1"),
+        ("WOBBLE", -71.0, "WOBBLE = -71 deg: must be below 70 deg"),
     ):
         model = wobbling()
         getattr(model, name).value = value
@@ -662,7 +662,7 @@ def test_stars_that_a_fit_may_try(spread):
     star.check(np.array([1.0, -1e8, 5.0]))
     star.check(np.array([]))
     for times in ([1.0, -1.01e8], [-1.01e8, 1.0]):
-        with pytest.raises(InvalidModelParameters, match=r"F1 t / F0 = 0.101 at an arrival time: allowed is at most 0.1 in size: PEPOCH nearer"):
+        with pytest.raises(InvalidModelParameters, match=r"F1 t / F0 = 0.101 at an arrival time: must be at most 0.1 in size; use a nearer PEPOCH"):
             star.check(np.array(times))
     for torque in (0.0, 0.5):
         assert _Beyond(replace(star, torque=torque), np.array([])).turns.shape == (0,)
@@ -671,10 +671,10 @@ def test_stars_that_a_fit_may_try(spread):
 def test_parameters_that_are_no_numbers_or_unknown(spread):
     model = wobbling()
     component = model.components["Wobble"]
-    with pytest.raises(ValueError, match="DM: allowed is one of WOBBLE, WOBCHI, WOBPERIOD, WOBPHASE, WOBTORQUE, F0, F1"):
+    with pytest.raises(ValueError, match="DM: must be one of WOBBLE, WOBCHI, WOBPERIOD, WOBPHASE, WOBTORQUE, F0, F1"):
         component.d_wobble_phase_d_param(spread, "DM", model.delay(spread))
     model.WOBTORQUE._quantity = None
-    with pytest.raises(MissingParameter, match="WOBTORQUE has no value: allowed is a number, in 1") as error:
+    with pytest.raises(MissingParameter, match="WOBTORQUE has no value: must be a number, in 1") as error:
         model.validate()
     assert (error.value.module, error.value.param) == ("Wobble", "WOBTORQUE")
     fresh = twofold.pint.Wobble()
@@ -685,10 +685,10 @@ def test_parameters_that_are_no_numbers_or_unknown(spread):
 @pytest.mark.parametrize(
     ("given", "error"),
     [
-        ({"probability": 0.0}, "probability = 0.0: allowed is above 0 and below 1"),
-        ({"periods": [1.0, 0.0] * u.day}, "periods: 0.0 d: allowed is above 0"),
-        ({"probability": 1.0}, "probability = 1.0: allowed is"),
-        ({"periods": [-1.0, 2.0] * u.day}, "periods: -1.0 d: allowed"),
+        ({"probability": 0.0}, "probability = 0.0: must be above 0 and below 1"),
+        ({"periods": [1.0, 0.0] * u.day}, "periods: 0.0 d: must be above 0"),
+        ({"probability": 1.0}, "probability = 1.0: must be"),
+        ({"periods": [-1.0, 2.0] * u.day}, "periods: -1.0 d: must be"),
     ],
 )
 def test_limits_that_cannot_be(spread, given, error):
@@ -696,7 +696,7 @@ def test_limits_that_cannot_be(spread, given, error):
     model.remove_component("Wobble")
     with pytest.raises(ValueError, match=error):
         wobble_limits(model, spread, **{"periods": [100.0] * u.day, **given})
-    with pytest.raises(ValueError, match="model: it has a Wobble component"):
+    with pytest.raises(ValueError, match="model: must not have a Wobble component"):
         wobble_limits(wobbling(), spread, [100.0] * u.day)
 
 

@@ -188,7 +188,7 @@ def test_a_file_that_is_replaced_or_not(sweep, tmp_path):
     for taken in (path, tmp_path / "table.csv.errors.csv"):
         if taken.name == "table.csv.errors.csv":
             path.unlink()
-        with pytest.raises(twofold.Error, match=f"{taken.name} exists: allowed is replace=True"):
+        with pytest.raises(twofold.Error, match=f"{taken.name} exists; use replace=True"):
             twofold._twofold.SweepFile(sweep, path)
     assert twofold._twofold.SweepFile(sweep, path, replace=True).next == 0
 
@@ -312,7 +312,7 @@ def test_a_table_whose_naming_was_cut_off_is_finished(sweep, one_core, tmp_path)
     with ThreadPoolExecutor(1) as executor:
         killed_while_named(sweep, path, one_core)
         path.write_text("of another")
-        with pytest.raises(twofold.Error, match="exists: allowed is replace=True"):
+        with pytest.raises(twofold.Error, match="exists; use replace=True"):
             sweep.write(path, executor)
         assert path.read_text() == "of another"
         path.unlink()
@@ -373,7 +373,7 @@ def test_a_table_that_exists(sweep, one_core, tmp_path):
     path = tmp_path / "table.csv"
     path.write_text("mine\n")
     with ThreadPoolExecutor(2) as executor:
-        with pytest.raises(twofold.Error, match="table.csv exists: allowed is replace=True"):
+        with pytest.raises(twofold.Error, match="table.csv exists; use replace=True"):
             sweep.write(path, executor)
         assert path.read_text() == "mine\n"
         sweep.write(path, executor, replace=True)
@@ -422,7 +422,7 @@ def test_a_worker_of_another_version_is_refused(sweep, monkeypatch):
                 future.set_exception(error)
             return future
 
-    with pytest.raises(twofold.Error, match="a worker has twofold 0.0.1: allowed is "):
+    with pytest.raises(twofold.Error, match="a worker has twofold 0.0.1: must be "):
         sweep.map(Elsewhere())
 
 
@@ -430,9 +430,9 @@ def test_what_is_refused(sweep):
     with ThreadPoolExecutor(1) as executor:
         for options in ({"scenes_at_once": 0}, {"parts_at_once": -1}):
             name, value = next(iter(options.items()))
-            with pytest.raises(twofold.Error, match=f"{name} = {value}: allowed is a whole number above zero"):
+            with pytest.raises(twofold.Error, match=f"{name} = {value}: must be a whole number above zero"):
                 sweep.map(executor, **options)
-    with pytest.raises(twofold.Error, match="scenes 90 to 101: allowed are parts of 0 to 100"):
+    with pytest.raises(twofold.Error, match="scenes 90 to 101: must be within 0 to 100"):
         sweep.rows(90, 101)
 
 

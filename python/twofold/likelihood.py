@@ -51,17 +51,17 @@ class TimingLikelihood(_Likelihood):  # type: ignore[misc, valid-type]
         super().__init__()
         for name in marginalised:
             if name not in ("phase", "f0", "f1", "f2"):
-                raise Error(f'marginalised: {name!r}: allowed are "phase", "f0", "f1" and "f2"')
+                raise Error(f'marginalised: {name!r} must be one of "phase", "f0", "f1" and "f2"')
         times, self._sigmas = data.times, data.sigmas
         if not len(times):
-            raise Error("data: no arrival times: allowed are one and more")
+            raise Error("data: must have at least one arrival time")
         self.model, self.marginalised = model, tuple(marginalised)
         self._t, self._rest = np.ascontiguousarray(times[:, 0]), np.ascontiguousarray(times[:, 1])
         whole, fraction, derivatives = model.phase_and_derivatives(self._t, self._rest)
         given = np.array(data.numbers if numbers is None else numbers, dtype=float)
         known = ~np.isnan(given)
         if given.shape != self._t.shape or not np.array_equal(given[known], np.rint(given[known])):
-            raise Error(f"numbers: an array of shape {given.shape}: allowed are {len(self._t)} whole numbers, NaN where one is not known")
+            raise Error(f"numbers has the shape {given.shape}: must be {len(self._t)} whole numbers, NaN where one is not known")
         self.numbers = whole + np.rint(fraction)
         if known.any():
             # The numbers may start anywhere: the first known one belongs to the nearest turn.
@@ -76,7 +76,7 @@ class TimingLikelihood(_Likelihood):  # type: ignore[misc, valid-type]
             sizes = np.linalg.norm(columns, axis=0)
             self._basis, values, _ = np.linalg.svd(columns / sizes, full_matrices=False)
             if len(values) < len(sizes) or not values.min() > 1e-10 * values.max():
-                raise Error(f"marginalised: {', '.join(self.marginalised)}: allowed are parameters that the arrival times determine")
+                raise Error(f"marginalised: {', '.join(self.marginalised)}: must be parameters that the arrival times determine")
             # The integral of exp(-chi^2/2) over the parameters.
             self._norm += len(sizes) / 2 * np.log(2 * np.pi) - np.log(values).sum() - np.log(sizes).sum()
 
@@ -89,15 +89,15 @@ class TimingLikelihood(_Likelihood):  # type: ignore[misc, valid-type]
             if name == "f0_offset":
                 changes["f0"] = float(value)
             elif name == "f0":
-                raise Error(f"f0 = {value!r}: allowed is f0_offset (Hz), what is added to F0 of the model")
+                raise Error(f"f0 = {value!r}: use f0_offset (Hz) instead, which is added to F0 of the model")
             elif name in _OF_WIDTHS:
-                raise Error(f"{name} = {value!r}: arrival times do not depend on it; allowed are {', '.join(self._allowed())}")
+                raise Error(f"{name} = {value!r}: arrival times do not depend on it; expected one of {', '.join(self._allowed())}")
             elif name in TimingModel.names:
                 changes[name] = float(value) - self.model[name]
             else:
-                raise Error(f"{name} = {value!r}: allowed are {', '.join(self._allowed())}")
+                raise Error(f"{name} = {value!r}: the name must be one of {', '.join(self._allowed())}")
             if name.removesuffix("_offset") in self.marginalised:
-                raise Error(f"{name} = {value!r}: it is marginalised; allowed are other parameters")
+                raise Error(f"{name} = {value!r}: it is marginalised; give only other parameters")
         return self.model.moved(**changes)
 
     def _allowed(self) -> list[str]:

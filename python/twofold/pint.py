@@ -48,16 +48,16 @@ class _Star:
         degrees = [f"{angle:.12g} deg" for angle in np.degrees([self.wobble, self.chi])]
         least = min(self.chi, np.pi - self.chi)
         if not 0.0 < least:
-            raise InvalidModelParameters(f"WOBCHI = {degrees[1]}: allowed is above 0 and below 180 deg")
+            raise InvalidModelParameters(f"WOBCHI = {degrees[1]}: must be above 0 and below 180 deg")
         if not abs(self.wobble) < least:
             raise InvalidModelParameters(
-                f"WOBBLE = {degrees[0]}: allowed is below {np.degrees(least):.12g} deg, which is how far"
+                f"WOBBLE = {degrees[0]}: must be below {np.degrees(least):.12g} deg, which is how far"
                 f" WOBCHI = {degrees[1]} is from 0 or from 180 deg"
             )
         if not (self.rate > 0.0 and np.isfinite(self.rate)):
-            raise InvalidModelParameters(f"WOBPERIOD = {self._days():.12g} d: allowed is above 0, and finite")
+            raise InvalidModelParameters(f"WOBPERIOD = {self._days():.12g} d: must be above 0 and finite")
         if not 0.0 <= self.torque <= 1.0:
-            raise InvalidModelParameters(f"WOBTORQUE = {self.torque:.12g}: allowed is from 0 to 1")
+            raise InvalidModelParameters(f"WOBTORQUE = {self.torque:.12g}: must be from 0 to 1")
         try:
             twofold.TimingModel(
                 self.f0,
@@ -74,7 +74,7 @@ class _Star:
             lost = self.f1 / self.f0 * t[np.argmax(np.abs(t))]
             if not abs(lost) <= MOST_LOST:
                 raise InvalidModelParameters(
-                    f"F1 t / F0 = {lost:.3g} at an arrival time: allowed is at most {MOST_LOST} in size: PEPOCH nearer"
+                    f"F1 t / F0 = {lost:.3g} at an arrival time: must be at most {MOST_LOST} in size; use a nearer PEPOCH"
                 )
 
     def _days(self) -> float:
@@ -248,15 +248,15 @@ class Wobble(PhaseComponent):
         for name in self.params:
             if getattr(self, name).value is None:
                 raise MissingParameter(
-                    "Wobble", name, f"{name} has no value: allowed is a number, in {self._unit(name)}"
+                    "Wobble", name, f"{name} has no value: must be a number, in {self._unit(name)}"
                 )
         if "Spindown" not in self._parent.components or self._parent.PEPOCH.value is None:
-            raise MissingParameter("Wobble", "PEPOCH", "PEPOCH has no value: WOBPHASE is that of this epoch")
+            raise MissingParameter("Wobble", "PEPOCH", "PEPOCH has no value; WOBPHASE is the phase at this epoch")
         if not self.WOBPERIOD.value > 0.0:
-            raise InvalidModelParameters(f"WOBPERIOD = {self.WOBPERIOD.value} d: allowed is above 0")
+            raise InvalidModelParameters(f"WOBPERIOD = {self.WOBPERIOD.value} d: must be above 0")
         if self.WOBBLE.value < 0.0:
             raise InvalidModelParameters(
-                f"WOBBLE = {self.WOBBLE.value} deg: allowed is 0 or more; the same star has"
+                f"WOBBLE = {self.WOBBLE.value} deg: must be 0 or more; the same star has"
                 f" WOBBLE = {-self.WOBBLE.value} deg and WOBPHASE = {(self.WOBPHASE.value + 180.0) % 360.0} deg"
             )
         self._star().check()
@@ -318,7 +318,7 @@ class Wobble(PhaseComponent):
                 return of["f0"] << u.s
             case "F1":
                 return of["f1"] << u.s**2
-        raise ValueError(f"{param}: allowed is one of {', '.join([*self.params, 'F0', 'F1'])}")
+        raise ValueError(f"{param}: must be one of {', '.join([*self.params, 'F0', 'F1'])}")
 
     def d_wobble_phase_d_delay(self, toas: TOAs, delay: u.Quantity) -> u.Quantity:
         """Derivative of the phase by the delay."""
@@ -343,14 +343,14 @@ class _Projected:
 
     def __init__(self, model: TimingModel, toas: TOAs):
         if not np.all(toas.get_errors() > 0 * u.us):
-            raise ValueError("toas: allowed are arrival times with errors above zero")
+            raise ValueError("toas: must be arrival times with errors above zero")
         self.sigma = model.scaled_toa_uncertainty(toas).to_value(u.s)
         matrix = np.asarray(model.designmatrix(toas)[0], float) / self.sigma[:, None]
         basis, weights = model.noise_model_designmatrix(toas), model.noise_model_basis_weight(toas)
         if basis is not None:
             if np.ndim(weights) != 1:
                 raise ValueError(
-                    "model: noise with correlated amplitudes: allowed is noise with a weight for each column"
+                    "model: has noise with correlated amplitudes; the noise must have a weight for each column"
                 )
             prior = np.diag(1.0 / np.sqrt(weights))
             below = np.hstack([np.zeros((len(weights), matrix.shape[1])), prior])
@@ -415,20 +415,20 @@ def add_wobble(
     """
     days, angle = period.to_value(u.day), chi.to_value(u.rad)
     if "Wobble" in model.components:
-        raise ValueError("model: it has a Wobble component: allowed is a model without one")
+        raise ValueError("model: must not have a Wobble component")
     if toas is None and (wobble is None or phase is None):
-        raise ValueError("toas = None: allowed are arrival times, or both wobble and phase")
+        raise ValueError("toas = None: give arrival times, or both wobble and phase")
     start = [None if given is None else given.to_value(u.rad) for given in (wobble, phase)]
     component = Wobble()
     component.WOBCHI.quantity, component.WOBPERIOD.quantity, component.WOBTORQUE.value = chi, period, torque
     free = list(free)
     for name in free:
         if name not in component.params:
-            raise ValueError(f"free = {name}: allowed is one of {', '.join(component.params)}")
+            raise ValueError(f"free = {name}: must be one of {', '.join(component.params)}")
         getattr(component, name).frozen = False
     if None in start:
         if not days > 0.0:
-            raise InvalidModelParameters(f"WOBPERIOD = {days} d: allowed is above 0")
+            raise InvalidModelParameters(f"WOBPERIOD = {days} d: must be above 0")
         start = _start(_Projected(model, toas), days, angle, torque, *start)
     component.WOBBLE.quantity, component.WOBPHASE.quantity = (value * u.rad for value in start)
     model.add_component(component, validate=False)
@@ -471,12 +471,12 @@ def wobble_limits(
     is the quantile of the posterior of the wobble angle with a flat prior for it and for the phase; it is infinite where it or the wider standard deviation of the wobble is above 0.1 rad. `chi` and the share of the torque are held fixed.
     """
     if "Wobble" in model.components:
-        raise ValueError("model: it has a Wobble component: allowed is a model without one")
+        raise ValueError("model: must not have a Wobble component")
     if not 0.0 < probability < 1.0:
-        raise ValueError(f"probability = {probability}: allowed is above 0 and below 1")
+        raise ValueError(f"probability = {probability}: must be above 0 and below 1")
     days = np.atleast_1d(periods.to_value(u.day))
     if not np.all(days > 0.0):
-        raise ValueError(f"periods: {np.min(days)} d: allowed is above 0")
+        raise ValueError(f"periods: {np.min(days)} d: must be above 0")
     data = _Projected(model, toas)
     rows = []
     for period in days:

@@ -87,7 +87,7 @@ def angles(
     allowed = ("alpha", "beta", "gamma")
     for name in names:
         if name not in allowed:
-            raise Error(f"names: `{name}`: allowed are {', '.join(allowed)}")
+            raise Error(f"names: `{name}` must be one of {', '.join(allowed)}")
     shown = _sampled(scene, until, samples)
     if perturbation is None:
         try:
@@ -124,13 +124,13 @@ def sphere(
     The eye is far away at azimuth and elevation `view` (degrees); paths are pale on the far side. `equatorial` also draws the axis e_x of the body, for that length of time.
     """
     if samples < 2:
-        raise Error(f"samples = {samples}: allowed is a whole number above one")
+        raise Error(f"samples = {samples}: must be a whole number above one")
     start, end = motion.span
     end = end if until is None else until
     n, momentum, _ = motion.state(np.linspace(start, end, samples))
     length = np.linalg.norm(momentum, axis=1, keepdims=True)
     if not (length > 0.0).all():
-        raise Error("motion: a star at rest has no direction of its angular momentum; allowed is one that rotates")
+        raise Error("motion: the star must rotate; at rest its angular momentum has no direction")
     if axes is None:
         _, axes = plt.subplots(figsize=(COLUMN, COLUMN), layout="constrained")
     azimuth, elevation = np.radians(view)
@@ -236,9 +236,9 @@ def waterfall(
     """
     for name, value, least in (("rows", rows, 2), ("samples", samples, 2)):
         if value < least:
-            raise Error(f"{name} = {value}: allowed is a whole number from {least} on")
+            raise Error(f"{name} = {value}: must be a whole number of at least {least}")
     if window is not None and not window[0] < window[1]:
-        raise Error(f"window = {window}: allowed is the earlier time, then the later one")
+        raise Error(f"window = {window}: must be the earlier time, then the later one")
     pulsar = scene.pulsar() if "epoch" in tomllib.loads(scene.toml)["time"] else None
     if pulsar is None:
         first, period, count = _turns(scene)
@@ -249,7 +249,7 @@ def waterfall(
         heights = lines
     else:
         if "damping_time" in tomllib.loads(scene.toml).get("spin_down", {}):
-            raise Error(f"scene {scene.name}: spin_down.damping_time: allowed here are stars without friction, whose wobble stays as it is")
+            raise Error(f"scene {scene.name}: spin_down.damping_time cannot be used here; the star must be without friction, so that its wobble stays as it is")
         timing = pulsar.arrivals()
         chosen = np.unique(np.linspace(0, len(timing.table) - 1, rows).round().astype(int))
         residual, number = timing.table["residual"][chosen], timing.table["pulse"][chosen]
@@ -266,7 +266,7 @@ def waterfall(
             dates = found["arrival_day"] + found["arrival_fraction"] + (number - found["pulse"]) * (steady.period / 86400.0)
             found = steady.arrivals(dates).table
         if not np.array_equal(found["pulse"], number):
-            raise Error(f"scene {scene.name}: its pulses of equal number are not found again")
+            raise Error(f"scene {scene.name}: pulses of the same numbers are not found without spin-down")
         since = (found["arrival_day"] - float(steady.epoch)) * 86400.0 + found["arrival_fraction"] * 86400.0
         times = since[:, None] + scene.span[0] + x - residual[:, None]
         scene = unbraked
@@ -279,7 +279,7 @@ def waterfall(
     angle = np.arccos(np.clip(values.reshape(shape), -1.0, 1.0)) / edge
     light = np.asarray(10.0 ** -(angle**2) if intensity is None else intensity(angle), dtype=float)
     if light.shape != shape:
-        raise Error(f"intensity: an array of shape {light.shape} for one of {shape}: allowed is the same shape")
+        raise Error(f"intensity has the shape {light.shape}: must have the shape {shape}")
 
     if axes is None:
         _, axes = plt.subplots(figsize=(COLUMN, 1.1 * COLUMN), layout="constrained")
@@ -321,7 +321,7 @@ def spectrum(
         raise Error(f"column = {column!r}: it is constant in scene {scene.name} and has no lines")
     x, height = table["frequency"] - around, table["amplitude"]
     if span is not None and not span[0] < span[1]:
-        raise Error(f"span = {span}: allowed is the lower frequency, then the higher one")
+        raise Error(f"span = {span}: must be the lower frequency, then the higher one")
     low, high = span or ((-0.02 * x.max(), 1.06 * x.max()) if around == 0.0 else _with_room(x))
     shown = (x >= low) & (x <= high)
     if not shown.any():
@@ -415,11 +415,11 @@ def _combination(text: str) -> str:
 def _sampled(scene: Scene, until: float | None, samples: int) -> Scene:
     """The scene with other times."""
     if samples < 2:
-        raise Error(f"samples = {samples}: allowed is a whole number above one")
+        raise Error(f"samples = {samples}: must be a whole number above one")
     start, end = scene.span
     until = end if until is None else until
     if until == start:
-        raise Error(f"until = {until}: allowed is another time than the start of the scene")
+        raise Error(f"until = {until}: must be another time than the start of the scene")
     times = {"span": until - start, "samples": samples, "end": None, "years": None, "times": None}
     return Scene(toml=scene.toml, time=times)
 
@@ -431,7 +431,7 @@ def _turns(scene: Scene) -> tuple[float, float, int]:
     turn, t = table["turn"], table["closest_approach"]
     good = np.isfinite(turn) & np.isfinite(t) & (table["beam"] == 1)
     if good.sum() < 2:
-        raise Error(f"scene {scene.name}: it has {good.sum()} whole pulses in its span; allowed are two or more")
+        raise Error(f"scene {scene.name}: the number of whole pulses in its span is {good.sum()}: must be at least 2")
     period, first = np.polyfit(turn[good], t[good], 1)
     return float(first), float(period), int((scene.span[1] - first) / period)
 
@@ -466,7 +466,7 @@ def _panels(axes: Sequence[Axes] | None, count: int, width: float, height: float
         return list(made[:, 0])
     given = list(axes)
     if len(given) != count:
-        raise Error(f"axes: {len(given)} are given: allowed are {count}")
+        raise Error(f"axes: expected {count}, found {len(given)}")
     return given
 
 

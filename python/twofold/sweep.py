@@ -29,7 +29,7 @@ _LOOKED_AFTER = 1.0
 def _rows(sweep: Sweep, version: str, start: int, stop: int) -> _Rows:
     """Computes a part in a worker. Last digits can differ between versions, so that workers must have that of the caller."""
     if _version() != version:
-        raise _twofold.Error(f"a worker has twofold {_version()}: allowed is {version}, as where the sweep was begun")
+        raise _twofold.Error(f"a worker has twofold {_version()}: must be {version}, as where the sweep was begun")
     return sweep.rows(start, stop)
 
 
@@ -113,7 +113,7 @@ class Sweep(_twofold.Sweep):
         """
         path = os.fsdecode(path)
         if not path or os.path.isdir(path) or path.endswith(".parquet"):
-            raise _twofold.Error(f"path = {path!r}: allowed is the name of a file of CSV; `twofold sweep` writes Parquet")
+            raise _twofold.Error(f"path = {path!r}: must be the name of a CSV file; use the command `twofold sweep` to write Parquet")
         self._sizes(scenes_at_once, parts_at_once)
         # Workers start before the file is open: forked ones would inherit its lock and keep it.
         executor.submit(_version)
@@ -135,7 +135,7 @@ class Sweep(_twofold.Sweep):
             scenes_at_once = max(8, min(256, len(self) // 256))
         for name, value in (("scenes_at_once", scenes_at_once), ("parts_at_once", parts_at_once)):
             if value < 1:
-                raise _twofold.Error(f"{name} = {value}: allowed is a whole number above zero")
+                raise _twofold.Error(f"{name} = {value}: must be a whole number above zero")
         return scenes_at_once
 
     def _parts(self, executor: Executor, first: int, scenes_at_once: int | None, parts_at_once: int) -> Generator[_Part, None, None]:

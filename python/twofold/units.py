@@ -88,7 +88,7 @@ def scene(source: Any = None, /, *, toml: str | None = None, **sections: Any) ->
     made = Scene(toml=toml, **plain) if source is None else Scene(source, **plain)
     wrong = in_seconds if made.time_unit == "t_c" else in_tc
     if wrong:
-        raise Error(f"{wrong[0]}: allowed is a quantity in {made.time_unit}, the unit of time of this scene")
+        raise Error(f"{wrong[0]}: must be a quantity in {made.time_unit}, the unit of time of this scene")
     return made
 
 
@@ -104,7 +104,7 @@ def unit(text: str) -> u.UnitBase | None:
         for word in part.split():
             match = re.fullmatch(r"(\w+?)(?:\^(\d))?", word)
             if match is None or (match[1] not in _NAMED and match[1] != "1"):
-                raise Error(f"unit {text!r}: `{word}` is not known; allowed are {', '.join(_NAMED)}")
+                raise Error(f"unit {text!r}: `{word}` is not known; expected one of {', '.join(_NAMED)}")
             factor = (_ONE if match[1] == "1" else _NAMED[match[1]]) ** int(match[2] or 1)
             found = found * factor if k == 0 else found / factor
     return found
@@ -164,7 +164,7 @@ def _plain(section: str, key: str, value: Any, in_tc: list[str], in_seconds: lis
     name = f"{section}.{key}"
     if isinstance(value, Time):
         if name != "time.epoch":
-            raise Error(f"{name} = {value}: allowed is a date for time.epoch alone")
+            raise Error(f"{name} = {value}: a date can only be used for time.epoch")
         return str(value.tdb.to_value("mjd", subfmt="str"))
     if isinstance(value, Angle) and key in ("right_ascension", "declination"):
         if key == "right_ascension":
@@ -173,7 +173,7 @@ def _plain(section: str, key: str, value: Any, in_tc: list[str], in_seconds: lis
     if not isinstance(value, u.Quantity):
         return value
     if (section, key) not in _KEYS:
-        raise Error(f"{name} = {value}: it is no number with a unit; allowed is what docs/scenes.md says of it")
+        raise Error(f"{name} = {value}: must be a value without a unit, as docs/scenes.md describes")
     wanted = _KEYS[section, key]
     if isinstance(wanted, tuple):
         paper, physical = wanted
@@ -190,8 +190,8 @@ def _plain(section: str, key: str, value: Any, in_tc: list[str], in_seconds: lis
 
 def _value(name: str, value: Any, wanted: Any) -> Any:
     if not isinstance(value, u.Quantity):
-        raise Error(f"{name} = {value}: allowed is a quantity in {wanted}")
+        raise Error(f"{name} = {value}: must be a quantity in {wanted}")
     try:
         return value.to_value(wanted, equivalencies=_TURNS)
     except u.UnitConversionError:
-        raise Error(f"{name} = {value}: allowed is a quantity in {wanted or 'no unit'}") from None
+        raise Error(f"{name} = {value}: must be a quantity in {wanted or 'no unit'}") from None

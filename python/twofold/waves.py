@@ -63,13 +63,13 @@ class Waveform:
         knot_distance: float | None = None,
     ) -> None:
         if harmonic not in ("once", "twice"):
-            raise Error(f'harmonic = {harmonic!r}: allowed are "once" and "twice"')
+            raise Error(f'harmonic = {harmonic!r}: must be "once" or "twice"')
         if hand not in (None, "right", "left"):
-            raise Error(f'hand = {hand!r}: allowed are "right", "left" and None')
+            raise Error(f'hand = {hand!r}: must be "right", "left" or None')
         if not np.isfinite(reference):
-            raise Error(f"reference = {reference!r} s: allowed is a finite number")
+            raise Error(f"reference = {reference!r} s: must be a finite number")
         if knot_distance is not None and not 0.0 < knot_distance < np.inf:
-            raise Error(f"knot_distance = {knot_distance!r} s: allowed is a finite number above zero")
+            raise Error(f"knot_distance = {knot_distance!r} s: must be a finite number above zero")
         self.pulsar = pulsar
         self.harmonic = harmonic
         self.reference = float(reference)
@@ -79,7 +79,7 @@ class Waveform:
         if not np.isfinite(once + twice):
             raise Error("the scene lacks `observer.distance` [kpc], without which there is no strain")
         if once == 0.0 and twice == 0.0:
-            raise Error("the wobble is zero: allowed is a star with a wave")
+            raise Error("the wobble is zero; the star emits no wave")
         # Phase and rate at knots, forwards and backwards from the reference.
         self._sides = [(np.array([phase]), self._rates(np.array([self.reference])))] * 2
 
@@ -95,13 +95,13 @@ class Waveform:
     def __call__(self, dt: ArrayLike) -> tuple[Any, Any, Any]:
         dt = np.asarray(dt, dtype=float)
         if not np.isfinite(dt).all():
-            raise Error("dt: allowed are finite numbers")
+            raise Error("dt: must be finite numbers")
         t = self.reference + dt.reshape(-1)
         once, twice, phase, inclination, orientation, _ = self.pulsar.wave_harmonics(t)
         turned = _nearest(orientation - self._orientation)
         if self.hand is None and turned.size and abs(turned).max() > 1e-3:
             raise Error(
-                f"psi: L turns by {abs(turned).max():.1e} rad of position angle since the reference: allowed is 1e-3 rad; take hand='right' and hand='left'"
+                f"psi: L turns by {abs(turned).max():.1e} rad of position angle since the reference: must be at most 1e-3 rad; use hand='right' and hand='left'"
             )
         phase, cos = self._counted(t, phase), np.cos(inclination)
         if self.harmonic == "once":
@@ -160,7 +160,7 @@ class Waveform:
             turns = np.floor((t[here] - self.reference) / step)
             if turns.max() >= 1_000_000:
                 raise Error(
-                    f"dt = {abs(t[here] - self.reference).max():.3e} s in size: allowed are a million knots, up to {1e6 * self.knot_distance:.3e} s; take a reference nearby"
+                    f"dt = {abs(t[here] - self.reference).max():.3e} s in size: must be at most a million knots, {1e6 * self.knot_distance:.3e} s; use a nearer reference"
                 )
             k = turns.astype(np.int64)
             phases, rates = self._knots(side, int(k.max()) + 2)
@@ -180,7 +180,7 @@ class Waveform:
         off = _nearest(difference)
         if off.size and not abs(off).max() < 0.5:
             raise Error(
-                f"knot_distance = {self.knot_distance!r} s: the phase is {abs(off).max():.1g} rad beside the smooth one between knots, of which 0.5 are allowed; take a smaller distance"
+                f"knot_distance = {self.knot_distance!r} s: the phase is {abs(off).max():.1g} rad from the smooth one between knots: must be at most 0.5 rad; use a smaller distance"
             )
         return off
 
@@ -191,13 +191,13 @@ def strain(pulsar: Pulsar, start: float, duration: float, rate: float, *, gwpy: 
     Two `gwpy.timeseries.TimeSeries` where GWpy can be imported, or two arrays; `gwpy=False` asks for arrays. Axes of the polarizations: north and east, as those of `Pulsar.wave`. Times are those at the barycentre, of the series in seconds of GPS as `seconds_since_epoch` takes them.
     """
     if not np.isfinite(start):
-        raise Error(f"start = {start!r} s: allowed is a finite number")
+        raise Error(f"start = {start!r} s: must be a finite number")
     for name, value, unit in (("duration", duration, "s"), ("rate", rate, "Hz")):
         if not 0.0 < value < np.inf:
-            raise Error(f"{name} = {value!r} {unit}: allowed is a finite number above zero")
+            raise Error(f"{name} = {value!r} {unit}: must be a finite number above zero")
     count = int(np.rint(duration * rate))
     if not 1 <= count <= 10**9:
-        raise Error(f"duration = {duration!r} s at rate = {rate!r} Hz: allowed are 1 to 1e9 samples")
+        raise Error(f"duration = {duration!r} s at rate = {rate!r} Hz: must be from 1 to 1e9 samples")
     plus, cross = pulsar.wave(start + np.arange(count) / rate)
     if gwpy is False:
         return plus, cross

@@ -52,9 +52,9 @@ def sampled(marginalised: tuple[str, ...]) -> tuple[str, float]:
         pull = abs(posterior.mean() - injected[key]) / posterior.std()
         width = posterior.std() / sigmas[name] - 1
         if not pull < 3:
-            sys.exit(f"{key}: the mean is {pull:.1f} standard deviations beside what was injected, allowed are 3")
+            sys.exit(f"{key}: the mean is {pull:.1f} standard deviations from what was injected, must be at most 3")
         if not abs(width) < 0.25:
-            sys.exit(f"{key}: the width is {width + 1:.2f} of that of the fit, allowed are 0.75 to 1.25")
+            sys.exit(f"{key}: the width is {width + 1:.2f} of that of the fit, must be from 0.75 to 1.25")
         worst_mean, worst_width = max(worst_mean, pull), max(worst_width, abs(width))
     return (
         f"{len(priors)} parameters, {len(result.posterior)} samples in {seconds:.0f} s, means within {worst_mean:.1f} sigma of the injected, widths within {100 * worst_width:.0f} % of the fit's",

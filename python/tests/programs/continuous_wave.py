@@ -41,7 +41,7 @@ since = seconds_since_epoch(pulsar, REFERENCE)
 
 def must(what: str, value: float, bound: float) -> None:
     if not value <= bound:
-        sys.exit(f"{what}: {value:.3g}, allowed is at most {bound:.3g}")
+        sys.exit(f"{what}: {value:.3g}, must be at most {bound:.3g}")
 
 
 def simulator(harmonic: str) -> CWSimulator:

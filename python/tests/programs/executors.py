@@ -118,7 +118,7 @@ def ratio() -> None:
     )
     least = float(os.environ.get("TWOFOLD_LEAST_RATIO", "0"))
     if best < least:
-        sys.exit(f"executors: two processes are {best:.2f} times one, allowed is {least} and more")
+        sys.exit(f"executors: two processes are {best:.2f} times one, must be at least {least}")
 
 
 if __name__ == "__main__":
