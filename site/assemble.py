@@ -148,7 +148,7 @@ def gallery(target: Path) -> None:
         text = path.read_text()
         title, its = re.search(r"^# (.*)$", text, re.MULTILINE), settings[path]
         if title is None or "about" not in its:
-            raise SystemExit(f"site/gallery/{path.name}: allowed is a notebook with a title and a line `about: ...`")
+            raise SystemExit(f"site/gallery/{path.name}: must be a notebook with a title and a line `about: ...`")
         missing = [name for name in its.get("needs", "").split() if importlib.util.find_spec(name) is None]
         if missing:
             print(f"site: not executed: gallery/{path.name}, for want of {', '.join(missing)}", file=sys.stderr)
