@@ -163,7 +163,7 @@ fn verify_prints_tables_or_json() {
 const PREFIX: &str = "cargo run --release -- ";
 
 /// Every command succeeds, one after the other in an empty folder: each finds the files that it names. For the slowest ones, the full
-/// report and the timings, only the help is requested; `signals.rs` starts them.
+/// report, all figures and the timings, only the help is requested; `signals.rs` starts them.
 #[cfg(unix)]
 #[test]
 fn the_commands_of_the_readme_work() {
@@ -174,7 +174,7 @@ fn the_commands_of_the_readme_work() {
     assert!(commands.len() >= 15, "{commands:?}");
     for command in commands {
         let arguments = command.split(" #").next().unwrap_or(command).trim();
-        let is_long = ["report", "bench"].iter().any(|long| arguments.starts_with(long));
+        let is_long = ["report", "figures", "bench"].iter().any(|long| arguments.starts_with(long));
         let help = if is_long { " --help" } else { "" };
         let script = format!("\"$0\" {arguments}{help}");
         let output =

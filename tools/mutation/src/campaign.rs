@@ -1,6 +1,7 @@
 //! Which tests reach which mutant, and which mutants they catch.
 
 pub mod earlier;
+pub mod failing;
 mod listed;
 mod record;
 mod score;

@@ -36,7 +36,7 @@ checks! {
     because "an estimate below the true error is wrong";
     /// at any strength of the torque, also from rest, hardly any motion is refused unless L starts beside the middle axis
     Property "torus-refusals" [25]: refusals;
-    AtMost(0.01) "share of 1,000 random scenes";
+    AtMost(0.01) "share of 400 random scenes";
     because "only tori within rounding of the separatrix are refused, which random starts seldom hit";
     /// derivatives of n, L and e_x with respect to fifteen parameters, by the period lattice of the torus, agree with duals through Taylor series
     /// over 200 t_c: the four examples, s = diag(0.3, 0.1, -0.4), diag(0.02, 0.02, -0.04) and diag(2e-7, 1e-7, -3e-7), and at least 20 random scenes
@@ -264,7 +264,7 @@ fn estimates() -> Result<Measured, String> {
 }
 
 fn refusals() -> Result<Measured, String> {
-    let all: Vec<_> = scenes().filter(|scene| !scene.near_middle_axis).take(1000).collect();
+    let all: Vec<_> = scenes().filter(|scene| !scene.near_middle_axis).take(400).collect();
     let refused = all.iter().filter(|scene| TorusSolution::new(&scene.problem, 1e-9, 1.0).is_err()).count();
     Ok(Measured::new(refused as f64 / all.len() as f64, format!("{refused} of {} of seed {SEED}", all.len())))
 }

@@ -106,6 +106,12 @@ impl Suite {
         Ok(Self { binaries: vec![Binary { path, folder: tree.join("python"), run, list }], batch: 20.0 })
     }
 
+    /// The name of a binary, without the hash of its build.
+    pub fn name(&self, binary: usize) -> String {
+        let name = self.binaries[binary].path.file_name().unwrap_or_default().to_string_lossy();
+        name.rsplit_once('-').map_or(&*name, |(name, _)| name).to_string()
+    }
+
     /// Names of the tests of a binary.
     pub fn names(&self, binary: usize) -> Result<Vec<String>, String> {
         let binary = &self.binaries[binary];
