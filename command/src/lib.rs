@@ -3,6 +3,7 @@
 pub mod commands;
 mod compare;
 pub mod figures;
+#[cfg(any(test, feature = "fuzzing"))]
 pub mod fuzzing;
 mod html_report;
 mod text_table;

@@ -13,7 +13,7 @@ pub mod kernels {
     use twofold::lorentz_violation::PrincipalCoefficients;
     use twofold::observables::bound::{self, SpinAxisDrift};
     use twofold::observables::eta;
-    use twofold::observables::pulsar::width::{PulseWidth, pulse_width as width};
+    use twofold::observables::pulsar::width::pulse_width as width;
     use twofold::star::spheroid_shape::SpheroidShape;
     use twofold::star::uniform_spheroid::UniformSpheroid;
     use twofold::{dynamics, star};
@@ -50,11 +50,7 @@ pub mod kernels {
             Error::ensure(rho > 0.0 && rho < PI, "rho (rad)", rho, "above zero and below pi")?;
             between("theta (rad)", theta)?;
             between("theta_o (rad)", theta_o)?;
-            Ok(match width(rho, theta, theta_o) {
-                PulseWidth::Pulsed(width) => width,
-                PulseWidth::AlwaysOn => TAU,
-                PulseWidth::NeverOn => 0.0,
-            })
+            Ok(width(rho, theta, theta_o).angle())
         })
     }
 

@@ -27,7 +27,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::PrincipalInertia;
 use crate::dynamics::RigidSpheroid;
-use crate::dynamics::equations_of_motion::{reduced_rates, torque_on_axis};
+use crate::dynamics::equations_of_motion::reduced_rates;
 use crate::numerics::scalar::Scalar;
 
 /// Inertial components `I^{IJ} = R^{iI} R^{jJ} I^{ij}` of a tensor given in the body frame, Eqs. (60) and (64).
@@ -73,8 +73,7 @@ pub fn spheroid_inertia_acceleration<S: Scalar>(
     axis: &Vector3<S>,
     momentum: &Vector3<S>,
 ) -> Matrix3<S> {
-    let (rate, _) = reduced_rates(spheroid, s, axis, momentum);
-    let torque = torque_on_axis(spheroid.constant_c, s, axis);
+    let (rate, torque) = reduced_rates(spheroid, s, axis, momentum);
     let acceleration = (torque.cross(axis) + momentum.cross(&rate)) / spheroid.inertia_xx;
     let mixed = acceleration * axis.transpose();
     (mixed + mixed.transpose() + rate * rate.transpose() * S::from_f64(2.0))

@@ -127,7 +127,7 @@ impl<S: Scalar> Parameters<S> {
     }
 
     /// Initial Euler rates.
-    pub fn rates(&self) -> EulerRates<S> {
+    pub(crate) fn rates(&self) -> EulerRates<S> {
         let gamma = match self.third_rate {
             ThirdRate::Gamma(rate) => rate,
             ThirdRate::Spin(spin) => spin - self.alpha_rate * self.angles.beta.sin_cos().1,
@@ -141,12 +141,12 @@ impl<S: Scalar> Parameters<S> {
     }
 
     /// The beam.
-    pub fn beam(&self) -> Beam<S> {
+    pub(crate) fn beam(&self) -> Beam<S> {
         Beam::new(self.chi, self.delta, self.rho)
     }
 
     /// The observer.
-    pub fn observer(&self) -> Observer<S> {
+    pub(crate) fn observer(&self) -> Observer<S> {
         Observer::at(self.theta_o, self.phi_o)
     }
 }

@@ -75,7 +75,7 @@ impl Parameter {
     ];
 
     /// The parameters that data depend on in addition to those of the motion.
-    pub const OF_SIGHT: [Self; 6] = [Chi, Delta, Rho, ThetaO, PhiO, Strain];
+    pub(crate) const OF_SIGHT: [Self; 6] = [Chi, Delta, Rho, ThetaO, PhiO, Strain];
 
     /// The parameters that can be fitted in units of `I^xx = 1`.
     pub const FITTED: [Self; 21] = [

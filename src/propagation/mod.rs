@@ -37,6 +37,6 @@ pub(crate) use input::check_time;
 pub use many::{SampledProblem, states_of_many};
 pub use motion::Motion;
 pub use phased::PhasedMotion;
-pub(crate) use taylor::{ROOM_FOR_STEPS, projected_by_segments};
+pub(crate) use taylor::ROOM_FOR_STEPS;
 pub use taylor::{STEP_LIMIT, Samples, SeriesProjection, TOLERANCE_RANGE, TaylorForecast, TaylorMotion};
 pub use turning::{GivenRates, Turning};

@@ -121,7 +121,7 @@ impl PhasedMotion {
 
     /// Rates of the phases (rad per unit of time): on the torus the rates of its angles; for an averaged motion those of the rotation about `L`, of
     /// `L` about its axis, and of `e_x` about `n`.
-    pub fn rates(&self) -> [f64; 3] {
+    pub(crate) fn rates(&self) -> [f64; 3] {
         match &self.solution {
             Solution::Averaged(motion) => {
                 let rates = &motion.mean.rates;
@@ -169,7 +169,7 @@ impl PhasedMotion {
     }
 
     /// The phases at the time `t[0] + t[1]`.
-    pub fn turns(&self, t: [f64; 2]) -> [Turns; 3] {
+    pub(crate) fn turns(&self, t: [f64; 2]) -> [Turns; 3] {
         match &self.solution {
             Solution::Averaged(motion) => {
                 let turns = motion.mean.turns(t);
@@ -183,7 +183,7 @@ impl PhasedMotion {
     }
 
     /// The state at given phases (in turns), in the frame of the initial state.
-    pub fn state_at(&self, turns: [f64; 3]) -> BodyState<f64> {
+    pub(crate) fn state_at(&self, turns: [f64; 3]) -> BodyState<f64> {
         match &self.solution {
             Solution::Averaged(motion) => {
                 let [about_momentum, slow, about_axis] = turns.map(|turns| turns * TAU);

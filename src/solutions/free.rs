@@ -24,7 +24,7 @@ use nalgebra::Vector3;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::euler_angles::EulerRates;
-use crate::numerics::scalar::{Real, length};
+use crate::numerics::scalar::{Real, Scalar, length};
 
 /// Euler rates of free precession about `Z`, Eq. (48) `[angfreqfre]`: `a' = I^zz Omega^z / (I^xx cos b)`, `b' = 0`,
 /// `g' = -epsilon Omega^z`.
@@ -52,16 +52,23 @@ pub fn free_precession_rates<S: Real>(spheroid: &RigidSpheroid<S>, spin: S, beta
 ///
 /// Error: a few ulp of one plus the rounding of the angle `|L| t / I^xx`, which must be below 1e150 rad.
 pub fn free_rotation<S: Real>(spheroid: &RigidSpheroid<S>, initial: &BodyState<S>, t: S) -> BodyState<S> {
-    let turned = {
-        let (sin, cos) = (spheroid.rate_about_axis(&initial.axis, &initial.momentum) * t).sin_cos();
-        initial.equatorial_axis * cos + initial.axis.cross(&initial.equatorial_axis) * sin
-    };
+    let turned = normal_turned_about(
+        &initial.axis,
+        &initial.equatorial_axis,
+        spheroid.rate_about_axis(&initial.axis, &initial.momentum) * t,
+    );
     let turn = initial.momentum * (t / spheroid.inertia_xx);
     BodyState {
         axis: rotated_by(&turn, &initial.axis),
         momentum: initial.momentum,
         equatorial_axis: rotated_by(&turn, &turned),
     }
+}
+
+/// `normal`, a vector at a right angle to the unit vector `axis`, turned about it by `angle` (rad).
+pub(crate) fn normal_turned_about<S: Scalar>(axis: &Vector3<S>, normal: &Vector3<S>, angle: S) -> Vector3<S> {
+    let (sin, cos) = angle.sin_cos();
+    normal * cos + axis.cross(normal) * sin
 }
 
 /// `v` rotated by the rotation vector `turn` (axis times angle, below 1e150 rad so that its square is finite). The zero vector gives the identity,

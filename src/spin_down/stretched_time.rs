@@ -63,7 +63,7 @@ pub struct StretchedTime {
 
 impl StretchedTime {
     /// The time of a star that does not slow down.
-    pub fn uniform() -> Self {
+    pub(crate) fn uniform() -> Self {
         let precession = Precession::new([0.0, FRAC_PI_2, 0.0], 0.0, 0.0);
         let braking = Braking { rate: 0.0, index: 3.0, torque_share: 0.0 };
         Self { braking, precession, modulation: 0.0, secular: Vec::new() }

@@ -140,7 +140,7 @@ equations! {
          ["star_estimates"]
     44 "ineq" "line of sight inside the beam"
         ["observables::pulsar::Beam::margin" "observables::pulsar::Beam::margin_rates"
-         "observables::pulsar::train::pulse_train" "dynamics::Problem::taylor_pulse_train"
+         "observables::pulsar::train::pulse_train"
          "propagation::SeriesProjection" "propagation::Turning" "observables::pulsar::Pulse"
          "observables::pulsar::PulseTrain" "observables::pulsar::Stamped"
          "observables::pulsar::rate_bounds::RateBounds" "observables::pulsar::rate_bounds::rate_bounds"

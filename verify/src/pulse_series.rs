@@ -71,11 +71,7 @@ impl Viewing {
     pub fn formulas(&self, [beta, gamma]: [f64; 2], [alpha_rate, gamma_rate]: [f64; 2]) -> Result<Formulas, Error> {
         let offset_rate = azimuth_offset_rate(beta, gamma, gamma_rate, self.chi, self.delta);
         let theta = cosine_of_colatitude(beta, gamma, self.chi, self.delta).acos();
-        let width = match pulse_width(self.rho, theta, self.theta_o) {
-            PulseWidth::Pulsed(width) => width,
-            PulseWidth::AlwaysOn => TAU,
-            PulseWidth::NeverOn => 0.0,
-        };
+        let width = pulse_width(self.rho, theta, self.theta_o).angle();
         Ok(Formulas { offset_rate, azimuth_rate: alpha_rate + offset_rate, width })
     }
 

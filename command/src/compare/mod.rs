@@ -9,7 +9,6 @@ mod table;
 
 use std::fs;
 use std::path::Path;
-use std::sync::OnceLock;
 
 use allowed::{Allowed, allowed};
 use known::{Content, KNOWN, KnownFile};
@@ -112,8 +111,9 @@ pub fn compare(folder: &Path) -> Result<Comparison, Failure> {
 
 /// The comparison of `text` with the rows of a known file, which must have exactly the first `rows` of them. For fuzzing:
 /// every outcome but a panic is allowed.
+#[cfg(any(test, feature = "fuzzing"))]
 pub(crate) fn compare_text(kind: usize, text: &str, rows: usize) -> Option<Result<String, String>> {
-    static SHORT: OnceLock<Vec<KnownFile>> = OnceLock::new();
+    static SHORT: std::sync::OnceLock<Vec<KnownFile>> = std::sync::OnceLock::new();
     const LONGEST: usize = 16;
     let short = SHORT.get_or_init(|| {
         let with = |known: &KnownFile, rows| KnownFile { rows, ..*known };

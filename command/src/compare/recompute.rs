@@ -7,7 +7,7 @@ use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::wave_of_state;
 use twofold::observables::pulsar::direction::magnetic_axis_direction;
 use twofold::observables::pulsar::period::{azimuth_offset_rate, instantaneous_period};
-use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
+use twofold::observables::pulsar::width::pulse_width;
 use twofold::observables::pulsar::{Beam, PulseTrain, pulse_train};
 use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion};
 use twofold::solutions::perturbation::{Form, Perturbation};
@@ -116,11 +116,7 @@ pub(super) fn signal(example: &PaperExample, table: &Table) -> Result<Vec<Vec<f6
         let offset_rate = azimuth_offset_rate(angles.beta, angles.gamma, euler_rates.gamma, CHI, 0.0);
         let rate = euler_rates.alpha + offset_rate;
         let (theta, _) = magnetic_axis_direction(&angles, CHI, 0.0)?;
-        let width = match pulse_width(RHO, theta, THETA_O) {
-            PulseWidth::Pulsed(width) => width,
-            PulseWidth::AlwaysOn => std::f64::consts::TAU,
-            PulseWidth::NeverOn => 0.0,
-        };
+        let width = pulse_width(RHO, theta, THETA_O).angle();
         rows.push(vec![beam.direction(&state).dot(&observer.direction), instantaneous_period(rate), width]);
         rates.push((t, rate));
     }

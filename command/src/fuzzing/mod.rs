@@ -7,6 +7,8 @@
 
 mod bytes;
 mod command_line;
+#[cfg(test)]
+mod corpus;
 mod data;
 mod model;
 mod resume;

@@ -221,7 +221,6 @@ fn pulses(case: &Case) {
         return;
     }
     let sight = observer.direction;
-    let _ = black_box(problem.taylor_pulse_train(*span, *tolerance, beam, &sight));
     let Ok(motion) = problem.taylor(*span, *tolerance) else { return };
     if let Ok(train) = pulse_train(&motion, beam, &sight, *span) {
         let _ =

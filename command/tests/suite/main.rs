@@ -7,7 +7,6 @@ mod compare;
 #[cfg(target_os = "linux")]
 mod faults;
 mod figures;
-mod fuzz_corpus;
 mod golden;
 mod inference;
 mod limits;

@@ -24,6 +24,17 @@ pub enum PulseWidth<S> {
     NeverOn,
 }
 
+impl PulseWidth<f64> {
+    /// The width as an angle (rad): zero without a pulse, two pi inside the cone.
+    pub fn angle(self) -> f64 {
+        match self {
+            PulseWidth::Pulsed(width) => width,
+            PulseWidth::AlwaysOn => core::f64::consts::TAU,
+            PulseWidth::NeverOn => 0.0,
+        }
+    }
+}
+
 /// Width `W` of the pulse, Eq. (56) `[pulsewid]`, of a cone of semi-open angle `half_opening` about an axis at colatitude
 /// `theta`, seen from the colatitude `theta_o`; both in [0, pi], `half_opening` in (0, pi) (rad).
 ///

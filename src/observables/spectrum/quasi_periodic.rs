@@ -65,7 +65,7 @@ impl QuasiPeriodicMotion {
     }
 
     /// Rates of the three angles (rad per unit of time). If `L.n` is zero up to rounding, they add up to no rotation about `n`.
-    pub fn rates(&self) -> [f64; 3] {
+    pub(crate) fn rates(&self) -> [f64; 3] {
         self.rates.map(|rate| rate.high * TAU)
     }
 

@@ -30,7 +30,7 @@ impl TorusMotion {
     }
 
     /// The series and their angles; times are counted from the initial state.
-    pub fn solution(&self) -> &TorusSolution {
+    pub(crate) fn solution(&self) -> &TorusSolution {
         &self.solution
     }
 
@@ -46,12 +46,7 @@ impl TorusMotion {
         Ok(move |t| Ok(derivative.state(self.elapsed(t)?)))
     }
 
-    /// Time since the start, for a time that is a single number.
-    fn since(&self, t: f64) -> Result<[f64; 2], Error> {
-        check_time(self.span, t)?;
-        Ok(DoubleDouble::sum(t, -self.span.0).into())
-    }
-
+    /// Time since the start, in two parts.
     fn elapsed(&self, t: [f64; 2]) -> Result<[f64; 2], Error> {
         check_time(self.span, t[0] + t[1])?;
         Ok((DoubleDouble::sum(t[0], t[1]) - DoubleDouble::from(self.span.0)).into())
@@ -74,11 +69,11 @@ impl Motion<f64> for TorusMotion {
     }
 
     fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
-        Ok(self.solution.state(self.since(t)?))
+        Ok(self.solution.state(self.elapsed([t, 0.0])?))
     }
 
     fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
-        Ok(self.solution.axis_state(self.since(t)?))
+        Ok(self.solution.axis_state(self.elapsed([t, 0.0])?))
     }
 
     fn state_in_parts(&self, t: [f64; 2]) -> Result<BodyState<f64>, Error> {

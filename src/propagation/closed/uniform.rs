@@ -11,7 +11,7 @@ use crate::lorentz_violation::{SymmetryOfTensor, traceless};
 use crate::numerics::scalar::{Real, real_part};
 use crate::propagation::Motion;
 use crate::propagation::input::check_time;
-use crate::solutions::free::rotated_by;
+use crate::solutions::free::{normal_turned_about, rotated_by};
 
 /// A motion `n(t) = R(p t) n`, `L(t) = R(p t) L`, `e_x(t) = R(p t) R_n(g t) e_x` with a constant rotation vector `p` and a
 /// constant rate `g` about `n`: free rotation, steady precession, and a body that spins about a principal axis of `s^IJ` or rests.
@@ -125,7 +125,7 @@ impl<S: Real> UniformMotion<S> {
     }
 
     /// Bound on the effect, within a time, of the neglected torque and bulge on the components of `n`, `L` and `e_x`.
-    pub fn truncation(&self, elapsed: f64) -> f64 {
+    pub(crate) fn truncation(&self, elapsed: f64) -> f64 {
         let (inertia, t) = (self.problem.spheroid().inertia_xx.re(), elapsed.abs());
         let momentum = real_part(&self.problem.initial().momentum).norm();
         // L grows at most by the torque times the time.
@@ -140,7 +140,7 @@ impl<S: Real> UniformMotion<S> {
     }
 
     /// Rounding of the state and of the angles within a time, and the distance of the state from a steady one.
-    pub fn rounding(&self, elapsed: f64) -> f64 {
+    pub(crate) fn rounding(&self, elapsed: f64) -> f64 {
         let phase = (real_part(&self.turn).norm() + self.body_rate.re().abs()) * elapsed.abs();
         (f64::EPSILON * (4.0 + 4.0 * phase) + self.residual * elapsed.abs()) * self.condition
     }
@@ -172,8 +172,7 @@ impl UniformMotion<f64> {
     /// The state after given turns of both angles since the start.
     pub(crate) fn state_after_turns(&self, [turn, about_axis]: [f64; 2]) -> BodyState<f64> {
         let BodyState { axis, momentum, equatorial_axis } = self.problem.initial();
-        let (sin, cos) = (TAU * about_axis).sin_cos();
-        let turned = equatorial_axis * cos + axis.cross(equatorial_axis) * sin;
+        let turned = normal_turned_about(axis, equatorial_axis, TAU * about_axis);
         let direction = self.turns().0.try_normalize(0.0).unwrap_or_else(Vector3::zeros);
         let round = |v: &Vector3<f64>| rotated_by(&(direction * (TAU * turn)), v);
         let momentum = if self.momentum_is_constant { *momentum } else { round(momentum) };
@@ -229,9 +228,8 @@ impl<S: Real> Motion<S> for UniformMotion<S> {
     fn state(&self, t: S) -> Result<BodyState<S>, Error> {
         let elapsed = self.elapsed(t)?;
         let AxisState { axis, momentum } = self.axis_state(t)?;
-        let (sin, cos) = (self.body_rate * elapsed).sin_cos();
         let start = self.problem.initial();
-        let turned = start.equatorial_axis * cos + start.axis.cross(&start.equatorial_axis) * sin;
+        let turned = normal_turned_about(&start.axis, &start.equatorial_axis, self.body_rate * elapsed);
         Ok(BodyState { axis, momentum, equatorial_axis: rotated_by(&(self.turn * elapsed), &turned) })
     }
 

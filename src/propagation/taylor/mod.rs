@@ -11,7 +11,6 @@ mod linearised_flow;
 mod projection;
 mod samples;
 mod scaled_problem;
-mod segments;
 mod series;
 mod shared_rounding;
 mod step_size;
@@ -40,7 +39,6 @@ pub use projection::SeriesProjection;
 pub use samples::Samples;
 #[cfg(target_arch = "x86_64")]
 pub(super) use samples::span_of;
-pub(crate) use segments::projected_by_segments;
 
 use scaled_problem::ScaledProblem;
 use series::{AXIS, MOMENTUM, Vectors};
@@ -157,30 +155,11 @@ impl<S: Real, const V: usize> Steps<S, V> {
 
     #[inline(always)]
     fn keep<A: LoadStore<Scalar = S>>(&mut self, a: A, start: Compensated, series: &[Vectors<A::Vector, V>]) {
-        let from = self.starts.len() * series.len();
         self.starts.push(start);
-        match self.coefficients.get_mut(from..from + series.len()) {
-            Some(place) => {
-                for (place, vectors) in place.iter_mut().zip(series) {
-                    *place = stored(a, vectors);
-                }
-            }
-            None => self.coefficients.extend(series.iter().map(
-                #[inline(always)]
-                |vectors| stored(a, vectors),
-            )),
-        }
-    }
-
-    /// No steps, with capacity for `count`.
-    fn with_places(count: usize, order: usize) -> Self {
-        let length = order + 1;
-        Self { starts: Vec::with_capacity(count), coefficients: vec![[Padded::zero(); V]; count * length], length }
-    }
-
-    /// Removes the steps and keeps the capacity.
-    fn clear(&mut self) {
-        self.starts.clear();
+        self.coefficients.extend(series.iter().map(
+            #[inline(always)]
+            |vectors| stored(a, vectors),
+        ));
     }
 
     fn count(&self) -> usize {
@@ -430,7 +409,7 @@ mod tests {
     #[test]
     fn the_step_of_a_time_does_not_depend_on_that_before() {
         let starts = [3.0, 5.0, 6.0, 9.0].map(Compensated::new).to_vec();
-        let mut steps = Steps::<f64, 2> { starts, coefficients: Vec::new(), length: 1 };
+        let steps = Steps::<f64, 2> { starts, coefficients: Vec::new(), length: 1 };
         let times = [(2.9, 0), (3.0, 0), (4.9, 0), (5.0, 1), (5.9, 1), (6.0, 2), (8.9, 2), (9.0, 3), (11.9, 3)];
         for (elapsed, step) in times {
             assert_eq!(steps.index_at(elapsed, 12.0), step, "{elapsed}");
@@ -438,8 +417,6 @@ mod tests {
                 assert_eq!(steps.index_near(near, elapsed, 12.0), step, "{elapsed} near {near}");
             }
         }
-        steps.clear();
-        assert_eq!(steps.count(), 0);
     }
 
     #[test]

@@ -137,11 +137,6 @@ impl<S: Real> AveragedSolution<S> {
         self.rates
     }
 
-    /// Order of averaging.
-    pub fn order(&self) -> AveragingOrder {
-        self.order
-    }
-
     /// `|C| (s_max - s_min) I^xx / |L|^2` at the start, the expansion parameter: errors are of its size (first order) or of its square
     /// (second), and grow with its square, or its cube, times the rotation angle. For a bulge the parameter is `|b| (s_max - s_min) I^xx`.
     pub fn relative_strength(&self) -> S {

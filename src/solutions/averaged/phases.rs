@@ -24,7 +24,7 @@ pub struct Turns {
 
 impl Turns {
     /// The remainder as an angle (rad).
-    pub fn angle(&self) -> f64 {
+    pub(crate) fn angle(&self) -> f64 {
         self.fraction * TAU
     }
 

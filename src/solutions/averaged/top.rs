@@ -202,7 +202,7 @@ impl<S: Real> Top<S> {
     }
 
     /// Whether `l` circles an axis, at a distance from it and from the separatrix.
-    pub fn goes_round(&self) -> bool {
+    pub(crate) fn goes_round(&self) -> bool {
         matches!(self.course, Course::Round { .. }) && self.amplitudes[0].re() > 0.0
     }
 

@@ -33,7 +33,7 @@ const LOOKS: usize = 16;
 /// of the parameter, which determines the derivatives of `t_i`, `k_i` and `psi_i`, by one flow along each orbit. Times are in the unit of time of the
 /// problem. See `docs/exact-motion.md`.
 #[derive(Debug, Clone)]
-pub struct TorusDerivative<'a> {
+pub(crate) struct TorusDerivative<'a> {
     solution: &'a TorusSolution,
     integrals: Integrals<Dual64>,
     start: Axes<Dual64>,
@@ -50,7 +50,7 @@ impl<'a> TorusDerivative<'a> {
     /// # Errors
     /// [`Error::NotConverged`] for a torus so thin that its two flows are nearly parallel, as in steady motion, whose neighbours have a different
     /// number of frequencies; [`Error::Unsupported`] if a closed orbit is not finite.
-    pub fn new(solution: &'a TorusSolution, problem: &Problem<Dual64>) -> Result<Self, Error> {
+    pub(crate) fn new(solution: &'a TorusSolution, problem: &Problem<Dual64>) -> Result<Self, Error> {
         if solution.width <= THINNEST {
             let what = "derivatives on the torus, as where n is on L or L is on an axis";
             return Err(Error::NotConverged { what, iterations: 1, residual: solution.width });
@@ -103,7 +103,7 @@ impl<'a> TorusDerivative<'a> {
     }
 
     /// The state at the time `t[0] + t[1]` since the start, with its derivative; the values are those of the solution.
-    pub fn state(&self, t: [f64; 2]) -> BodyState<Dual64> {
+    pub(crate) fn state(&self, t: [f64; 2]) -> BodyState<Dual64> {
         let mut times = [Dual64::from_re(0.0); 2];
         let mut turn = Dual64::new(0.0, self.spin * (t[0] + t[1]));
         for ((period, by_parameter), phase) in self.periods.iter().zip(self.turns).zip(&self.solution.phases) {
@@ -141,7 +141,7 @@ impl<'a> TorusDerivative<'a> {
 ///
 /// # Errors
 /// As for [`TorusDerivative::new`].
-pub fn error_of_derivatives(solution: &TorusSolution, problem: &Problem<f64>) -> Result<f64, Error> {
+pub(crate) fn error_of_derivatives(solution: &TorusSolution, problem: &Problem<f64>) -> Result<f64, Error> {
     let [axis, momentum, equatorial_axis] = problem.initial().vectors();
     let changed = |v: &Vector3<f64>, by: Vector3<f64>| v.zip_map(&by, Dual64::new);
     // In body axes, so that a rotation of everything leaves the estimate unchanged.

@@ -51,7 +51,7 @@ mod walk;
 mod ways;
 mod wide;
 
-pub use derivative::{TorusDerivative, error_of_derivatives};
+pub(crate) use derivative::{TorusDerivative, error_of_derivatives};
 pub use separatrix::separatrix_motion;
 pub use solution::TorusSolution;
 pub use states::{TorusStates, states_with_integrals};

@@ -191,13 +191,13 @@ impl TorusSolution {
     }
 
     /// Sum of the neglected coefficients: the error of the series, excluding rounding.
-    pub fn truncation(&self) -> f64 {
+    pub(crate) fn truncation(&self) -> f64 {
         self.truncation
     }
 
     /// Estimated rounding at a time since the start: of the sums, of the coefficients (from the difference between the series and the flow), and of
     /// the rates.
-    pub fn rounding(&self, t: f64) -> f64 {
+    pub(crate) fn rounding(&self, t: f64) -> f64 {
         8.0 * ROUNDING + self.off + self.drift * t.abs()
     }
 
@@ -208,7 +208,7 @@ impl TorusSolution {
     }
 
     /// `n` and `L` at the time `t[0] + t[1]` since the start.
-    pub fn axis_state(&self, t: [f64; 2]) -> AxisState<f64> {
+    pub(crate) fn axis_state(&self, t: [f64; 2]) -> AxisState<f64> {
         match self.fused {
             Some(fused) => run_fused(fused, || self.axis_state_by(fused, t)),
             None => self.axis_state_by(plain(), t),

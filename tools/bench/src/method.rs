@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use twofold::Scalar as _;
 use twofold::dynamics::{AxisState, Problem, RotationState};
 use twofold::observables::Observer;
-use twofold::observables::pulsar::Beam;
+use twofold::observables::pulsar::{Beam, pulse_train};
 use twofold::propagation::{Motion, SampledProblem, Samples, TorusMotion, states_of_many};
 
 use super::runge_kutta;
@@ -145,9 +145,10 @@ fn splitting_sampled(scene: &BenchScene, duration: f64, tolerance: f64) -> Resul
 
 fn taylor_with_pulses(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {
     let (beam, observer) = (Beam::new(0.5, 0.0, 0.6), Observer::at(0.8, 0.0));
-    let (train, end) = scene.problem.taylor_pulse_train((0.0, duration), tolerance, &beam, &observer.direction)?;
-    std::hint::black_box(train);
-    Ok(end_of(&end))
+    let span = (0.0, duration);
+    let motion = scene.problem.taylor(span, tolerance)?;
+    std::hint::black_box(pulse_train(&motion, &beam, &observer.direction, span)?);
+    Ok(End::new(&motion.state(duration)?, motion.step_count, motion.step_count * motion.order))
 }
 
 fn in_lanes<const COUNT: usize>(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {

@@ -74,11 +74,6 @@ pub fn measure(effort: &Effort, done: impl FnMut(f64)) -> Result<Vec<Row>, Strin
             full,
             Box::new(|| Ok(pulse_train(&whole()?, &beam, &observer.direction, span).map(drop)?)),
         ),
-        (
-            "162 pulses, the motion not kept",
-            full,
-            Box::new(|| Ok(scene.problem.taylor_pulse_train(span, TOLERANCE, &beam, &observer.direction).map(drop)?)),
-        ),
         ("1,000 samples", n, Box::new(sampled(1000))),
         ("10,000 samples", n, Box::new(sampled(10_000))),
         (

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use twofold_command::fuzzing::TARGETS;
+use super::TARGETS;
 
 /// Set in the process that runs the inputs of one target.
 const TARGET: &str = "TWOFOLD_FUZZ_TARGET";
@@ -38,7 +38,7 @@ fn every_input_is_used_or_refused() {
     // One process per target: the command line prints, and changes its folder.
     let start = |(target, _): &(&'static str, _)| {
         let mut command = Command::new(&program);
-        command.args(["--exact", "fuzz_corpus::every_input_is_used_or_refused", "--nocapture"]).env(TARGET, target);
+        command.args(["--exact", "fuzzing::corpus::every_input_is_used_or_refused", "--nocapture"]).env(TARGET, target);
         (*target, command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("a process"))
     };
     for (target, child) in TARGETS.iter().map(start).collect::<Vec<_>>() {
