@@ -235,8 +235,8 @@ impl Fit {
         unit: impl Fn(M::Unknown) -> (f64, String),
         nonlinearity: f64,
     ) -> Self {
-        let judged = match found.judged() {
-            Residuals::AsStated => "as stated",
+        let judged = match found.consistency() {
+            Residuals::Consistent => "as stated",
             Residuals::Larger => "larger",
             Residuals::Smaller => "smaller",
         };

@@ -111,7 +111,7 @@ fn sample_segments<X: SegmentState, E: From<Error>>(
     let mut sampled = Sampled::default();
     while let Some(Segment { mut motion, from, to, is_last }) = segments.next()? {
         if let Some(earlier) = earlier.take() {
-            motion.motion = motion.motion.going_on_with(earlier)?;
+            motion.motion = motion.motion.continuing_from(earlier)?;
         }
         let mut angles: Angles<'_> =
             if counts_turns { X::angles(&motion, from, &start_angles)? } else { Box::new(|_| None) };

@@ -108,7 +108,7 @@ impl<M: Model> Fisher<M> {
     ///
     /// # Errors
     /// [`Error::Domain`] for an unknown that the data do not determine; as for [`Model::moved`].
-    pub fn beside(&self, deviations: &DVector<f64>, factor: f64) -> Result<M, Error> {
+    pub fn displaced(&self, deviations: &DVector<f64>, factor: f64) -> Result<M, Error> {
         let correlations = self.correlations();
         for entry in &correlations {
             Error::ensure(
@@ -167,7 +167,7 @@ mod tests {
     fn parameters_beside_are_so_many_standard_deviations_away() {
         let fisher = fisher();
         let change = |deviations: [f64; 3], factor: f64| {
-            let beside = fisher.beside(&DVector::from_row_slice(&deviations), factor).expect("all are determined");
+            let beside = fisher.displaced(&DVector::from_row_slice(&deviations), factor).expect("all are determined");
             DVector::from_iterator(3, beside.values.into_iter().zip(fisher.values()).map(|(there, here)| there - here))
         };
         let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|one| change(one, 1.0));
@@ -206,7 +206,7 @@ mod tests {
         };
         let degenerate = of(DMatrix::from_row_slice(2, 2, &[1.0, 2.0, 2.0, 4.0]), [1.0; 3]);
         assert!(degenerate.sigma(A).is_some_and(f64::is_nan));
-        let beside = degenerate.beside(&DVector::from_row_slice(&[1.0, 0.0]), 1.0);
+        let beside = degenerate.displaced(&DVector::from_row_slice(&[1.0, 0.0]), 1.0);
         assert!(matches!(beside, Err(Error::Domain { quantity: "correlation of unknowns", .. })), "{beside:?}");
         assert!(refused(degenerate)[0].starts_with("d(a) : d(b) = 1.0000 : -0.5000"));
         let weak = of(DMatrix::from_row_slice(2, 2, &[1.0, 0.0, 0.0, 1.0]), [0.5, 2.0, 1.0]);

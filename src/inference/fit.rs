@@ -254,7 +254,7 @@ mod tests {
         }
         // Errors twenty times as large are not rounding.
         match of(&[(Observable::Arrivals, 1e-19), (Observable::Widths, 1e-18)], 20.0 * rounding) {
-            Ok(found) => assert_eq!(found.judged(), Residuals::Larger),
+            Ok(found) => assert_eq!(found.consistency(), Residuals::Larger),
             Err(error) => assert!(
                 matches!(error, InferenceError::NotConverged { .. } | InferenceError::Coarse { .. }),
                 "{error:?}"

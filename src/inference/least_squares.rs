@@ -43,7 +43,7 @@ pub struct Fit<M: Model = Parameters<f64>> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Residuals {
     /// They agree with the stated errors.
-    AsStated,
+    Consistent,
     /// They are larger than the stated errors.
     Larger,
     /// They are smaller than the stated errors.
@@ -58,13 +58,13 @@ impl<M: Model> Fit<M> {
 
     /// Judges `chi^2` at six standard deviations. For `n` degrees of freedom `(chi^2 / n)^(1/3)` is nearly normal, with mean `1 - 2 / (9 n)`
     /// and variance `2 / (9 n)` (E. B. Wilson and M. M. Hilferty, Proc. Nat. Acad. Sci. 17, 684 (1931)).
-    pub fn judged(&self) -> Residuals {
+    pub fn consistency(&self) -> Residuals {
         let variance = 2.0 / (9.0 * self.degrees as f64);
         let score = ((self.chi_squared / self.degrees as f64).cbrt() - (1.0 - variance)) / variance.sqrt();
         match score {
             6.0.. => Residuals::Larger,
             ..=-6.0 => Residuals::Smaller,
-            _ => Residuals::AsStated,
+            _ => Residuals::Consistent,
         }
     }
 }
@@ -82,7 +82,7 @@ pub(super) fn nonlinearity<M: Model>(
     for axis in 0..count {
         let one = DVector::from_fn(count, |k, _| if k == axis { 1.0 } else { 0.0 });
         for sign in [1.0, -1.0] {
-            worst = worst.max((chi_squared(&fisher.beside(&one, sign)?)? - least - 1.0).abs());
+            worst = worst.max((chi_squared(&fisher.displaced(&one, sign)?)? - least - 1.0).abs());
         }
     }
     Ok(worst)
@@ -150,7 +150,7 @@ pub(super) fn least_squares<M: Model>(
         iterations: ended.n_iter,
         cosine,
     };
-    if (is_off || found.judged() == Residuals::Larger)
+    if (is_off || found.consistency() == Residuals::Larger)
         && let Some(rounding) = comparison.rounding(&found)?
     {
         return Err(rounding);
@@ -305,7 +305,7 @@ mod tests {
             assert!((residual - (y - a - b * x) / sigma).abs() < 1e-11, "measured less fitted");
         }
         assert!(found.cosine < 1e-9 && found.iterations > 0, "{found:?}");
-        assert_eq!(found.judged(), Residuals::AsStated);
+        assert_eq!(found.consistency(), Residuals::Consistent);
     }
 
     /// `chi^2` that corresponds to six standard deviations of a normal distribution, from the incomplete gamma function to
@@ -313,12 +313,12 @@ mod tests {
     #[test]
     fn chi_squared_is_judged_at_six_standard_deviations() {
         let fitted = least_squares(&Numbers::unbounded([1.0, 2.0, 0.0]), &LINE, &[A, B]).expect("a fit");
-        let judged = |chi_squared: f64, degrees: usize| Fit { chi_squared, degrees, ..fitted.clone() }.judged();
+        let judged = |chi_squared: f64, degrees: usize| Fit { chi_squared, degrees, ..fitted.clone() }.consistency();
         for (degrees, edge, exact_to) in [(100, 209.367_631, 5e-3), (1000, 1_292.074_00, 5e-4)] {
-            assert_eq!(judged(edge * (1.0 - exact_to), degrees), Residuals::AsStated, "{degrees}");
+            assert_eq!(judged(edge * (1.0 - exact_to), degrees), Residuals::Consistent, "{degrees}");
             assert_eq!(judged(edge * (1.0 + exact_to), degrees), Residuals::Larger, "{degrees}");
         }
-        assert_eq!(judged(754.551_951 * (1.0 + 5e-4), 1000), Residuals::AsStated);
+        assert_eq!(judged(754.551_951 * (1.0 + 5e-4), 1000), Residuals::Consistent);
         assert_eq!(judged(754.551_951 * (1.0 - 5e-4), 1000), Residuals::Smaller);
     }
 
@@ -429,7 +429,7 @@ mod tests {
             ..LINE
         };
         let found = least_squares(&Numbers::unbounded([0.0; 3]), &large(false), &[A]).expect("a fit");
-        assert_eq!(found.judged(), Residuals::Larger);
+        assert_eq!(found.consistency(), Residuals::Larger);
         let found = least_squares(&Numbers::unbounded([0.0; 3]), &large(true), &[A]).expect_err("rounding");
         assert_eq!(found, ROUNDING);
         let off = Functions {

@@ -20,7 +20,7 @@
 //!
 //! let (star, s) = (RigidSpheroid::in_units_of_tc(1.1), PrincipalCoefficients::new([0.02, 0.01, -0.04]).tensor());
 //! let (angles, rates) = (EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 }, EulerRates { alpha: 1.0, beta: 0.1, gamma: 0.2 });
-//! let truth = Parameters { chi: 0.8, theta_o: 1.0, ..Parameters::new(star, s, angles, rates).holding_spin() };
+//! let truth = Parameters { chi: 0.8, theta_o: 1.0, ..Parameters::new(star, s, angles, rates).with_fixed_spin() };
 //! let signal = Signal::new(&truth, 60.0)?;
 //! let (events, noise) = (signal.events()?, [(Observable::Arrivals, 1e-6)]);
 //! let data = data_of(&signal, &events[1..], &[], &noise)?;

@@ -28,6 +28,6 @@ fn star(s: [f64; 3], beta: f64, rate: f64) -> Parameters<f64> {
     Parameters {
         chi: 0.8,
         theta_o: 1.0,
-        ..Parameters::new(star, PrincipalCoefficients::new(s).tensor(), angles, rates).holding_spin()
+        ..Parameters::new(star, PrincipalCoefficients::new(s).tensor(), angles, rates).with_fixed_spin()
     }
 }

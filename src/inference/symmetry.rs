@@ -77,7 +77,7 @@ fn rotation(parameters: &Parameters<f64>, axis: Vector3<f64>) -> Option<Vec<(Par
     let small = Dual64::new(0.0, 1.0);
     let turn = Matrix3::identity() + axis.cross_matrix().map(|value| small * value);
     // Omega^z does not change.
-    let lifted = parameters.holding_spin().lifted::<Dual64>();
+    let lifted = parameters.with_fixed_spin().lifted::<Dual64>();
     let state = lifted.state().rotated(&turn);
     let rates = state.rates(&lifted.spheroid).ok()?;
     let n = turn * lifted.observer().direction;

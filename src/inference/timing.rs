@@ -437,7 +437,7 @@ mod tests {
         }
         for turns in [3e-14, 1e-12] {
             match off_by(turns) {
-                Ok(found) => assert_eq!(found.judged(), Residuals::Larger),
+                Ok(found) => assert_eq!(found.consistency(), Residuals::Larger),
                 Err(InferenceError::NotConverged { why, .. }) => {
                     assert_ne!(why, "the residuals are only rounding errors")
                 }
@@ -458,7 +458,7 @@ mod tests {
             let arrivals = arrivals(&model, &numbers, 0.0, 1e-5);
             let data = TimingData { arrivals, widths: (0..6).map(width).collect(), priors: Vec::new() };
             let found = fit_timing(&model, &data, &[Rho]).expect("a fit");
-            assert_eq!(found.judged(), Residuals::Larger, "{numbers:?}");
+            assert_eq!(found.consistency(), Residuals::Larger, "{numbers:?}");
         }
     }
 

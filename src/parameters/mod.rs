@@ -17,7 +17,7 @@
 //! // The spin with beta a little larger: with gamma' held, and with Omega^z held.
 //! let spin = |parameters: Parameters<f64>| parameters.moved(&[Parameter::Beta], &[0.01]).spin() - parameters.spin();
 //! assert!((spin(parameters) - 1.4 * (0.71_f64.cos() - 0.7_f64.cos())).abs() < 1e-15);
-//! assert_eq!(spin(parameters.holding_spin()), 0.0);
+//! assert_eq!(spin(parameters.with_fixed_spin()), 0.0);
 //! ```
 
 mod parameter;
@@ -109,7 +109,7 @@ impl<S: Scalar> Parameters<S> {
     }
 
     /// The same parameters with `Omega^z` held fixed instead of the rate of `gamma`.
-    pub fn holding_spin(self) -> Self {
+    pub fn with_fixed_spin(self) -> Self {
         Self { third_rate: ThirdRate::Spin(self.spin()), ..self }
     }
 
@@ -232,7 +232,7 @@ mod tests {
     fn a_change_of_a_parameter_is_that_of_its_value() {
         let start = parameters();
         for parameter in Parameter::OF_MOTION.into_iter().chain(Parameter::OF_SIGHT).chain(Parameter::FITTED) {
-            let start = if parameter == Parameter::Spin { start.holding_spin() } else { start };
+            let start = if parameter == Parameter::Spin { start.with_fixed_spin() } else { start };
             let moved = start.moved(&[parameter], &[0.01]);
             let change = moved.values(&[parameter])[0] - start.values(&[parameter])[0];
             assert!((change - 0.01).abs() < 1e-15, "{parameter:?}: {change}");
@@ -262,7 +262,7 @@ mod tests {
 
     #[test]
     fn lifted_numbers_are_the_same() {
-        for start in [parameters(), parameters().holding_spin()] {
+        for start in [parameters(), parameters().with_fixed_spin()] {
             let lifted: Parameters<Dual64> = start.lifted();
             let problem = lifted.problem().unwrap();
             let [found, expected] = [problem.initial().vectors().map(|v| v.map(|x| x.re)), start.state().vectors()];

@@ -110,16 +110,16 @@ impl<X: RotationState<f64>> PlannedMotion<X> {
     ///
     /// # Errors
     /// [`Error::Unsupported`] for another method, another body or another time than those at the end of the other motion.
-    pub fn going_on_with(self, earlier: ErrorAtEnd) -> Result<Self, Error> {
+    pub fn continuing_from(self, earlier: ErrorAtEnd) -> Result<Self, Error> {
         let ErrorAtEnd { time, spheroid, coefficients, error } = earlier;
         let refused = |why| Err(Error::Unsupported { what: "motion that goes on from another", why });
         if time != self.span().0 || spheroid != *self.spheroid() || coefficients != *self.coefficients() {
             return refused("it must be of the same body and start at the time at which the other ends");
         }
         match (self, error) {
-            (Self::Taylor(motion), Growing::Taylor(error)) => Ok(Self::Taylor(motion.with_error_at_start(error))),
+            (Self::Taylor(motion), Growing::Taylor(error)) => Ok(Self::Taylor(motion.with_initial_error(error))),
             (Self::Splitting(motion), Growing::Splitting(error)) => {
-                Ok(Self::Splitting(motion.with_error_at_start(error)))
+                Ok(Self::Splitting(motion.with_initial_error(error)))
             }
             _ => refused("both must use the same numerical method"),
         }
@@ -275,7 +275,7 @@ mod tests {
             let to = start + length * f64::from(part);
             let mut motion = motion(&problem, (from, to));
             if let Some(earlier) = earlier {
-                motion = motion.going_on_with(earlier).unwrap();
+                motion = motion.continuing_from(earlier).unwrap();
             }
             if part + 1 == parts {
                 late = [from + 0.5 * length, motion.error_estimate(from + 0.5 * length)];
@@ -349,11 +349,11 @@ mod tests {
             (Method::Free, (10.0, 20.0), "same numerical method"),
             (Method::Taylor, (10.5, 20.0), "start at the time"),
         ] {
-            let error = motion(method, span).going_on_with(earlier.clone()).unwrap_err().to_string();
+            let error = motion(method, span).continuing_from(earlier.clone()).unwrap_err().to_string();
             assert!(error.contains(why), "{error}");
         }
         let other = super::tests::problem([2e-6, 1e-6, -4e-6]).motion_by(Method::Taylor, (10.0, 20.0), 1e-9).unwrap();
-        assert!(other.going_on_with(earlier).unwrap_err().to_string().contains("same body"));
+        assert!(other.continuing_from(earlier).unwrap_err().to_string().contains("same body"));
         assert!(motion(Method::Averaged, (0.0, 10.0)).error_at_end().is_none());
     }
 

@@ -182,7 +182,7 @@ impl ErrorScene {
             let to = if part == parts { end } else { start + (end - start) * f64::from(part) / f64::from(parts) };
             let mut motion = problem.motion_by(method, (from, to), self.tolerance)?;
             if let Some(earlier) = earlier {
-                motion = motion.going_on_with(earlier)?;
+                motion = motion.continuing_from(earlier)?;
             }
             if part == parts || (self.time - start).abs() <= (to - start).abs() {
                 return Ok((motion.error_estimate(self.time), self.true_error(&motion.state(self.time)?)));

@@ -66,8 +66,8 @@ pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
         counted(found.degrees, "degree")
     ));
     let size = significant(found.root_mean_square(), 2);
-    match found.judged() {
-        Residuals::AsStated => {}
+    match found.consistency() {
+        Residuals::Consistent => {}
         Residuals::Larger => note(&format!(
             "the residuals are {size} times the errors of --observe (root mean square): the scene does not describe the data, or their errors \
              are larger; the error bars hold for the errors stated"

@@ -134,7 +134,7 @@ pub(super) fn run(args: &LimitsArgs) -> Result<(), Failure> {
     tell_fit(&found, &data, &pulsar);
     let mut page = readable(&short);
     let mut tables = all;
-    let are_larger = found.judged() == Residuals::Larger;
+    let are_larger = found.consistency() == Residuals::Larger;
     if unknowns.contains(&InclinationRate) && !are_larger {
         page += &limit_on_s(&found)?;
     }
@@ -218,8 +218,8 @@ fn tell_fit(found: &Fit<TimingModel>, data: &TimingData, pulsar: &PulsarScene) {
     ));
     note(&format!("f0 = {} Hz at MJD {}", decimal(found.fisher.parameters.frequency()), pulsar.epoch));
     let size = significant(found.root_mean_square(), 2);
-    match found.judged() {
-        Residuals::AsStated => {}
+    match found.consistency() {
+        Residuals::Consistent => {}
         Residuals::Larger => note(&format!(
             "the residuals are {size} times the errors stated (root mean square): the model is incomplete, or the errors are larger than stated. No limit is printed, since it would hold only for the errors stated"
         )),

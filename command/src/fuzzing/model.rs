@@ -13,7 +13,7 @@ use twofold::numerics::elliptic::jacobi::{complete_integral, jacobi};
 use twofold::observables::Observer;
 use twofold::observables::bound::{SpinAxisDrift, eta_from_inclination, lambda_change};
 use twofold::observables::eta_distribution::{EtaDistribution, SpinAxis};
-use twofold::observables::pulsar::timing::ConstantPeriod;
+use twofold::observables::pulsar::constant_period::ConstantPeriod;
 use twofold::observables::pulsar::width::pulse_width;
 use twofold::observables::pulsar::{Beam, PulsarClock, SpinFit, arrivals, pulse_train};
 use twofold::observables::spectrum::QuasiPeriodicMotion;

@@ -100,7 +100,7 @@ fn fitted(model: &TimingModel, data: &TimingData, unknowns: &[TimingParameter]) 
     if let Ok(found) = fit_timing(model, data, unknowns) {
         let numbers = [found.fisher.values(), found.fisher.sigmas(), found.residuals.clone(), vec![found.chi_squared]];
         assert!(numbers.iter().flatten().all(|number| number.is_finite()), "{found:?}");
-        let _ = black_box((found.judged(), timing_nonlinearity(&found.fisher, data)));
+        let _ = black_box((found.consistency(), timing_nonlinearity(&found.fisher, data)));
     }
     let rates = [std::f64::consts::TAU / PERIOD];
     for limit in wobble_limits(model, data, unknowns, &rates, 0.95).into_iter().flatten() {

@@ -12,7 +12,7 @@ pub fn main() -> Result<(), InferenceError> {
     let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.0 };
     let rates = EulerRates { alpha: 1.5, beta: 0.1, gamma: -0.1 };
     let truth =
-        Parameters { chi: 0.5, rho: 0.6, theta_o: 0.8, ..Parameters::new(star, s, angles, rates).holding_spin() };
+        Parameters { chi: 0.5, rho: 0.6, theta_o: 0.8, ..Parameters::new(star, s, angles, rates).with_fixed_spin() };
 
     let motion = truth.problem()?.motion((0.0, 100.0), 1e-12)?;
     println!("beta at t = 42: {:.6}", motion.state(42.0)?.angles()?.beta);

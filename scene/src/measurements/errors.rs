@@ -30,7 +30,7 @@ pub fn add_timing_noise(data: &mut TimingData, random: &mut ChaCha8Rng) {
 pub fn beside<M: Model>(fisher: &Fisher<M>, factor: f64, random: &mut ChaCha8Rng) -> Result<M, Error> {
     for _ in 0..DRAWS {
         let normal = DVector::from_fn(fisher.unknowns.len(), |_, _| StandardNormal.sample(random));
-        let start = fisher.beside(&normal, factor)?;
+        let start = fisher.displaced(&normal, factor)?;
         let is_allowed = |unknown: &M::Unknown| {
             let ((low, high), value) = (unknown.limits(), start.value(*unknown));
             low.is_none_or(|low| low <= value) && high.is_none_or(|high| value <= high)

@@ -30,7 +30,7 @@ pub fn parameters_of(scene: &Scene) -> Result<Parameters<f64>, Error> {
     Error::ensure(sine > 1e-6, "sin(beta) at the start", sine, POLE)?;
     let rates = scene.problem.initial().rates(scene.problem.spheroid())?;
     let mut parameters =
-        Parameters::new(*scene.problem.spheroid(), *scene.problem.coefficients(), angles, rates).holding_spin();
+        Parameters::new(*scene.problem.spheroid(), *scene.problem.coefficients(), angles, rates).with_fixed_spin();
     parameters.bulge = scene.problem.bulge();
     if let Some(pulsar) = scene.pulsar {
         (parameters.chi, parameters.delta, parameters.rho) = (pulsar.chi, pulsar.delta, pulsar.rho);

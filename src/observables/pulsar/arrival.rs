@@ -4,11 +4,11 @@ use core::f64::consts::TAU;
 
 use nalgebra::Vector3;
 
+use super::azimuth_follower::AzimuthFollower;
 use super::edge_search::EdgeSearch;
 use super::margin::{BySeries, ByStates, Margin};
 use super::rate_bounds::RateBounds;
 use super::root::root;
-use super::turns::Turns;
 use super::{Beam, PulseTrain};
 use crate::dynamics::BodyState;
 use crate::error::Error;
@@ -58,7 +58,7 @@ pub fn arrivals<M: Motion<f64, State = BodyState<f64>>>(
     let turning = motion.turning();
     let bounds = RateBounds::of_motion(motion, &turning, first.start)?;
     bounds.check_countable(first.start, train.pulses.last().map_or(first.end, |last| last.end))?;
-    let mut turns = Turns::new(motion, beam, line_of_sight, bounds.first, first.start)?;
+    let mut turns = AzimuthFollower::new(motion, beam, line_of_sight, bounds.first, first.start)?;
     let mut turn_at = |t| turns.at(t).map(|phase| (phase / TAU).round() as i64);
     match motion.projection(&beam.axis, line_of_sight) {
         Some(projection) => EdgeSearch::new(BySeries::new(&projection, beam), bounds).arrivals(train, &mut turn_at),

@@ -4,6 +4,7 @@ use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{Matrix3, Rotation3, Unit};
 
+use super::azimuth_follower::phase;
 use super::edge_search::{EdgeSearch, Event};
 use super::margin::{ByStates, Margin};
 use super::position_angle::{position_angle, position_angle_rate};
@@ -12,7 +13,6 @@ use super::swing::swing;
 use super::timing_model::{TimingModel, TimingParameter::*, azimuth_ahead};
 use super::train::{PulseTrain, check_beam};
 use super::turn_count::{Look, TurnCount};
-use super::turns::phase;
 use super::{Beam, Pulse};
 use crate::dynamics::bulge::kinematic_momentum;
 use crate::dynamics::equations_of_motion::angular_velocity;

@@ -11,7 +11,7 @@
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
-use super::timing::check_number;
+use super::constant_period::check_number;
 use crate::error::Error;
 use crate::numerics::double_double::DoubleDouble;
 

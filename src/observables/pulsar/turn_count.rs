@@ -1,6 +1,6 @@
 //! Continuous turn numbers over any number of turns, from the phases of the motion.
 //!
-//! [`Turns`](super::turns) follows a motion in steps of half a radian. Over 1e11 turns, the whole turns must instead be computed from the phases
+//! `AzimuthFollower` follows a motion in steps of half a radian. Over 1e11 turns, the whole turns must instead be computed from the phases
 //! `theta_i = theta_i0 + w_i t`. The state is a periodic function of these. The azimuth of the magnetic axis `m` about `L` from the line of sight is
 //! then
 //!
@@ -17,7 +17,7 @@ use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use nalgebra::Vector3;
 
 use super::Beam;
-use super::turns::phase;
+use super::azimuth_follower::phase;
 use crate::error::Error;
 use crate::numerics::angle::wrapped;
 use crate::numerics::double_double::DoubleDouble;
@@ -177,7 +177,7 @@ mod tests {
     use super::*;
     use crate::dynamics::{BodyState, Problem, RigidSpheroid};
     use crate::lorentz_violation::PrincipalCoefficients;
-    use crate::observables::pulsar::turns::Turns as Followed;
+    use crate::observables::pulsar::azimuth_follower::AzimuthFollower;
     use crate::propagation::{AveragedMotion, Motion, TorusMotion};
 
     fn problem(scale: f64) -> Problem<f64> {
@@ -199,7 +199,7 @@ mod tests {
         fn compare(phased: &PhasedMotion, motion: &impl Motion<f64, State = BodyState<f64>>) {
             for beam in [Beam::new(0.9, 0.2, 0.3), Beam::new(0.02, 0.2, 0.3), Beam::new(3.1, 0.2, 0.3)] {
                 let count = TurnCount::new(phased, &beam, &sight()).unwrap();
-                let mut turns = Followed::new(motion, &beam, &count.line_of_sight, 3.0, 0.0).unwrap();
+                let mut turns = AzimuthFollower::new(motion, &beam, &count.line_of_sight, 3.0, 0.0).unwrap();
                 let first = turns.at(0.0).unwrap();
                 let mut farthest = 0.0_f64;
                 for k in 0..300 {

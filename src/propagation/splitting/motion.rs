@@ -315,7 +315,7 @@ impl<X> SplittingMotion<X> {
     }
 
     /// This motion with an error of its start.
-    pub(crate) fn with_error_at_start(mut self, error: SplittingErrorAtEnd) -> Self {
+    pub(crate) fn with_initial_error(mut self, error: SplittingErrorAtEnd) -> Self {
         match &mut self.kept {
             Kept::Axis(states) => (states.earlier, states.estimate) = (Some(error), OnceLock::new()),
             Kept::Body(states) => (states.earlier, states.estimate) = (Some(error), OnceLock::new()),

@@ -336,7 +336,7 @@ impl<S: Real, X> TaylorMotion<S, X> {
     }
 
     /// This motion with an error of its start.
-    pub(crate) fn with_error_at_start(mut self, error: TaylorErrorAtEnd) -> Self {
+    pub(crate) fn with_initial_error(mut self, error: TaylorErrorAtEnd) -> Self {
         match &mut self.kept {
             Kept::Axis(series) => (series.earlier, series.errors) = (Some(error), OnceLock::new()),
             Kept::Body(series) => (series.earlier, series.errors) = (Some(error), OnceLock::new()),

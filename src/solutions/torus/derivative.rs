@@ -6,7 +6,7 @@ use num_dual::Dual64;
 use super::TorusSolution;
 use super::flow::{Axes, Integrals, derivative, joined, tangents};
 use super::flow_series::DOUBLE;
-use super::found::THINNEST;
+use super::torus_of_motion::THINNEST;
 use crate::dynamics::{BodyState, Problem, RotationState};
 use crate::error::Error;
 use crate::numerics::angle::about;

@@ -34,11 +34,13 @@
 //! ```
 
 mod angles;
+mod closed_orbits;
 mod derivative;
+mod double_double_torus;
 mod flow;
 mod flow_series;
-mod found;
 mod fourier;
+mod lattice;
 mod phase;
 mod plane;
 mod polynomial;
@@ -47,9 +49,7 @@ mod separatrix;
 mod solution;
 mod states;
 mod table;
-mod walk;
-mod ways;
-mod wide;
+mod torus_of_motion;
 
 pub(crate) use derivative::{TorusDerivative, error_of_derivatives};
 pub use separatrix::separatrix_motion;

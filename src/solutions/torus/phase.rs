@@ -1,6 +1,6 @@
 //! The angles of a torus as functions of time.
 
-use super::ways::{ClosedWays, HalfWay};
+use super::closed_orbits::{ClosedOrbits, HalfPeriod};
 use crate::numerics::arithmetic::Componentwise;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::four_lanes::FourLanes;
@@ -39,13 +39,13 @@ impl Phase {
 
 /// Both angles of the torus, from the state in the plane, and the angle by which `e_x` is behind the vector of the torus. `rate_about_axis` is
 /// the value of the method with this name of [`RigidSpheroid`](crate::dynamics::RigidSpheroid).
-pub(super) fn phases<S: Real + Into<DoubleDouble>>(rate_about_axis: S, ways: &ClosedWays<S>) -> [Phase; 3] {
-    let whole = |half: &HalfWay<S>| (half.times.map(|time| time * 2.0), half.turn * 2.0);
-    let (([t1, k1], psi1), ([t2, k2], psi2)) = (whole(&ways.fast), whole(&ways.slow));
+pub(super) fn phases<S: Real + Into<DoubleDouble>>(rate_about_axis: S, orbits: &ClosedOrbits<S>) -> [Phase; 3] {
+    let whole = |half: &HalfPeriod<S>| (half.times.map(|time| time * 2.0), half.turn * 2.0);
+    let (([t1, k1], psi1), ([t2, k2], psi2)) = (whole(&orbits.fast), whole(&orbits.slow));
     let determinant = t1 * k2 - t2 * k1;
     let turns = |[t, k]: [S; 2]| [(t * k2 - k * t2) / determinant, (k * t1 - t * k1) / determinant];
     let [f1, f2] = turns([S::one(), S::zero()]);
-    let [a, b] = turns(ways.to_plane.times).map(|turns| -turns);
+    let [a, b] = turns(orbits.to_plane.times).map(|turns| -turns);
     // 2 pi, to the precision of the number type.
     let tau = S::zero().atan2(-S::one()) * 2.0;
     let phase = |rate: S, offset: S| {
@@ -56,7 +56,7 @@ pub(super) fn phases<S: Real + Into<DoubleDouble>>(rate_about_axis: S, ways: &Cl
     [
         phase(f1, a),
         phase(f2, b),
-        phase((-rate_about_axis - f1 * psi1 - f2 * psi2) / tau, -(ways.to_plane.turn + a * psi1 + b * psi2) / tau),
+        phase((-rate_about_axis - f1 * psi1 - f2 * psi2) / tau, -(orbits.to_plane.turn + a * psi1 + b * psi2) / tau),
     ]
 }
 

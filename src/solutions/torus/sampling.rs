@@ -1,8 +1,8 @@
 //! Coefficients of a motion on its torus, from a grid of flows.
 
 use super::flow::{Axes, apart};
-use super::found::Torus;
 use super::fourier::{Pair, QuarterGrid, Reflection};
+use super::torus_of_motion::Torus;
 use crate::error::Error;
 
 /// Coefficients below this are rounding.
@@ -86,7 +86,7 @@ pub(super) fn coefficients(
 /// torus.
 fn sampled(torus: &Torus, starts: &[Axes<f64>], grid: &QuarterGrid) -> (Vec<Coefficients>, f64) {
     let QuarterGrid { points, quarter } = *grid;
-    let (ways, unit) = (&torus.ways, torus.unit);
+    let (orbits, unit) = (&torus.orbits, torus.unit);
     let mut values = vec![vec![vec![0.0; points]; quarter + 1]; SYMMETRY.len()];
     let mut open: f64 = 0.0;
     for (m, start) in starts.iter().enumerate() {
@@ -96,7 +96,7 @@ fn sampled(torus: &Torus, starts: &[Axes<f64>], grid: &QuarterGrid) -> (Vec<Coef
         let places = (0..points / 2).chain((points / 2..points).rev());
         for (j, [n, momentum, u]) in places.zip(forwards.into_iter().chain(backwards)) {
             let part = if j < points / 2 { j as f64 } else { j as f64 - points as f64 } / points as f64;
-            let (sin, cos) = ways.turned([part, m as f64 / (4 * quarter) as f64]).sin_cos();
+            let (sin, cos) = orbits.turned([part, m as f64 / (4 * quarter) as f64]).sin_cos();
             let v = n.cross(&u);
             let (l, real, imaginary) = (momentum / unit, u * cos - v * sin, v * cos + u * sin);
             let all = [n.x, l.x, n.y, l.y, n.z, l.z, real.x, imaginary.y, real.y, imaginary.x, real.z, imaginary.z];
@@ -116,14 +116,14 @@ fn between(torus: &Torus, starts: &[Axes<f64>], grid: &QuarterGrid, eighth: usiz
     let half = 0.5 / (4 * grid.quarter) as f64;
     let turns = [(i as f64 + 0.5) / grid.points as f64 - 0.5, m as f64 / (4 * grid.quarter) as f64 + half];
     // From the start of the previous row, since the flow from the plane has more rounding.
-    let times = [0, 1].map(|i| 2.0 * (torus.ways.fast.times[i] * turns[0] + torus.ways.slow.times[i] * half));
+    let times = [0, 1].map(|i| 2.0 * (torus.orbits.fast.times[i] * turns[0] + torus.orbits.slow.times[i] * half));
     OnTorus { turns, axes: torus.integrals.moved(times, &starts[m]) }
 }
 
 /// States up to half a turn of the first angle from a given one: forwards including the given state, backwards without it; and the state at half a
 /// turn.
 fn half_row(torus: &Torus, start: &Axes<f64>, points: usize, sense: f64) -> (Vec<Axes<f64>>, Axes<f64>) {
-    let round = torus.ways.fast.times.map(|time| 2.0 * sense * time);
+    let round = torus.orbits.fast.times.map(|time| 2.0 * sense * time);
     let mut begin = 0.0;
     let mut series = torus.integrals.series(round, start);
     let mut at = |part: f64| {

@@ -4,13 +4,13 @@ use core::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::double_double_torus::DoubleDoubleTorus;
 use super::flow::Axes;
-use super::found::Torus;
 use super::fourier::{QuarterGrid, Reflection};
 use super::phase::{Phase, phases};
 use super::sampling::{FIRST_GRID, OnTorus, ROUNDING, Sampled, coefficients};
 use super::table::{FourMultiples, Multiples, Table};
-use super::wide::WideTorus;
+use super::torus_of_motion::Torus;
 use crate::dynamics::{AxisState, BodyState, Problem};
 use crate::error::Error;
 use crate::numerics::angle::sines_of_turns;
@@ -20,7 +20,7 @@ use crate::numerics::four_lanes::FourLanes;
 use crate::numerics::fused::{Fused, detect_fused, run_fused};
 
 /// Rounding error at the end of half a closed orbit, due to the flow and the initial state.
-const END_OF_HALF_WAY: f64 = 5e-16;
+const END_OF_HALF_PERIOD: f64 = 5e-16;
 
 /// Rounding of the principal values and axes of `s`, in units of its largest component; the difference of nearly equal eigenvalues is not known more
 /// precisely.
@@ -86,17 +86,17 @@ impl TorusSolution {
         let torus = Torus::of(problem)?;
         let given = problem.initial();
         let rate_about_axis = torus.spheroid.rate_about_axis(&given.axis, &given.momentum);
-        let near = phases(rate_about_axis, &torus.ways);
+        let near = phases(rate_about_axis, &torus.orbits);
         let torque = 2.0 * torus.spheroid.constant_c.abs() * ROUNDING_OF_VALUES * problem.coefficients().amax();
         // The length of n is rounded, and with it the rate about n.
         let of_length = f64::EPSILON * rate_about_axis.abs();
-        let drift = rate_of_ways(&near) * 2.0 * END_OF_HALF_WAY + torque / torus.unit + of_length;
+        let drift = rate_of_orbits(&near) * 2.0 * END_OF_HALF_PERIOD + torque / torus.unit + of_length;
         if longest.abs() * drift <= 0.3 * tolerance
             && let Some(solution) = Self::of(&torus, near, drift, tolerance, |quarter| torus.starts(quarter))?
         {
             return Ok(solution);
         }
-        let wide = WideTorus::near(&torus, problem)?;
+        let wide = DoubleDoubleTorus::near(&torus, problem)?;
         let torus = wide.rounded(&torus);
         let starts = |quarter: usize| Some(torus.starts(quarter).unwrap_or_else(|| wide.starts(quarter)));
         let found = Self::of(&torus, wide.phases, wide.drift, tolerance, starts)?;
@@ -141,7 +141,7 @@ impl TorusSolution {
         let mut solution = Self {
             width: torus.width(),
             phases,
-            periods: [&torus.ways.fast, &torus.ways.slow].map(|half| half.times.map(|time| time * 2.0)),
+            periods: [&torus.orbits.fast, &torus.orbits.slow].map(|half| half.times.map(|time| time * 2.0)),
             spread: torus.spread,
             unit: torus.unit,
             blocks: axes.blocks().max(vector.blocks()),
@@ -173,7 +173,7 @@ impl TorusSolution {
             differences.iter().flatten().fold(0.0, |most: f64, x| if x.abs() <= most { most } else { x.abs() })
         };
         let gaps = between.iter().map(|OnTorus { turns: [a, b], axes: [n, momentum, u] }| {
-            let (sin, cos) = torus.ways.turned([*a, *b]).sin_cos();
+            let (sin, cos) = torus.orbits.turned([*a, *b]).sin_cos();
             off(&self.state_on_torus([*a, *b, 0.0]), &[*n, *momentum, u * cos - n.cross(u) * sin])
         });
         let here = off(&self.state([0.0; 2]), &torus.initial);
@@ -314,7 +314,7 @@ struct Room {
 }
 
 /// Turns along both closed orbits per unit of time.
-pub(super) fn rate_of_ways(phases: &[Phase; 3]) -> f64 {
+pub(super) fn rate_of_orbits(phases: &[Phase; 3]) -> f64 {
     phases[0].rate.high.abs() + phases[1].rate.high.abs()
 }
 
@@ -403,7 +403,7 @@ mod tests {
     #[test]
     fn rows_that_do_not_close_are_rounding() {
         let torus = Torus::of(&problem([[0.2, 0.1, -0.3], [0.48, 0.6, 0.64], [0.3, -0.2, 1.5]])).unwrap();
-        let phases = phases(torus.spheroid.rate_about_axis(&torus.initial[0], &torus.initial[1]), &torus.ways);
+        let phases = phases(torus.spheroid.rate_about_axis(&torus.initial[0], &torus.initial[1]), &torus.orbits);
         let mut sampled = coefficients(&torus, |quarter| torus.starts(quarter), 1e-12, FIRST_GRID).unwrap().unwrap();
         sampled.open = 1e-6;
         let (solution, gap) = TorusSolution::on(&torus, phases, 0.0, 1e-12, &sampled);
@@ -417,7 +417,7 @@ mod tests {
         let torus = Torus::of(&problem([[0.2, 0.1, -0.3], [0.48, 0.6, 0.64], [0.3, -0.2, 1.5]])).unwrap();
         let starts = |quarter: usize| torus.starts(quarter);
         let first = coefficients(&torus, starts, 1e-4, FIRST_GRID).unwrap().unwrap().grid.quarter;
-        let mut wrong = phases(torus.spheroid.rate_about_axis(&torus.initial[0], &torus.initial[1]), &torus.ways);
+        let mut wrong = phases(torus.spheroid.rate_about_axis(&torus.initial[0], &torus.initial[1]), &torus.orbits);
         wrong[0].offset += DoubleDouble::from(0.01);
         let found = TorusSolution::of(&torus, wrong, 0.0, 1e-4, starts);
         let Err(Error::NotConverged { iterations, residual, .. }) = found else { panic!("not refused") };

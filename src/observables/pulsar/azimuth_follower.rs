@@ -19,7 +19,7 @@ const STRIDE: f64 = 0.5;
 /// A body always turns about `L` in the positive sense (`L . Omega > 0`), and `m` is nearest to the line of sight close to
 /// the phase zero of each turn. The azimuth about a fixed axis counts the same turns while that axis and `L` are on one side
 /// of the path of `m`; if the path leaves the axis outside, that azimuth oscillates and counts none.
-pub(super) struct Turns<'a, M> {
+pub(super) struct AzimuthFollower<'a, M> {
     motion: &'a M,
     beam: &'a Beam<f64>,
     line_of_sight: &'a Vector3<f64>,
@@ -28,7 +28,7 @@ pub(super) struct Turns<'a, M> {
     phase: f64,
 }
 
-impl<'a, M: Motion<f64, State = BodyState<f64>>> Turns<'a, M> {
+impl<'a, M: Motion<f64, State = BodyState<f64>>> AzimuthFollower<'a, M> {
     /// Starts at the time `t`; `rate` bounds the angular velocity.
     pub(super) fn new(
         motion: &'a M,
@@ -113,7 +113,7 @@ mod tests {
         let (axis, rate) = (Vector3::new(0.36, 0.48, 0.8), 300.0);
         let motion = free(axis, axis * (0.8 * rate), (1.0, 2.0));
         let (beam, n) = (Beam::new(0.6, 0.3, 0.2), sight());
-        let mut turns = Turns::new(&motion, &beam, &n, rate, 1.0).unwrap();
+        let mut turns = AzimuthFollower::new(&motion, &beam, &n, rate, 1.0).unwrap();
         let first = turns.at(1.0).unwrap();
         for t in [1.001, 1.13, 1.7] {
             assert!((turns.at(t).unwrap() - first - rate * (t - 1.0)).abs() < 1e-10, "{t}");
@@ -134,7 +134,7 @@ mod tests {
             let pass = times.max_by(|a, b| along(*a).total_cmp(&along(*b))).unwrap();
             let exact = |t: f64| phase(&beam, &n, &motion.state(t).unwrap()).unwrap();
             for (before, after) in [(0.3, 0.4), (0.12, 0.7), (0.03, 0.07), (0.08, 0.06), (0.5, 0.02)] {
-                let mut turns = Turns::new(&motion, &beam, &n, 4.2, pass - before).unwrap();
+                let mut turns = AzimuthFollower::new(&motion, &beam, &n, 4.2, pass - before).unwrap();
                 let mut last = exact(pass - before);
                 for k in 1..=2000 {
                     let next = exact(pass - before + (before + after) * f64::from(k) / 2000.0);

@@ -6,9 +6,9 @@
 
 use nalgebra::{Vector2, Vector3};
 
+use super::closed_orbits::{Search, half_turn};
 use super::flow::{Axes, Integrals, apart, tangents};
 use super::flow_series::COARSE;
-use super::ways::{Search, half_turn};
 
 /// Number of series along the flow of `K` from the start, and along that of `H` from each point on it.
 const SIDES: [[usize; 2]; 2] = [[40, 2], [40, 40]];
@@ -277,12 +277,12 @@ impl<'a> Walk<'a> {
     /// The shortest two independent paths between states that were found.
     fn basis(&self) -> Option<[Vector2<f64>; 2]> {
         let origin = self.found[0].0;
-        let mut ways: Vec<_> = self.found[1..].iter().map(|(times, _)| times - origin).collect();
-        ways.sort_by(|a, b| self.length(a).total_cmp(&self.length(b)));
+        let mut orbits: Vec<_> = self.found[1..].iter().map(|(times, _)| times - origin).collect();
+        orbits.sort_by(|a, b| self.length(a).total_cmp(&self.length(b)));
         let unit = self.metric.product().sqrt();
-        let first = *ways.first()?;
+        let first = *orbits.first()?;
         let sine = |way: &Vector2<f64>| first.perp(way).abs() * unit / (self.length(&first) * self.length(way));
-        let second = ways.iter().find(|way| sine(way) > PARALLEL)?;
+        let second = orbits.iter().find(|way| sine(way) > PARALLEL)?;
         Some(reduced(&self.metric, first, *second))
     }
 
@@ -354,8 +354,8 @@ mod tests {
             let search = Search::new(&integrals, unit);
             let (_, plane) = search.on_to_plane(integrals.moved(found.to_plane, &start), found.to_plane).unwrap();
             let off = |[n, momentum, _]: &Axes<f64>| n.y.abs().max((momentum.y / unit).abs());
-            let half = |ways: [[f64; 2]; 2], shares: [f64; 2]| {
-                let times = [0, 1].map(|i| ways[0][i] * shares[0] + ways[1][i] * shares[1]);
+            let half = |orbits: [[f64; 2]; 2], shares: [f64; 2]| {
+                let times = [0, 1].map(|i| orbits[0][i] * shares[0] + orbits[1][i] * shares[1]);
                 integrals.moved(times, &plane)
             };
             let at = |shares| half([found.fast, found.slow], shares);

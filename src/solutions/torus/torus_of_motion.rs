@@ -2,10 +2,10 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::closed_orbits::ClosedOrbits;
 use super::flow::{Axes, Integrals, tangents};
 use super::flow_series::DOUBLE;
-use super::walk::lattice;
-use super::ways::ClosedWays;
+use super::lattice::lattice;
 use crate::dynamics::{Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
@@ -70,7 +70,7 @@ pub(super) struct Torus {
     /// Unit of `L`: its size at the start, or `(2 I^xx |C| (s_max - s_min))^(1/2)`, which the torque can produce, if that is larger.
     pub(super) unit: f64,
     pub(super) initial: Axes<f64>,
-    pub(super) ways: ClosedWays<f64>,
+    pub(super) orbits: ClosedOrbits<f64>,
     pub(super) integrals: Integrals<f64>,
     pub(super) from_given: Matrix3<f64>,
 }
@@ -117,22 +117,22 @@ impl Torus {
         let found = lattice(&integrals, unit, &start)
             .ok_or(Error::not_found("symmetric states of the torus, as near the separatrix"))?;
         let (turn, integrals, initial) = if found.about_x { in_frame(z) } else { (turn, integrals, start) };
-        let ways = ClosedWays::near(&integrals, unit, &initial, [found.to_plane, found.fast, found.slow]);
-        let ways = ways.ok_or(Error::not_found("periods of the torus, as near the separatrix"))?;
-        Ok(Self { spheroid, spread, unit, initial, ways, integrals, from_given: turn * frame })
+        let orbits = ClosedOrbits::near(&integrals, unit, &initial, [found.to_plane, found.fast, found.slow]);
+        let orbits = orbits.ok_or(Error::not_found("periods of the torus, as near the separatrix"))?;
+        Ok(Self { spheroid, spread, unit, initial, orbits, integrals, from_given: turn * frame })
     }
 
     /// Width of the torus at the state in the plane: the smallest singular value of the rates of both flows, divided by the rotation rate of the
     /// body. It is zero on a circle, and near a stationary state it is as small as the distance of `n` and `L` from that state.
     pub(super) fn width(&self) -> f64 {
-        let rates = tangents(&self.integrals.both_rates(&self.ways.plane), self.unit);
+        let rates = tangents(&self.integrals.both_rates(&self.orbits.plane), self.unit);
         rates.singular_values().min() / (self.unit * self.integrals.inverse_inertia())
     }
 
     /// States along a quarter of a turn of the second angle, if they are as accurate as the flow: the last one must be in the plane `X = 0`. Rounding
     /// grows near the separatrix.
     pub(super) fn starts(&self, quarter: usize) -> Option<Vec<Axes<f64>>> {
-        let starts = self.ways.starts(&self.integrals, quarter);
+        let starts = self.orbits.starts(&self.integrals, quarter);
         let [n, momentum, _] = starts[quarter];
         (n.x.abs().max((momentum.x / self.unit).abs()) < EXACT).then_some(starts)
     }

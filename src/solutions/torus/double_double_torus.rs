@@ -2,24 +2,24 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::closed_orbits::ClosedOrbits;
 use super::flow::{Axes, Integrals};
 use super::flow_series::{DOUBLE, DOUBLE_DOUBLE};
-use super::found::Torus;
 use super::phase::{Phase, phases};
-use super::solution::rate_of_ways;
-use super::ways::ClosedWays;
+use super::solution::rate_of_orbits;
+use super::torus_of_motion::Torus;
 use crate::dynamics::Problem;
 use crate::error::Error;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::scalar::{Real, length};
 
 /// Rounding error of the flow at the end of half a closed orbit.
-const END_OF_HALF_WAY: f64 = 1e-29;
+const END_OF_HALF_PERIOD: f64 = 1e-29;
 
 /// A torus to 32 digits, for the body, the tensor and the state exactly as given.
-pub(super) struct WideTorus {
+pub(super) struct DoubleDoubleTorus {
     integrals: Integrals<DoubleDouble>,
-    ways: ClosedWays<DoubleDouble>,
+    orbits: ClosedOrbits<DoubleDouble>,
     initial: Axes<DoubleDouble>,
     values: Vector3<DoubleDouble>,
     from_given: Matrix3<DoubleDouble>,
@@ -28,7 +28,7 @@ pub(super) struct WideTorus {
     pub(super) drift: f64,
 }
 
-impl WideTorus {
+impl DoubleDoubleTorus {
     /// Refines a torus found in doubles.
     ///
     /// # Errors
@@ -43,14 +43,15 @@ impl WideTorus {
         let mut initial = [given.axis, given.momentum, given.equatorial_axis].map(|v| from_given * v.map(wide));
         // n is a unit vector, whatever the rounding of its length.
         initial[0] /= length(&initial[0]);
-        let ways = ClosedWays::near(&integrals, torus.unit, &initial, torus.ways.times().map(|times| times.map(wide)));
-        let ways = ways.ok_or(Error::not_found("periods of the torus in 32 digits"))?;
-        let phases = phases(spheroid.rate_about_axis(&initial[0], &initial[1]), &ways);
+        let orbits =
+            ClosedOrbits::near(&integrals, torus.unit, &initial, torus.orbits.times().map(|times| times.map(wide)));
+        let orbits = orbits.ok_or(Error::not_found("periods of the torus in 32 digits"))?;
+        let phases = phases(spheroid.rate_about_axis(&initial[0], &initial[1]), &orbits);
         // The torque of the remaining off-diagonal elements, which is not zero if two eigenvalues are nearly equal.
         let beside = [(0, 1), (1, 2), (2, 0)].map(|place| tensor[place].re().abs()).iter().sum::<f64>();
         let torque = 2.0 * torus.spheroid.constant_c.abs() * beside / torus.unit;
-        let drift = rate_of_ways(&phases) * END_OF_HALF_WAY + torque;
-        Ok(Self { integrals, ways, initial, values, from_given, phases, drift })
+        let drift = rate_of_orbits(&phases) * END_OF_HALF_PERIOD + torque;
+        Ok(Self { integrals, orbits, initial, values, from_given, phases, drift })
     }
 
     /// Rounded to doubles, as a replacement for the torus from which it was refined.
@@ -58,7 +59,7 @@ impl WideTorus {
         let values = self.values.map(Real::re);
         Torus {
             initial: self.initial.map(|v| v.map(Real::re)),
-            ways: self.ways.rounded(),
+            orbits: self.orbits.rounded(),
             integrals: Integrals::new(&torus.spheroid, &Matrix3::from_diagonal(&values), torus.spread, DOUBLE),
             from_given: self.from_given.map(Real::re),
             ..*torus
@@ -67,7 +68,7 @@ impl WideTorus {
 
     /// States along a quarter of a turn of the second angle, in `quarter` equal steps, rounded.
     pub(super) fn starts(&self, quarter: usize) -> Vec<Axes<f64>> {
-        let starts = self.ways.starts(&self.integrals, quarter);
+        let starts = self.orbits.starts(&self.integrals, quarter);
         starts.into_iter().map(|axes| axes.map(|v| v.map(Real::re))).collect()
     }
 }
@@ -131,7 +132,7 @@ mod tests {
             let problem = crate::dynamics::fixture::problem([0.2, 0.1, -0.3]);
             let problem = Problem::new(*problem.spheroid(), (given + given.transpose()) / 2.0, *problem.initial());
             let problem = problem.unwrap();
-            WideTorus::near(&Torus::of(&problem).unwrap(), &problem).unwrap().drift
+            DoubleDoubleTorus::near(&Torus::of(&problem).unwrap(), &problem).unwrap().drift
         };
         assert!((1e-18..1e-15).contains(&drift(0.3 + 1e-13)), "{:e}", drift(0.3 + 1e-13));
         assert!(drift(0.1) < 1e-29, "{:e}", drift(0.1));

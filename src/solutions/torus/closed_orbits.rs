@@ -35,7 +35,7 @@ const WIDEST_GAP: f64 = 1e-7;
 
 /// Half of a closed orbit: times along the flow of `H` and along that of `K`, from a state in the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct HalfWay<S> {
+pub(super) struct HalfPeriod<S> {
     pub(super) times: [S; 2],
     /// Rotation of the body about `n` (rad), relative to the vector normal to the plane or relative to the half turn about
     /// Z.
@@ -44,18 +44,18 @@ pub(super) struct HalfWay<S> {
 
 /// A torus and its closed orbits.
 #[derive(Debug, Clone)]
-pub(super) struct ClosedWays<S> {
+pub(super) struct ClosedOrbits<S> {
     /// A state in the plane `Y = 0`, with `n x Y` as the vector of the body.
     pub(super) plane: Axes<S>,
     /// The path to it from the initial state. Its rotation angle is that from the plane's vector to the initial one.
-    pub(super) to_plane: HalfWay<S>,
+    pub(super) to_plane: HalfPeriod<S>,
     /// Half a turn of `n` about `L`, seen from the plane of `L` and Z.
-    pub(super) fast: HalfWay<S>,
+    pub(super) fast: HalfPeriod<S>,
     /// Half a turn of the averaged `L` about Z.
-    pub(super) slow: HalfWay<S>,
+    pub(super) slow: HalfPeriod<S>,
 }
 
-impl<S: FlowScalar> ClosedWays<S> {
+impl<S: FlowScalar> ClosedOrbits<S> {
     /// Closed orbits near given times: the path to the plane, and half of the fast and of the slow orbit. `None` if there
     /// are none.
     pub(super) fn near(
@@ -65,10 +65,10 @@ impl<S: FlowScalar> ClosedWays<S> {
         [to_plane, fast, slow]: [[S; 2]; 3],
     ) -> Option<Self> {
         let search = Search::new(integrals, unit);
-        let (to_plane, end) = search.half_way(initial, to_plane, false)?;
+        let (to_plane, end) = search.half_period(initial, to_plane, false)?;
         let plane = [end[0], end[1], end[0].cross(&Vector3::y())];
-        let (fast, _) = search.half_way(&plane, fast, false)?;
-        let (slow, end) = search.half_way(&plane, slow, true)?;
+        let (fast, _) = search.half_period(&plane, fast, false)?;
+        let (slow, end) = search.half_period(&plane, slow, true)?;
         let half_turned = plane.map(|v| half_turn(&v));
         (apart(&end, &half_turned, unit) < WIDEST_GAP).then_some(Self { plane, to_plane, fast, slow })
     }
@@ -94,9 +94,9 @@ impl<S: FlowScalar> ClosedWays<S> {
     }
 
     /// Rounded to doubles.
-    pub(super) fn rounded(&self) -> ClosedWays<f64> {
-        let half = |way: &HalfWay<S>| HalfWay { times: way.times.map(S::re), turn: way.turn.re() };
-        ClosedWays {
+    pub(super) fn rounded(&self) -> ClosedOrbits<f64> {
+        let half = |way: &HalfPeriod<S>| HalfPeriod { times: way.times.map(S::re), turn: way.turn.re() };
+        ClosedOrbits {
             plane: self.plane.map(|v| v.map(S::re)),
             to_plane: half(&self.to_plane),
             fast: half(&self.fast),
@@ -194,10 +194,10 @@ impl<'a, S: FlowScalar> Search<'a, S> {
 
     /// The path near given times to a state in the plane. Its rotation angle is relative to the vector of the plane there or, if `slow`, relative to
     /// the vector of the start after half a turn about Z.
-    fn half_way(&self, start: &Axes<S>, times: [S; 2], slow: bool) -> Option<(HalfWay<S>, Axes<S>)> {
+    fn half_period(&self, start: &Axes<S>, times: [S; 2], slow: bool) -> Option<(HalfPeriod<S>, Axes<S>)> {
         let (times, end) = self.end_in_plane(start, times)?;
         let from = if slow { half_turn(&start[2]) } else { end[0].cross(&Vector3::y()) };
-        Some((HalfWay { times, turn: about(&end[0], &from, &end[2]) }, end))
+        Some((HalfPeriod { times, turn: about(&end[0], &from, &end[2]) }, end))
     }
 }
 
@@ -234,43 +234,43 @@ fn step_to_zero<S: Real>([by_h, by_k]: [Vector2<S>; 2], left: Vector2<S>, rate: 
 #[cfg(test)]
 mod tests {
     use super::super::flow_series::DOUBLE;
-    use super::super::walk::lattice;
+    use super::super::lattice::lattice;
     use super::*;
     use crate::solutions::torus::plane::tests::BODY;
 
     /// With Y the axis of the middle value and `L` circling Z.
-    fn found(strength: f64) -> (Integrals<f64>, Axes<f64>, ClosedWays<f64>) {
+    fn found(strength: f64) -> (Integrals<f64>, Axes<f64>, ClosedOrbits<f64>) {
         let values = Vector3::new(-0.05, 0.0, 0.29) * strength;
         let integrals = Integrals::new(&BODY, &nalgebra::Matrix3::from_diagonal(&values), 0.34 * strength, DOUBLE);
         let start = [Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.4, -0.7, 1.9), Vector3::y()];
         let lattice = lattice(&integrals, 2.0, &start).unwrap();
         assert!(!lattice.about_x);
         let times = [lattice.to_plane, lattice.fast, lattice.slow];
-        let ways = ClosedWays::near(&integrals, 2.0, &start, times).unwrap();
-        (integrals, start, ways)
+        let orbits = ClosedOrbits::near(&integrals, 2.0, &start, times).unwrap();
+        (integrals, start, orbits)
     }
 
     #[test]
     fn ways_are_closed_and_turn_the_body_as_told() {
         for strength in [0.3, 0.1, 0.01] {
-            let (integrals, start, ways) = found(strength);
-            let [n, momentum, u] = ways.plane;
-            assert!(n.y.abs().max(momentum.y.abs()) < 1e-15, "{ways:?}");
+            let (integrals, start, orbits) = found(strength);
+            let [n, momentum, u] = orbits.plane;
+            assert!(n.y.abs().max(momentum.y.abs()) < 1e-15, "{orbits:?}");
             // Back to the initial state, whose vector is ahead by the rotation angle of the path.
-            let back = integrals.moved(ways.to_plane.times.map(|time| -time), &ways.plane);
+            let back = integrals.moved(orbits.to_plane.times.map(|time| -time), &orbits.plane);
             let gap = (back[0] - start[0]).amax().max((back[1] - start[1]).amax());
             assert!(gap < 1e-14, "{gap:e}");
-            let ahead = integrals.moved(ways.to_plane.times, &start)[2];
+            let ahead = integrals.moved(orbits.to_plane.times, &start)[2];
             let turned = |u: &Vector3<f64>, by: f64| u * by.cos() + n.cross(u) * by.sin();
-            assert!((turned(&u, ways.to_plane.turn) - ahead).amax() < 1e-14, "{ways:?}");
-            for way in [ways.fast, ways.slow] {
-                let end = integrals.moved(way.times.map(|time| 2.0 * time), &ways.plane);
+            assert!((turned(&u, orbits.to_plane.turn) - ahead).amax() < 1e-14, "{orbits:?}");
+            for way in [orbits.fast, orbits.slow] {
+                let end = integrals.moved(way.times.map(|time| 2.0 * time), &orbits.plane);
                 let gap = (end[0] - n).amax().max((end[1] - momentum).amax());
                 assert!(gap < 1e-13, "{gap:e}");
                 assert!((turned(&u, 2.0 * way.turn) - end[2]).amax() < 1e-13, "{way:?}");
             }
             // Half of the slow orbit is half a turn about Z.
-            let half = integrals.moved(ways.slow.times, &ways.plane);
+            let half = integrals.moved(orbits.slow.times, &orbits.plane);
             assert!((half[0] - half_turn(&n)).amax().max((half[1] - half_turn(&momentum)).amax()) < 1e-13);
         }
     }
