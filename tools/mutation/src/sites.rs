@@ -409,7 +409,14 @@ impl<'a> Visitor<'a> {
     fn constant_used(&mut self, path: &syn::ExprPath) {
         let Some(last) = path.path.segments.last() else { return };
         let Some(function) = self.constants.get(&last.ident.to_string()) else { return };
-        if path.qself.is_some() || !matches!(last.arguments, syn::PathArguments::None) {
+        // `R::COUNT` is a constant of a type, whose name may be that of another one.
+        let is_of_a_type = path
+            .path
+            .segments
+            .iter()
+            .nth_back(1)
+            .is_some_and(|owner| owner.ident.to_string().starts_with(char::is_uppercase));
+        if path.qself.is_some() || is_of_a_type || !matches!(last.arguments, syn::PathArguments::None) {
             return;
         }
         // The variants are in the function.
