@@ -1,5 +1,6 @@
 //! A check: written once as data, run individually by `cargo test` and listed by `twofold verify`.
 
+use nalgebra::{Dim, Matrix, RawStorage};
 use twofold::dynamics::RotationState;
 
 /// The kinds of evidence: what a check compares with what.
@@ -35,7 +36,7 @@ impl Kind {
 pub enum Bound {
     /// The figure is at most this; NaN fails.
     AtMost(f64),
-    /// The figure is at least this; NaN fails.
+    /// The figure is at least this and finite; NaN fails.
     AtLeast(f64),
     /// The figure lies in this closed interval; NaN fails.
     Within(f64, f64),
@@ -46,7 +47,7 @@ impl Bound {
     pub fn holds(self, figure: f64) -> bool {
         match self {
             Bound::AtMost(limit) => figure <= limit,
-            Bound::AtLeast(limit) => figure >= limit,
+            Bound::AtLeast(limit) => figure >= limit && figure.is_finite(),
             Bound::Within(low, high) => low <= figure && figure <= high,
         }
     }
@@ -289,15 +290,15 @@ pub(crate) fn largest_if_any<E>(figures: impl IntoIterator<Item = Result<f64, E>
     Ok((!figures.is_empty()).then(|| largest(figures)))
 }
 
-/// The smallest of some figures. NaN if one is NaN, which `f64::min` would drop, and infinite without figures.
+/// The smallest of some figures. NaN if one is NaN, which `f64::min` would drop, and NaN without figures.
 pub fn smallest(figures: impl IntoIterator<Item = f64>) -> f64 {
     let less = |least: f64, x: f64| if x.is_nan() || least.is_nan() { f64::NAN } else { least.min(x) };
-    figures.into_iter().fold(f64::INFINITY, less)
+    figures.into_iter().reduce(less).unwrap_or(f64::NAN)
 }
 
-/// The largest magnitude in a vector; NaN if one component is NaN.
-pub fn largest_component(v: &nalgebra::Vector3<f64>) -> f64 {
-    largest(v.iter().map(|x| x.abs()))
+/// The largest magnitude in a matrix or vector; NaN if one component is NaN, which `amax` would drop together with those before it.
+pub fn largest_component<R: Dim, C: Dim, S: RawStorage<f64, R, C>>(matrix: &Matrix<f64, R, C, S>) -> f64 {
+    largest(matrix.iter().map(|x| x.abs()))
 }
 
 /// The largest difference between components of two states; those of `L` are in units of `unit`.

@@ -44,7 +44,8 @@ pub fn checks<I: Identity>() -> [Check; 2] {
             statement: I::STATEMENT,
             figure: "largest residual / (2.2e-16 x sum of magnitudes of its terms), 200 random physical points",
             bound: Bound::AtMost(2.0),
-            reason: "each term is rounded some tens of times by half an ulp at most, independently of the others",
+            reason: "each term is rounded some tens of times by half an ulp at most, independently of the others; how much of a value cancellation costs, `twofold stability` \
+                     measures",
             measure: || largest_rounding(I::residuals, I::residuals),
         },
     ]

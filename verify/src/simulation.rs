@@ -137,6 +137,7 @@ fn random_model(random: &mut ChaCha8Rng) -> Parameters<f64> {
         rho: within(0.4, 0.9),
         theta_o: within(0.4, 2.7),
         phi_o: within(-3.0, 3.0),
+        delta: within(-3.0, 3.0),
         ..Parameters::new(spheroid, s, angles, rates)
     }
 }

@@ -19,9 +19,9 @@ checks! {
     /// the undetermined direction is eps against a^(1) alone, at d eps : d a^(1) = cos beta_0 : Omega^z; Omega^z itself follows from the rates,
     /// gamma' + alpha' cos beta_0
     Autodiff "fisher-null-direction" [51, 52, 56, 57]: null_direction;
-    AtMost(1e-10) "relative deviation of d(2 s^ZZ - s^XX - s^YY) : d eps of the direction found from that one, tp-I; infinite if it is not the only \
+    AtMost(1e-11) "relative deviation of d(2 s^ZZ - s^XX - s^YY) : d eps of the direction found from that one, tp-I; infinite if it is not the only \
      one or moves anything else";
-    because "rounding of the Jacobian, 1e-15 times some 20, over its second smallest singular value, 3e-3";
+    because "rounding of the Jacobian, 1e-15 times some 20, over its second smallest singular value, 6e-3: 3e-12";
     /// arrival times and widths of the pulses of the numerical motion determine all parameters, also eps and C s / I^xx, besides eleven more
     /// unknowns. The degeneracy is due to the perturbation formulas
     Autodiff "fisher-rank-of-exact-signal" [25, 44, 57]: rank_of_signal;

@@ -6,13 +6,13 @@ use super::plans::first_state;
 use crate::prelude::*;
 
 checks! {
-    /// a bound or an estimate that a plan predicts, with its rounding, is not below the true error: free, steady, symmetric and averaged motion,
+    /// a bound or an estimate that a plan predicts, with its rounding, is not below the true error: free, steady, symmetric, averaged and exact motion,
     /// 100 random scenes each up to 60 rad
     Oracle "plan-error-bounds" [25]: bounds;
     AtMost(1.0) "largest true error / (predicted error of the method + of rounding)";
     because "a bound or an estimate below the true error is wrong";
-    /// the share of random motions that miss the goal of their plan is not above the share that the plan states: splitting, splitting with
-    /// derivatives and Taylor series, 300 scenes of every kind each up to 60 rad, four in ten of them beside the middle axis
+    /// the share of random motions that miss the goal of their plan is not above the share that the plan states: splitting, the states of splitting with
+    /// derivatives, and Taylor series, 300 scenes of every kind each up to 60 rad, four in ten of them beside the middle axis
     Oracle "plan-error-goals" [25]: goals;
     AtMost(1.0) "largest share of true errors above (predicted error of the method + of rounding) / the share allowed";
     because "the shares, 1, 5 and 1 %, are those of 3,000 such scenes to 2,000 t_c and of 10,000 with strong torques (0.6, 3.5 and 0.3 % at most), \

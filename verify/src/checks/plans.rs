@@ -247,7 +247,7 @@ fn gradients_both_ways() -> Result<Measured, String> {
         if ours.jacobians == theirs.jacobians && has_vectors() {
             return Err("both ways are the same way".into());
         }
-        let values = (&ours.values - &theirs.values).amax() / (1.0 + start.state().momentum.norm());
+        let values = largest_component(&(&ours.values - &theirs.values)) / (1.0 + start.state().momentum.norm());
         Ok(largest([values, largest_part(&ours, &theirs)]))
     })
 }
@@ -261,5 +261,5 @@ pub(super) fn largest_part(ours: &Gradient, theirs: &Gradient) -> f64 {
             .flat_map(|jacobian| jacobian.column_iter().map(|c| c.into_owned()).collect::<Vec<_>>())
             .collect()
     };
-    largest(columns(ours).iter().zip(&columns(theirs)).map(|(a, b)| (a - b).amax() / b.amax().max(1e-3)))
+    largest(columns(ours).iter().zip(&columns(theirs)).map(|(a, b)| largest_component(&(a - b)) / b.amax().max(1e-3)))
 }

@@ -52,8 +52,8 @@ checks! {
     because "as claimed; the published number is second-hand";
     /// with the stated I^zz/C of Eq. (43) and eta = 10 the bounds of two of the three pulses are less than 3 orders of magnitude below it
     Oracle "bounds-beyond-global-stated-star" [41, 43]: beyond_global_stated_star;
-    Within(2.0, 3.0) "least log10(1.2e-10 / bound) of three pulses; infinite if one is above 5";
-    because "2.40, 2.96 and 3.88: the claimed 3 to 5 would be above 3";
+    Within(2.0, 3.0) "second smallest log10(1.2e-10 / bound) of three pulses; infinite if one is above 5";
+    because "claimed are 3 to 5 for all: two below 3 contradict it, by less than one order";
 }
 
 fn nordtvedt_precession<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -207,7 +207,9 @@ fn beyond_global_stated_star() -> Result<Measured, String> {
         let bound = pulsar.figure("bound_over_eta_stated")?.value * CONSERVATIVE_ETA;
         Ok::<_, String>((global_2014() / bound).log10())
     };
-    least_below_five(&pulsar_table::paper().iter().map(order).collect::<Result<Vec<_>, _>>()?)
+    let mut orders = pulsar_table::paper().iter().map(order).collect::<Result<Vec<_>, _>>()?;
+    orders.sort_by(f64::total_cmp);
+    least_below_five(&orders[1..])
 }
 
 /// The least of some orders of magnitude; infinite if one is five or above.

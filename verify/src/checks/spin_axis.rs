@@ -70,8 +70,8 @@ fn single_precession_changes<F: Differentiable>(p: &Point<F>) -> Vec<F> {
 
 /// Error of the change of `cos lambda` by Eqs. (38) and (39) over `interval`, for the motion with the initial values (34).
 fn error(s: &PrincipalCoefficients<f64>, amplitude: f64, interval: f64) -> Result<f64, String> {
-    // A general phase and a general direction, so that both terms of Eq. (38) contribute.
-    let constants = Constants { alpha_0: FRAC_PI_2, beta_0: 0.7, amplitude, phase: 0.4 };
+    // A general phase, azimuth and direction, so that all terms of Eqs. (38) and (39) contribute.
+    let constants = Constants { alpha_0: 0.9, beta_0: 0.7, amplitude, phase: 0.4 };
     let solution = Perturbation::new(Form::Printed, Precession::Single, &spheroid(), s, SPIN, &constants)?;
     let start = solution.at(0.0);
     let problem = problem_from(s, &start)?;

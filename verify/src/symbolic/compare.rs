@@ -60,6 +60,9 @@ fn pairs<'d, V, E>(
         return Err(format!("quantities on one side only: {:?}", in_file.symmetric_difference(&ours)));
     }
     for (i, name) in names.into_iter().enumerate() {
+        if file[name].len() != document.points.len() {
+            return Err(format!("{name} has {} points of {}", file[name].len(), document.points.len()));
+        }
         for (index, (point, expected)) in document.points.iter().zip(&file[name]).enumerate() {
             let values = values(i, point).map_err(|error| format!("{name} refuses point {index}: {error}"))?;
             if values.len() != expected.len() {

@@ -8,10 +8,10 @@ use crate::prelude::*;
 
 checks! {
     /// derivatives of the averaged motion by duals agree with finite differences in any frame: by s^IJ (also for two equal eigenvalues, split
-    /// along their axes or any others), L, n and the moments of inertia
+    /// along their axes or any others), L, n, both moments of inertia and C
     Autodiff "mean-derivatives" [25]: derivatives;
     AtMost(1e-8) "largest |dual - difference| / largest component of the derivative, 60 random motions, 24 of them with two equal eigenvalues, of \
-     five parameters";
+     seven parameters";
     because "differences of fourth order in steps of 1e-3 of the scale of change: 1e-14 / 1e-3 by rounding, 1e-12 / 30 times a fifth derivative of \
      some hundred";
 }
@@ -49,6 +49,8 @@ impl Family {
             1 => tensor += direction * size * direction.transpose() * x,
             2 => state.momentum += direction * x,
             3 => body.inertia_zz += x,
+            4 => body.inertia_xx += x,
+            5 => body.constant_c += x,
             _ => {
                 let angle = direction * x;
                 let turned = |v: &Vector3<S>| v + angle.cross(v);
@@ -82,7 +84,7 @@ fn derivatives() -> Result<Measured, String> {
             Rotation3::from_euler_angles(random.within(-3.0, 3.0), random.within(-1.5, 1.5), random.within(-3.0, 3.0))
                 .into_inner();
         let mut most = 0.0;
-        for kind in 0..5 {
+        for kind in 0..7 {
             let direction = Vector3::from_fn(|_, _| random.within(-1.0, 1.0));
             let family = Family { scene, frame, kind, equal: number % 5 < 2, direction };
             let found = family.components(Dual64::new(0.0, 1.0), principal_frame_along)?;

@@ -79,7 +79,7 @@ fn random_geometries() -> Result<Measured, String> {
             1 => state.s.z = state.s.y,
             _ => {}
         }
-        state.body = RigidSpheroid::in_units_of_tc(random.within(0.5, 1.9));
+        state.body.inertia_zz = state.body.inertia_xx * random.within(0.5, 1.9);
         let (s, n, l) = (state.s, state.n, state.momentum.normalize());
         let across = (n - l * n.dot(&l)).normalize();
         state.n = match case % 5 {

@@ -72,9 +72,10 @@ fn tops() -> Result<Measured, String> {
         let squares = top.mean_squares() * time + top.squares(end.integral - start.integral);
         let (direction, by_steps, integral) = integrated(&k, l);
         Ok(largest([
-            (frame - by_steps).amax(),
-            (end.frame.column(2) - direction).amax(),
-            (squares - integral).amax() * top.rates.slow.abs().min(1.0),
+            largest_component(&(frame - by_steps)),
+            largest_component(&(end.frame.column(2) - direction)),
+            largest_component(&(squares - integral))
+                * if k.x == k.y && k.y == k.z { 1.0 } else { top.rates.slow.abs().min(1.0) },
         ]))
     })
 }

@@ -30,26 +30,28 @@ checks! {
 /// A star whose axis circles `L` at the angle `nutation`, with `L` along the middle axis of the examples' s scaled by `k`: the unstable periodic
 /// motion and its exact growth rate.
 fn unstable(k: f64, nutation: f64) -> Result<(Scene, f64), String> {
-    let (body, s) = (RigidSpheroid::in_units_of_tc(1.1), PrincipalCoefficients::new([0.02, 0.01, -0.04]).scaled(k));
+    let body = RigidSpheroid { inertia_xx: 0.8, inertia_zz: 0.88, constant_c: 1.3 };
+    let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]).scaled(k);
     let g = 1.4;
     if nutation == 0.0 {
         let start = BodyState { axis: Vector3::y(), momentum: Vector3::y() * g, equatorial_axis: Vector3::x() };
-        // (l^2 + p)(l^2 - q) + g^2 l^2 = 0 with I^xx = C = 1.
-        let (p, q) = (2.0 * (s.xx - s.yy), 2.0 * (s.yy - s.zz));
-        let b = g * g + p - q;
+        // (l^2 + p)(l^2 - q) + (g / I^xx)^2 l^2 = 0.
+        let [p, q] = [s.xx - s.yy, s.yy - s.zz].map(|gap| 2.0 * body.constant_c * gap / body.inertia_xx);
+        let b = (g / body.inertia_xx).powi(2) + p - q;
         // Without cancellation.
         let square = 2.0 * p * q / (b + (b * b + 4.0 * p * q).sqrt());
         return Ok((Scene { body, s, start }, square.sqrt()));
     }
     let spin = g * f64::cos(nutation) / body.inertia_zz;
-    let energy = (g * f64::sin(nutation)).powi(2) / 2.0 + body.inertia_zz * spin * spin / 2.0;
+    let energy = (g * f64::sin(nutation)).powi(2) / (2.0 * body.inertia_xx) + body.inertia_zz * spin * spin / 2.0;
     let start = separatrix_motion(&body, &s, energy, spin)?;
     let scene = Scene { body, s, start };
     // The period: n and L lie in the same plane again, twice per turn.
     let problem = scene.problem()?;
     let motion = problem.taylor((0.0, 10.0), 1e-16)?;
     let out = |t: f64| motion.state(t).map(|state| state.axis.z).map_err(String::from);
-    let (mut left, mut right) = (0.9 * TAU / g, 1.1 * TAU / g);
+    let turn = TAU * body.inertia_xx / g;
+    let (mut left, mut right) = (0.9 * turn, 1.1 * turn);
     let sign = out(left)?;
     if sign * out(right)? >= 0.0 {
         return Err("n does not come back to the plane after a turn".into());
@@ -133,7 +135,7 @@ fn separatrix_formula() -> Result<Measured, String> {
             let (period, _, torus) = near_separatrix(k, side * complement)?;
             let FirstIntegrals { energy, spin, .. } = torus.integrals();
             let growth = middle_axis_growth(&torus.body, &torus.s, energy, spin, AveragingOrder::Second)?;
-            let x = 0.06 * k / torus.start.momentum.norm_squared();
+            let x = 0.06 * k * torus.body.constant_c * torus.body.inertia_xx / torus.start.momentum.norm_squared();
             Ok((period_near_separatrix(growth, complement)? / period - 1.0).abs() / x)
         })
     })

@@ -87,7 +87,8 @@ fn symmetric() -> Result<Measured, String> {
         twofold = !twofold;
         let body = RigidSpheroid::in_units_of_tc(random.within(0.8, 1.3));
         let equatorial = random.within(-0.02, 0.02);
-        let s = PrincipalCoefficients::new([equatorial, equatorial, equatorial - random.within(0.01, 0.06)]);
+        let sign = if random.word().is_multiple_of(2) { 1.0 } else { -1.0 };
+        let s = PrincipalCoefficients::new([equatorial, equatorial, equatorial + sign * random.within(0.01, 0.06)]);
         let angles = EulerAngles { alpha: 0.3, beta: random.within(0.6, 0.9), gamma: -1.0 };
         let (alpha, gamma) = if twofold { (1.5, -0.15) } else { (-0.07, 1.1) };
         let rates = EulerRates { alpha, beta: random.within(0.05, 0.1), gamma };

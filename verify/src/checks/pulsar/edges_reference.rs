@@ -56,7 +56,7 @@ fn worst_pulse(error: fn(&Pulse, &Arrival, &ReferencePulse) -> f64) -> Result<Me
         let signal = paper_signal(name, end)?;
         let (train, found) = (signal.train()?, signal.arrivals()?);
         let whole: Vec<_> = train.pulses.iter().filter(|pulse| pulse.is_whole()).collect();
-        if whole.len() != expected.len() || expected.len() < 150 {
+        if whole.len() != expected.len() || found.len() != expected.len() || expected.len() < 150 {
             return Ok(Measured::new(f64::INFINITY, format!("{} pulses of {}", whole.len(), expected.len())));
         }
         worst_of(whole.iter().zip(&found).zip(&expected), |((pulse, arrival), expected)| {

@@ -11,7 +11,7 @@ checks! {
     /// the width (56) fails for tp-II with any constants: a function of the mean phase of gamma, as it is at constant rates, leaves most of the
     /// width series, which also has the slow period of the angular momentum, but little of that of tp-I
     Regime "width-series-not-of-gamma-tp-2" [56]: functions_of_gamma;
-    AtLeast(3.0) "what the harmonics of the mean phase up to the sixth leave of the widths: tp-II / tp-I";
+    AtMost(1.0) "what the harmonics of the mean phase up to the sixth leave of the widths: the larger of 0.75 / tp-II and tp-I / 0.25";
     because "most is three quarters of the modulation of tp-II, little a quarter of that of tp-I";
 }
 
@@ -21,7 +21,7 @@ fn functions_of_gamma() -> Result<Measured, String> {
     let detail = format!(
         "left of the widths of tp-I {width_1:.3}, of tp-II {width_2:.3}; of the periods {period_1:.3} and {period_2:.3}"
     );
-    Ok(Measured::new(width_2 / width_1, detail))
+    Ok(Measured::new(largest([0.75 / width_2, width_1 / 0.25]), detail))
 }
 
 /// The remainder of the period and the width series after the best sum of harmonics of the mean phase of gamma up to the sixth:

@@ -18,8 +18,8 @@ checks! {
     because "two hundred lines of the next decade below 4e-13 are left out, and the numerical motion is right to 1e-11";
     /// amplitudes and phases of the twenty strongest lines of each are those of the Fourier integral over the numerical motion
     Oracle "lines-of-motion" [47, 71]: lines_by_fourier_integral;
-    AtMost(5e-8) "largest difference of a complex amplitude, Kaiser window of shape 20 over 24,000 t_c";
-    because "the window lets through 1.8e-8 of lines farther than 40.5 / 24,000 t_c, which are 2 in sum";
+    AtMost(5e-9) "largest difference of a complex amplitude, Kaiser window of shape 20 over 24,000 t_c";
+    because "no two lines are nearer than 0.028 / t_c, where the window lets through 2.5e-9 of a line; the others are 2 in sum";
     /// m.n and h_+ of motions in random frames, with axes, sizes of L and coefficients drawn at random, are the sums of their lines
     Property "lines-random" [47, 71]: random_motions;
     AtMost(1e-9) "largest difference from the numerical motion, 40 motions, 5 times up to 200 t_c each; infinite if a line is not at the combination \
@@ -31,8 +31,8 @@ checks! {
     because "rounding of frequencies up to 3";
     /// m.n of tp-II has a line between 0.03 and 0.04 / t_c, and it is the mean rate of the azimuth of L about Z
     Oracle "slow-line-tp-2" [47, 57]: slow_line_of_tp_2;
-    AtMost(1e-11) "|frequency of the strongest line there - |mean rate|| [1/t_c]; infinite if it is below a tenth of the highest line";
-    because "the mean rate is a weighted average over 2,400 t_c, right to that";
+    AtMost(1e-13) "|frequency of the strongest line there - |mean rate|| [1/t_c]; infinite if it is below a tenth of the highest line";
+    because "the mean rate is a weighted average over 2,400 t_c, right to that (mean-rates-averages)";
     /// m.n of tp-I shows no such line: the azimuth of L has the mean rate of alpha, and the line at the slow frequency, 0.0280 / t_c, has less
     /// than a hundredth of the highest amplitude
     Oracle "slow-line-tp-1" [47, 57]: slow_line_of_tp_1;

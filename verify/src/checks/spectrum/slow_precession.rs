@@ -39,11 +39,14 @@ fn averaged_equation() -> Result<Measured, String> {
         if (l.dot(&(tensor * l)) - values[1]).abs() < 0.003 {
             continue;
         }
-        let (spheroid, g, c) = (RigidSpheroid::in_units_of_tc(1.1), random.within(0.5, 2.0), random.within(-1.0, 1.0));
+        let (g, c) = (random.within(0.5, 2.0), random.within(-1.0, 1.0));
+        let constant_c = random.within(0.5, 2.0) * if case % 2 == 0 { 1.0 } else { -1.0 };
+        let inertia_xx = random.within(0.5, 2.0);
+        let spheroid = RigidSpheroid { inertia_xx, inertia_zz: 1.1 * inertia_xx, constant_c };
         let across = l.cross(&Vector3::new(0.36, 0.48, 0.8)).normalize();
         let axis = l * c + across * (1.0 - c * c).sqrt();
         let formula = slow_precession(&spheroid, &s, &(l * g), &axis)?;
-        let kappa = (3.0 * c * c - 1.0) / g;
+        let kappa = constant_c * (3.0 * c * c - 1.0) / g;
         let scale = kappa.abs() * 0.06;
         let (step, count) = (0.02 / scale, 12_000);
         let rate = |l: &Vector3<f64>| (tensor * l).cross(l) * kappa;
