@@ -149,7 +149,8 @@ fn reflection() -> Result<Measured, String> {
         let motion = principal.reduced().taylor((0.0, 20.0), 1e-13)?;
         worst_of(0..3, |&plane| {
             let reflected = |v: Vector3<f64>| Vector3::from_fn(|i, _| if i == plane { -v[i] } else { v[i] });
-            let back = principal.starting_from(BodyState::from_vectors(principal.initial().vectors().map(reflected)))?;
+            let back =
+                principal.starting_from(BodyState::from_vectors(principal.initial().vectors().map(reflected)))?;
             let size = principal.initial().momentum.norm().max(1.0);
             worst_of([3.1, 20.0], |&t| {
                 let AxisState { axis, momentum } = motion.state(t)?;

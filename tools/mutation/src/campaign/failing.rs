@@ -15,13 +15,12 @@ use super::{lines, listed, record};
 use crate::package::Package;
 
 /// What is known of a test, from the least to the most.
-const VERDICTS: [&str; 4] =
-    ["reaches no mutant", "never failed", "failed without a comparison", "failed by a comparison"];
+const VERDICTS: [&str; 4] = ["reaches no mutant", "never failed", "failed without a figure", "failed"];
 
-/// Runs each test with mutants, first those that few tests reach, until a comparison fails or `budget` seconds are spent.
+/// Runs each test with mutants, first those that few tests reach, until it fails or `budget` seconds are spent.
 ///
-/// A mutant can make a test fail before it compares anything: the model refuses the input, or panics. That is kept, but the search goes on.
-/// Keeps the verdicts in `tests.jsonl` of the tree, prints those of tests that no mutant made fail by a comparison, and goes on where it stopped.
+/// A mutant can make a check fail before it measures anything: the model refuses the input, or panics. That is kept, but the search for a figure
+/// beyond the bound goes on. Keeps the verdicts in `tests.jsonl` of the tree, prints the tests that did not fail, and goes on where it stopped.
 pub fn run(tree: &Path, package: &Package, budget: f64) -> Result<(), String> {
     let mutants = lines(&tree.join("mutants.json"))?;
     let suite = Suite::build(tree, package, std::env::var("ONLY").ok().as_deref())?;
@@ -99,7 +98,7 @@ fn search(suite: &Suite, test: &Test, order: &[u64], budget: f64) -> Found {
         found.tried += 1;
         let verdict = match suite.run(test.binary, &[&test.name], number, 5.0 + 20.0 * test.seconds) {
             Outcome::Passed => continue,
-            Outcome::Failed(output) if is_comparison(&output) => 3,
+            Outcome::Failed(output) if has_figure(&output) || suite.name(test.binary) != "checks" => 3,
             Outcome::Failed(_) | Outcome::TimedOut => 2,
         };
         if verdict > found.verdict {
@@ -112,9 +111,9 @@ fn search(suite: &Suite, test: &Test, order: &[u64], budget: f64) -> Found {
     found
 }
 
-/// Whether a failed test tells of two values: an assertion, a figure and the bound required of it, a snapshot, a property.
-fn is_comparison(output: &str) -> bool {
-    ["assert", ", required ", "snapshot", "[quickcheck]"].iter().any(|word| output.contains(word))
+/// Whether a failed check tells of a figure and the bound required of it.
+fn has_figure(output: &str) -> bool {
+    output.contains(", required ")
 }
 
 /// Mutants that few tests reach first: they are of what this test is about. Among these in an order that is the same in each run.
@@ -129,7 +128,7 @@ fn in_order(test: &Test, reached_by: &HashMap<u64, usize>, equivalent: &HashSet<
     order
 }
 
-/// Prints how many tests have each verdict, and the names of those that did not fail by a comparison.
+/// Prints how many tests have each verdict, and the names of those that did not fail.
 fn report(verdicts: &[Value]) {
     let mut last: HashMap<(String, String), &Value> = HashMap::new();
     for line in verdicts {

@@ -128,6 +128,7 @@ fn numbers_of_missed_turns() -> Result<Measured, String> {
     if missed < 100 {
         return Err(format!("only {missed} turns were missed"));
     }
-    let detail = format!("{wrong} wrong, {of_turns} compared with turns, {of_wider} with a wider beam, {missed} turns missed");
+    let detail =
+        format!("{wrong} wrong, {of_turns} compared with turns, {of_wider} with a wider beam, {missed} turns missed");
     Ok(Measured::new(if of_turns.min(of_wider) < 2000 { f64::INFINITY } else { wrong as f64 }, detail))
 }
