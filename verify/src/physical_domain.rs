@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
-/// A random scene in units `I^xx = C = 1`.
+/// A random scene.
 #[derive(Debug, Clone, Copy)]
 pub struct RandomScene {
     /// The body.
@@ -33,8 +33,9 @@ impl RandomScene {
     }
 }
 
-/// Scenes over the whole physical domain: `I^zz / I^xx` from 0.2 to 2 (the triangle inequality), any orientation at
-/// least 0.05 rad from the poles, rates up to 2, coefficients of either sign with sizes from 1e-8 to 0.3.
+/// Scenes over the whole physical domain: `I^zz / I^xx` from 0.2 to 2 (the triangle inequality), `I^xx` from 0.7 to 1.4, `C` of either sign with
+/// sizes from 0.5 to 1.5, any orientation at least 0.05 rad from the poles, rates up to 2, coefficients of either sign with sizes from 1e-8 to
+/// 0.3.
 pub fn scenes() -> impl Strategy<Value = RandomScene> {
     let coefficient = (-8.0..-0.523f64, any::<bool>()).prop_map(|(log, negative)| {
         let size = 10f64.powf(log);
@@ -45,9 +46,14 @@ pub fn scenes() -> impl Strategy<Value = RandomScene> {
         prop::array::uniform3(coefficient),
         (-PI..PI, 0.05..PI - 0.05, -PI..PI),
         prop::array::uniform3(-2.0..2.0f64),
+        (0.7..1.4f64, 0.5..1.5f64, any::<bool>()),
     )
-        .prop_map(|(inertia_ratio, s, (alpha, beta, gamma), rates)| RandomScene {
-            spheroid: RigidSpheroid::in_units_of_tc(inertia_ratio),
+        .prop_map(|(inertia_ratio, s, (alpha, beta, gamma), rates, (inertia_xx, size, negative))| RandomScene {
+            spheroid: RigidSpheroid {
+                inertia_xx,
+                inertia_zz: inertia_xx * inertia_ratio,
+                constant_c: if negative { -size } else { size },
+            },
             s: PrincipalCoefficients::new(s),
             angles: EulerAngles { alpha, beta, gamma },
             rates: EulerRates { alpha: rates[0], beta: rates[1], gamma: rates[2] },

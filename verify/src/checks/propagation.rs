@@ -194,8 +194,11 @@ fn scaling_in_time_unit() -> Result<Measured, String> {
         let unit = (inertia / c).sqrt();
         let problem = scene.problem();
         let (plain, estimate) = end_of(&problem, (0.0, 20.0))?;
-        let spheroid =
-            RigidSpheroid { inertia_xx: inertia, inertia_zz: inertia * scene.spheroid.inertia_zz, constant_c: c };
+        let spheroid = RigidSpheroid {
+            inertia_xx: inertia * scene.spheroid.inertia_xx,
+            inertia_zz: inertia * scene.spheroid.inertia_zz,
+            constant_c: c * scene.spheroid.constant_c,
+        };
         let initial = BodyState { momentum: problem.initial().momentum * (inertia / unit), ..*problem.initial() };
         let scaled = Problem::new(spheroid, *problem.coefficients(), initial)?;
         let (scaled, its_estimate) = end_of(&scaled, (0.0, 20.0 * unit))?;

@@ -210,7 +210,7 @@ fn steady() -> Result<Measured, String> {
         };
         scene.rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * angles.beta.cos() };
         let (sin, cos) = angles.beta.sin_cos();
-        let k = 2.0 * (s.zz - s.xx);
+        let k = 2.0 * spheroid.constant_c * (s.zz - s.xx) / spheroid.inertia_xx;
         let stiffness =
             (rate * sin).powi(2) + spheroid.free_precession_constant(spin).powi(2) + k * (sin * sin - 4.0 * cos * cos);
         if stiffness <= 0.0 {
