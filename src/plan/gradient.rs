@@ -33,7 +33,7 @@ const COMPONENTS: usize = 9;
 /// The method of the plan is used throughout. By splitting, one motion with the tangent map of each of its flows gives the derivatives with respect
 /// to up to sixteen parameters at once. Values and derivatives then belong to one numerical motion, computed
 /// to the tolerance of the plan, relative to the largest derivative. On the torus, values come from the Fourier series, and a forward dual for each
-/// parameter follows one flow of less than a turn of its angles ([`TorusDerivative`](crate::solutions::torus::TorusDerivative)). With the other
+/// parameter follows one flow of less than a turn of its angles. With the other
 /// methods a forward dual follows the motion for each parameter; steps of a series are chosen from real parts alone, and the error of its derivatives
 /// can be some hundred times that of the motion.
 ///

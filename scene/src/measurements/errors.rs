@@ -26,7 +26,7 @@ pub fn add_timing_noise(data: &mut TimingData, random: &mut ChaCha8Rng) {
 /// times as wide, within the limits of the unknowns.
 ///
 /// # Errors
-/// As for [`Fisher::beside`]; no draw of a hundred is within the limits.
+/// As for [`Fisher::displaced`]; no draw of a hundred is within the limits.
 pub fn beside<M: Model>(fisher: &Fisher<M>, factor: f64, random: &mut ChaCha8Rng) -> Result<M, Error> {
     for _ in 0..DRAWS {
         let normal = DVector::from_fn(fisher.unknowns.len(), |_, _| StandardNormal.sample(random));

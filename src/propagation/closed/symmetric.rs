@@ -97,7 +97,7 @@ impl<S: Real> SymmetricMotion<S> {
     /// With the neglected torque `T` and the largest torque `D`, `|dn|' <= |dL| / I^xx` and `|dL|' <= 2 D |dn| + T`, hence
     /// `|dn| <= T (cosh(k t) - 1) / (2 D)` with `k^2 = 2 D / I^xx` (Gronwall). This is rigorous, but useless over many times
     /// `1 / k`.
-    pub(crate) fn truncation(&self, elapsed: f64) -> f64 {
+    pub fn truncation(&self, elapsed: f64) -> f64 {
         if self.symmetry.is_symmetric_within_rounding() {
             return 0.0;
         }
@@ -115,7 +115,7 @@ impl<S: Real> SymmetricMotion<S> {
     /// Rounding error of the state after the time `elapsed`. It consists of the rounding of the initial values and parameters, amplified by the
     /// derivatives of the solution itself, and of the rounding of the phase, including cancellation in the turning points of the inclination and
     /// near the poles. If the two eigenvalues are equal within rounding, their remaining difference is included here.
-    pub(crate) fn rounding(&self, elapsed: f64) -> f64 {
+    pub fn rounding(&self, elapsed: f64) -> f64 {
         let by = |seed: fn(&mut EulerAngles<Dual64>, &mut EulerRates<Dual64>)| self.sensitivity(elapsed, seed);
         let by_angle = by(|angles, _| angles.beta.eps = 1.0);
         let by_rates = by(|_, rates| rates.beta.eps = 1.0) + by(|_, rates| rates.alpha.eps = 1.0);

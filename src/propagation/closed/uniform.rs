@@ -125,7 +125,7 @@ impl<S: Real> UniformMotion<S> {
     }
 
     /// Bound on the effect, within a time, of the neglected torque and bulge on the components of `n`, `L` and `e_x`.
-    pub(crate) fn truncation(&self, elapsed: f64) -> f64 {
+    pub fn truncation(&self, elapsed: f64) -> f64 {
         let (inertia, t) = (self.problem.spheroid().inertia_xx.re(), elapsed.abs());
         let momentum = real_part(&self.problem.initial().momentum).norm();
         // L grows at most by the torque times the time.
@@ -140,7 +140,7 @@ impl<S: Real> UniformMotion<S> {
     }
 
     /// Rounding of the state and of the angles within a time, and the distance of the state from a steady one.
-    pub(crate) fn rounding(&self, elapsed: f64) -> f64 {
+    pub fn rounding(&self, elapsed: f64) -> f64 {
         let phase = (real_part(&self.turn).norm() + self.body_rate.re().abs()) * elapsed.abs();
         (f64::EPSILON * (4.0 + 4.0 * phase) + self.residual * elapsed.abs()) * self.condition
     }

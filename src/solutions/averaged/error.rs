@@ -54,7 +54,7 @@ impl<S: Real> AveragedSolution<S> {
     }
 
     /// The truncation error of the averaging order at the time `t`.
-    pub(crate) fn truncation(&self, t: f64) -> f64 {
+    pub fn truncation(&self, t: f64) -> f64 {
         let (x, y) = (self.relative_strength.re(), self.bulge_strength().re());
         // The terms of higher order, as a geometric series.
         let series = 1.0 - (x + y);

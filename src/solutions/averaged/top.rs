@@ -109,7 +109,7 @@ impl<S: Real> Top<S> {
     ///
     /// For `k'^2` up to 1e-32, which is within the rounding of the start, the motion is taken to be on the separatrix.
     ///
-    /// First derivatives exist if `l` circles an axis at a distance from it ([`goes_round`](Self::goes_round)), also for two equal principal values.
+    /// First derivatives exist if `l` circles an axis at a distance from it, also for two equal principal values.
     /// On an axis, at rest and on the separatrix there are none.
     pub fn new(k: [S; 3], l: &Vector3<S>) -> Self {
         let (zero, one) = (S::zero(), S::one());

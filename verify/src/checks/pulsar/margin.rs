@@ -72,11 +72,11 @@ fn problem_of(scene: &RandomScene, bulge: bool) -> Result<Problem<f64>, Error> {
     Problem::new(body, *problem.coefficients(), *problem.initial())?.with_bulge(0.4)
 }
 
+/// States by time.
+type States<S> = Box<dyn Fn(S) -> Result<BodyState<S>, Error>>;
+
 /// States over 20 t_c: by Taylor series, or of the averaged motion, which is exact for a bulge alone.
-fn states<S: Real>(
-    problem: &Problem<S>,
-    tolerance: f64,
-) -> Result<Box<dyn Fn(S) -> Result<BodyState<S>, Error>>, Error> {
+fn states<S: Real>(problem: &Problem<S>, tolerance: f64) -> Result<States<S>, Error> {
     if problem.bulge().re() == 0.0 {
         let motion = problem.taylor((0.0, 20.0), tolerance)?;
         return Ok(Box::new(move |t| motion.state(t)));
