@@ -9,7 +9,7 @@ pyo3::create_exception!(
     twofold,
     Error,
     PyValueError,
-    "Input that is not allowed, or a computation that could not be completed. The message names the quantity, its value and what is allowed."
+    "Input that is not allowed, or a computation that could not be completed. The message names the quantity, its value and what it must be."
 );
 
 /// The exception with the message of an error.

@@ -674,7 +674,7 @@ def test_parameters_that_are_no_numbers_or_unknown(spread):
     with pytest.raises(ValueError, match="DM: must be one of WOBBLE, WOBCHI, WOBPERIOD, WOBPHASE, WOBTORQUE, F0, F1"):
         component.d_wobble_phase_d_param(spread, "DM", model.delay(spread))
     model.WOBTORQUE._quantity = None
-    with pytest.raises(MissingParameter, match="WOBTORQUE has no value: must be a number, in 1") as error:
+    with pytest.raises(MissingParameter, match="WOBTORQUE has no value: must be a number without a unit") as error:
         model.validate()
     assert (error.value.module, error.value.param) == ("Wobble", "WOBTORQUE")
     fresh = twofold.pint.Wobble()

@@ -329,7 +329,7 @@ def test_angles_over_any_span():
     assert backwards.get_xlim() == (-5.0, 5.0)
     with pytest.raises(twofold.Error):
         plot.angles(twofold.Scene("free"), perturbation=True)
-    with pytest.raises(twofold.Error, match="samples = 1: must be a whole number above one"):
+    with pytest.raises(twofold.Error, match="samples = 1: must be a whole number of at least 2"):
         plot.angles(scene, samples=1)
     with pytest.raises(twofold.Error, match="until = 5.0: must be another time than the start of the scene"):
         plot.angles(scene, until=5.0)
@@ -453,7 +453,7 @@ def test_a_whole_motion_on_axes_that_are_given():
     x, y = (line.get_xydata() for line in axes.lines[-4:-2])
     whole = np.where(np.isnan(x), y, x)
     np.testing.assert_allclose(whole, seen(motion.axis(np.linspace(0.0, 30.0, len(whole))), (35.0, 25.0))[0], atol=1e-12)
-    with pytest.raises(twofold.Error, match="samples = 1: must be a whole number above one"):
+    with pytest.raises(twofold.Error, match="samples = 1: must be a whole number of at least 2"):
         plot.sphere(motion, samples=1)
     slow = twofold.Scene("free", star={"spin": 0.1}, initial={"alpha_rate": 0.05, "beta_rate": 0.0}).motion()
     assert np.linalg.norm(slow.state(0.0)[1]) < 1.0 and np.isfinite(np.hypot(*drawn(plot.sphere(slow), "L"))[0])

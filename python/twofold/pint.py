@@ -247,9 +247,9 @@ class Wobble(PhaseComponent):
         super().validate()
         for name in self.params:
             if getattr(self, name).value is None:
-                raise MissingParameter(
-                    "Wobble", name, f"{name} has no value: must be a number, in {self._unit(name)}"
-                )
+                unit = self._unit(name)
+                number = "a number without a unit" if unit == "1" else f"a number, in {unit}"
+                raise MissingParameter("Wobble", name, f"{name} has no value: must be {number}")
         if "Spindown" not in self._parent.components or self._parent.PEPOCH.value is None:
             raise MissingParameter("Wobble", "PEPOCH", "PEPOCH has no value; WOBPHASE is the phase at this epoch")
         if not self.WOBPERIOD.value > 0.0:

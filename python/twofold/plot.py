@@ -124,7 +124,7 @@ def sphere(
     The eye is far away at azimuth and elevation `view` (degrees); paths are pale on the far side. `equatorial` also draws the axis e_x of the body, for that length of time.
     """
     if samples < 2:
-        raise Error(f"samples = {samples}: must be a whole number above one")
+        raise Error(f"samples = {samples}: must be a whole number of at least 2")
     start, end = motion.span
     end = end if until is None else until
     n, momentum, _ = motion.state(np.linspace(start, end, samples))
@@ -415,7 +415,7 @@ def _combination(text: str) -> str:
 def _sampled(scene: Scene, until: float | None, samples: int) -> Scene:
     """The scene with other times."""
     if samples < 2:
-        raise Error(f"samples = {samples}: must be a whole number above one")
+        raise Error(f"samples = {samples}: must be a whole number of at least 2")
     start, end = scene.span
     until = end if until is None else until
     if until == start:

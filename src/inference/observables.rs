@@ -91,7 +91,7 @@ pub fn data_of(signal: &Signal, events: &[Event], samples: &[f64], noise: &[Nois
         !(signal.is_long && noise.iter().any(|(kind, _)| kind.is_of_every_turn())),
         "span for closest approaches and periods",
         signal.end,
-        "at most 1e5 rad of rotation; arrivals and widths have no such limit",
+        "so short that the star turns by at most 1e5 rad; arrivals and widths have no such limit",
     )?;
     for &(observable, sigma) in noise {
         if observable.is_of_pulses() {

@@ -118,7 +118,12 @@ impl Signal {
     /// # Errors
     /// A beam or line of sight whose pulses cannot be counted, and a long span.
     pub fn events(&self) -> Result<Vec<Event>, Error> {
-        Error::ensure(!self.is_long, "span for every pulse", self.end, "at most 1e5 rad of rotation")?;
+        Error::ensure(
+            !self.is_long,
+            "span for every pulse",
+            self.end,
+            "so short that the star turns by at most 1e5 rad",
+        )?;
         let mut found = self.events_in((0.0, self.end))?;
         let mut of_turn = BTreeMap::new();
         found.iter().for_each(|event| *of_turn.entry(event.turn).or_insert(0) += 1);

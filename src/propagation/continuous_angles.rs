@@ -71,7 +71,7 @@ impl<'m, S: Real, M: Motion<S, State = BodyState<S>>> ContinuousAngles<'m, S, M>
                 pieces <= most,
                 "number of pieces in which turns are counted",
                 pieces,
-                "at most 1e4, and 1e3 per radian; the axis stays so near to a pole that a torque could turn its azimuth at any time",
+                "at most 1e4 plus 1e3 per radian; the axis stays so near to a pole that a torque could turn its azimuth at any time",
             )?;
             is_finite(&to, to_time)?;
             if self.resolved(&from, &to, to_time - from_time) {

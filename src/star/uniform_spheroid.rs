@@ -140,7 +140,7 @@ impl<S: Real> UniformSpheroid<S> {
     /// [`Error::Domain`] for the sphere, where `C = 0`, and so near to it that the ratio overflows.
     pub fn polar_inertia_over_c(&self) -> Result<S, Error> {
         let ratio = self.c_over_polar_inertia();
-        let allowed = "one with a finite inverse; a sphere has no anisotropic energy";
+        let allowed = "so large that its inverse is finite; a sphere has no anisotropic energy";
         Error::ensure(ratio.re().recip().is_finite(), "C / I^zz", ratio.re(), allowed)?;
         Ok(S::one() / ratio)
     }

@@ -7,7 +7,7 @@ use twofold::dynamics::BodyState;
 use twofold::propagation::Motion;
 
 /// Weights of a mean at the middles of `count` cells: Kaiser's window `I_0(shape sqrt(1 - u^2))`, `u` from -1 to 1, with a mean of one. An
-/// oscillation of frequency `f` contributes at most `shape / (sinh(shape) sqrt((f T / (2 shape))^2 - 1))` of its size, for `f T > 2 shape`.
+/// oscillation of frequency `f` contributes at most `1 / (sinh(shape) sqrt((f T / (2 shape))^2 - 1))` of its size, for `f T > 2 shape`.
 pub(crate) fn kaiser(count: usize, shape: f64) -> Vec<f64> {
     let weight = |j: usize| {
         let x = (j as f64 + 0.5) / count as f64;

@@ -348,7 +348,7 @@ fn listed_times(section: &Section<'_>, start: f64) -> Result<Times, Fault> {
         let onward = if backwards { time < previous } else { time > previous };
         if !(onward || (i == 0 && time == start)) {
             return Err(entry
-                .refuse("part of a list that is strictly increasing or strictly decreasing away from `time.start`"));
+                .refuse("beyond the time before it; times must increase or decrease strictly away from `time.start`"));
         }
         previous = time;
     }

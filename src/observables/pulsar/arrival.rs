@@ -58,8 +58,8 @@ pub fn arrivals<M: Motion<f64, State = BodyState<f64>>>(
     let turning = motion.turning();
     let bounds = RateBounds::of_motion(motion, &turning, first.start)?;
     bounds.check_countable(first.start, train.pulses.last().map_or(first.end, |last| last.end))?;
-    let mut turns = AzimuthFollower::new(motion, beam, line_of_sight, bounds.first, first.start)?;
-    let mut turn_at = |t| turns.at(t).map(|phase| (phase / TAU).round() as i64);
+    let mut azimuth = AzimuthFollower::new(motion, beam, line_of_sight, bounds.first, first.start)?;
+    let mut turn_at = |t| azimuth.at(t).map(|phase| (phase / TAU).round() as i64);
     match motion.projection(&beam.axis, line_of_sight) {
         Some(projection) => EdgeSearch::new(BySeries::new(&projection, beam), bounds).arrivals(train, &mut turn_at),
         None => {

@@ -113,10 +113,10 @@ mod tests {
         let (axis, rate) = (Vector3::new(0.36, 0.48, 0.8), 300.0);
         let motion = free(axis, axis * (0.8 * rate), (1.0, 2.0));
         let (beam, n) = (Beam::new(0.6, 0.3, 0.2), sight());
-        let mut turns = AzimuthFollower::new(&motion, &beam, &n, rate, 1.0).unwrap();
-        let first = turns.at(1.0).unwrap();
+        let mut follower = AzimuthFollower::new(&motion, &beam, &n, rate, 1.0).unwrap();
+        let first = follower.at(1.0).unwrap();
         for t in [1.001, 1.13, 1.7] {
-            assert!((turns.at(t).unwrap() - first - rate * (t - 1.0)).abs() < 1e-10, "{t}");
+            assert!((follower.at(t).unwrap() - first - rate * (t - 1.0)).abs() < 1e-10, "{t}");
         }
     }
 
@@ -134,13 +134,13 @@ mod tests {
             let pass = times.max_by(|a, b| along(*a).total_cmp(&along(*b))).unwrap();
             let exact = |t: f64| phase(&beam, &n, &motion.state(t).unwrap()).unwrap();
             for (before, after) in [(0.3, 0.4), (0.12, 0.7), (0.03, 0.07), (0.08, 0.06), (0.5, 0.02)] {
-                let mut turns = AzimuthFollower::new(&motion, &beam, &n, 4.2, pass - before).unwrap();
+                let mut follower = AzimuthFollower::new(&motion, &beam, &n, 4.2, pass - before).unwrap();
                 let mut last = exact(pass - before);
                 for k in 1..=2000 {
                     let next = exact(pass - before + (before + after) * f64::from(k) / 2000.0);
                     last += wrapped(next - last);
                 }
-                assert!((turns.at(pass + after).unwrap() - last).abs() < 1e-9, "{chi} {before} {after}");
+                assert!((follower.at(pass + after).unwrap() - last).abs() < 1e-9, "{chi} {before} {after}");
             }
         }
     }

@@ -66,7 +66,7 @@ impl<P: Margin> EdgeSearch<P> {
             mismatch <= allowed || mismatch <= allowed + 300.0 * self.margin.estimated_error(to.time),
             "third derivative of m.n times h^3, over a stretch of length h, by the stated law less that by the states",
             mismatch,
-            "within the bounds of the angular velocity; the states do not turn as the motion's `turning` says",
+            "at most what the bounds of the angular velocity leave open; the states do not turn as the motion's `turning` says",
         )
     }
 

@@ -109,7 +109,7 @@ impl QuasiPeriodicMotion {
             counts[angle] *= 2;
             Error::ensure(
                 counts.iter().product::<usize>() <= MOST_POINTS,
-                "amplitude, of the strongest line, at the edge of a grid of a quarter of a million points of the torus",
+                "largest amplitude at the edge of a grid of a quarter of a million points of the torus, relative to the strongest line",
                 edges[angle] / strongest,
                 "at most a tenth of the least amplitude; the lines of this function fall off slowly, as for a function with a jump",
             )?;

@@ -56,7 +56,7 @@ pub(in crate::propagation) fn span_of(start: f64, times: &[f64]) -> Result<(f64,
     let mut before = start;
     for &t in times {
         let onwards = if last >= start { before <= t && t <= last } else { before >= t && t >= last };
-        Error::ensure(onwards, "time t", t, "in the order in which the motion reaches the times from its start")?;
+        Error::ensure(onwards, "time t", t, "not before the preceding time, in the direction of the motion")?;
         before = t;
     }
     Ok((start, last))

@@ -95,7 +95,7 @@ impl<S: FlowScalar> ClosedOrbits<S> {
 
     /// Rounded to doubles.
     pub(super) fn rounded(&self) -> ClosedOrbits<f64> {
-        let half = |way: &HalfPeriod<S>| HalfPeriod { times: way.times.map(S::re), turn: way.turn.re() };
+        let half = |orbit: &HalfPeriod<S>| HalfPeriod { times: orbit.times.map(S::re), turn: orbit.turn.re() };
         ClosedOrbits {
             plane: self.plane.map(|v| v.map(S::re)),
             to_plane: half(&self.to_plane),
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn ways_are_closed_and_turn_the_body_as_told() {
+    fn orbits_are_closed_and_turn_the_body_as_stated() {
         for strength in [0.3, 0.1, 0.01] {
             let (integrals, start, orbits) = found(strength);
             let [n, momentum, u] = orbits.plane;
@@ -263,11 +263,11 @@ mod tests {
             let ahead = integrals.moved(orbits.to_plane.times, &start)[2];
             let turned = |u: &Vector3<f64>, by: f64| u * by.cos() + n.cross(u) * by.sin();
             assert!((turned(&u, orbits.to_plane.turn) - ahead).amax() < 1e-14, "{orbits:?}");
-            for way in [orbits.fast, orbits.slow] {
-                let end = integrals.moved(way.times.map(|time| 2.0 * time), &orbits.plane);
+            for orbit in [orbits.fast, orbits.slow] {
+                let end = integrals.moved(orbit.times.map(|time| 2.0 * time), &orbits.plane);
                 let gap = (end[0] - n).amax().max((end[1] - momentum).amax());
                 assert!(gap < 1e-13, "{gap:e}");
-                assert!((turned(&u, 2.0 * way.turn) - end[2]).amax() < 1e-13, "{way:?}");
+                assert!((turned(&u, 2.0 * orbit.turn) - end[2]).amax() < 1e-13, "{orbit:?}");
             }
             // Half of the slow orbit is half a turn about Z.
             let half = integrals.moved(orbits.slow.times, &orbits.plane);

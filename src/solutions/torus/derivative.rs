@@ -48,12 +48,12 @@ impl<'a> TorusDerivative<'a> {
     /// The derivatives for the solution of a problem, given the same problem as a function of one parameter.
     ///
     /// # Errors
-    /// [`Error::NotConverged`] for a torus so thin that its two flows are nearly parallel, as in steady motion, whose neighbours have a different
-    /// number of frequencies; [`Error::Unsupported`] if a closed orbit is not finite.
+    /// [`Error::Unsupported`] for a torus so thin that its two flows are nearly parallel, as in steady motion, whose neighbours have a different
+    /// number of frequencies, and if a closed orbit is not finite.
     pub(crate) fn new(solution: &'a TorusSolution, problem: &Problem<Dual64>) -> Result<Self, Error> {
         if solution.width <= THINNEST {
-            let what = "derivatives on the torus, as where n is on L or L is on an axis";
-            return Err(Error::NotConverged { what, iterations: 1, residual: solution.width });
+            let why = "the torus is too thin, as where n is along L or L is along an axis of s^IJ";
+            return Err(Error::Unsupported { what: "derivatives on the torus", why });
         }
         let (spheroid, coefficients) = (problem.spheroid(), problem.coefficients());
         let torus_from_given = solution.given_from_torus.transpose().map(Dual64::from_re);

@@ -250,11 +250,11 @@ impl<'a> Walk<'a> {
             for i in 0..CELL {
                 let mut at = row;
                 for j in 0..=CELL / 2 {
-                    let way = (a * i as f64 + b * j as f64) / CELL as f64;
+                    let path = (a * i as f64 + b * j as f64) / CELL as f64;
                     if !at[0].x.is_finite() {
                         return None;
                     }
-                    if (i, j) != (0, 0) && self.is_inside(&at, way, [a, b]) && self.add(&at, origin + way) {
+                    if (i, j) != (0, 0) && self.is_inside(&at, path, [a, b]) && self.add(&at, origin + path) {
                         continue 'found;
                     }
                     at = self.integrals.moved((b / CELL as f64).into(), &at);
@@ -267,9 +267,9 @@ impl<'a> Walk<'a> {
 
     /// Whether a state in the plane is predicted near a state at the end of a path, other than at a corner of the cell of two
     /// paths.
-    fn is_inside(&self, at: &Axes<f64>, way: Vector2<f64>, [a, b]: [Vector2<f64>; 2]) -> bool {
+    fn is_inside(&self, at: &Axes<f64>, path: Vector2<f64>, [a, b]: [Vector2<f64>; 2]) -> bool {
         let change = self.search.step_to_plane(at).change;
-        let parts = [(way + change).perp(&b), a.perp(&(way + change))].map(|area| area / a.perp(&b));
+        let parts = [(path + change).perp(&b), a.perp(&(path + change))].map(|area| area / a.perp(&b));
         let beside = parts.into_iter().any(|part| (part - part.round()).abs() > SAME / CELL as f64);
         beside && self.length(&change) < 2.0 / CELL as f64 * self.length(&a).max(self.length(&b))
     }
@@ -277,12 +277,12 @@ impl<'a> Walk<'a> {
     /// The shortest two independent paths between states that were found.
     fn basis(&self) -> Option<[Vector2<f64>; 2]> {
         let origin = self.found[0].0;
-        let mut orbits: Vec<_> = self.found[1..].iter().map(|(times, _)| times - origin).collect();
-        orbits.sort_by(|a, b| self.length(a).total_cmp(&self.length(b)));
+        let mut paths: Vec<_> = self.found[1..].iter().map(|(times, _)| times - origin).collect();
+        paths.sort_by(|a, b| self.length(a).total_cmp(&self.length(b)));
         let unit = self.metric.product().sqrt();
-        let first = *orbits.first()?;
-        let sine = |way: &Vector2<f64>| first.perp(way).abs() * unit / (self.length(&first) * self.length(way));
-        let second = orbits.iter().find(|way| sine(way) > PARALLEL)?;
+        let first = *paths.first()?;
+        let sine = |path: &Vector2<f64>| first.perp(path).abs() * unit / (self.length(&first) * self.length(path));
+        let second = paths.iter().find(|path| sine(path) > PARALLEL)?;
         Some(reduced(&self.metric, first, *second))
     }
 
@@ -293,7 +293,7 @@ impl<'a> Walk<'a> {
         let of_momentum = &self.metric_of_momentum;
         let [a, b] = reduced(of_momentum, a, b);
         let b = b - a * (along(&self.metric, &a, &b) / along(&self.metric, &a, &a)).round();
-        let ends = [a, b, a + b].map(|way| (way, self.integrals.moved(way.into(), &plane)));
+        let ends = [a, b, a + b].map(|path| (path, self.integrals.moved(path.into(), &plane)));
         let turned = [(plane.map(|v| half_turn(&v)), false), (plane.map(|v| about_x(&v)), true)];
         let gaps =
             (0..3).flat_map(|i| turned.map(|(turned, about_x)| (apart(&ends[i].1, &turned, self.unit), i, about_x)));
@@ -303,13 +303,13 @@ impl<'a> Walk<'a> {
         }
         let slow = ends[place].0;
         // Whole periods of the other kind are subtracted from each.
-        let less = |way: Vector2<f64>, by: Vector2<f64>, metric: &Vector2<f64>| {
-            way - by * (2.0 * (along(metric, &way, &by) / along(metric, &by, &by) / 2.0).round())
+        let less = |path: Vector2<f64>, by: Vector2<f64>, metric: &Vector2<f64>| {
+            path - by * (2.0 * (along(metric, &path, &by) / along(metric, &by, &by) / 2.0).round())
         };
         let others = (0..3).filter(|i| *i != place).map(|i| less(ends[i].0, slow, of_momentum));
         let fast = others.min_by(|a, b| along(of_momentum, a, a).total_cmp(&along(of_momentum, b, b)))?;
         let slow = less(slow, fast, &self.metric);
-        let forwards = |way: Vector2<f64>, flow: usize| way * way[flow].signum();
+        let forwards = |path: Vector2<f64>, flow: usize| path * path[flow].signum();
         let (fast, slow) = (forwards(fast, 0), forwards(slow, 1));
         // The same state, without whole periods from the start.
         let area = 2.0 * fast.perp(&slow);
@@ -333,7 +333,7 @@ mod tests {
     /// With large and small `L`, at rest, along `n`, on an axis, and with `n` in a potential well: half orbits end in the plane, one of them at the
     /// half turn of its start, and no state at half or a third of them is in the plane.
     #[test]
-    fn half_ways_lead_from_plane_to_plane() {
+    fn half_periods_lead_from_plane_to_plane() {
         let values = Vector3::new(-0.4, 0.0, 0.6);
         let integrals = Integrals::new(&BODY, &Matrix3::from_diagonal(&values), 1.0, DOUBLE);
         let tilted = Vector3::<f64>::new(0.48, 0.6, 0.64);
@@ -354,8 +354,8 @@ mod tests {
             let search = Search::new(&integrals, unit);
             let (_, plane) = search.on_to_plane(integrals.moved(found.to_plane, &start), found.to_plane).unwrap();
             let off = |[n, momentum, _]: &Axes<f64>| n.y.abs().max((momentum.y / unit).abs());
-            let half = |orbits: [[f64; 2]; 2], shares: [f64; 2]| {
-                let times = [0, 1].map(|i| orbits[0][i] * shares[0] + orbits[1][i] * shares[1]);
+            let half = |paths: [[f64; 2]; 2], shares: [f64; 2]| {
+                let times = [0, 1].map(|i| paths[0][i] * shares[0] + paths[1][i] * shares[1]);
                 integrals.moved(times, &plane)
             };
             let at = |shares| half([found.fast, found.slow], shares);

@@ -198,7 +198,7 @@ fn decades() -> Result<Measured, String> {
                 let [two, one, minus_one, minus_two] = [at(2.0)?, at(1.0)?, at(-1.0)?, at(-2.0)?];
                 for kind in [Observable::Arrivals, Observable::Widths, Observable::StrainPlus, Observable::StrainCross]
                 {
-                    // Waves at fixed times turn many times during a step of a rate.
+                    // Waves at fixed times turn many times during a step of a rate, and after 1e6 turns a moved start is rounded.
                     if !kind.is_of_pulses() && (changes_rates || [Alpha, Gamma].contains(unknown)) {
                         continue;
                     }
@@ -284,7 +284,7 @@ const SYMMETRIES: [&str; 8] = [
     "line of sight on X-Y: no direction",
 ];
 
-/// Number of directions that are missing, without their words, or too many.
+/// The larger of the number of expected words that no direction has, and the difference of the numbers of directions.
 fn amiss(found: &[Direction], expected: &[&str]) -> usize {
     let is_named = |words: &&&str| found.iter().any(|direction| direction.words.is_some_and(|w| w.contains(**words)));
     let missing = expected.len() - expected.iter().filter(is_named).count();

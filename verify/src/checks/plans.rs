@@ -43,17 +43,18 @@ checks! {
      that they are divided by; truncation is 1e-15";
 }
 
-/// Largest difference from the numerical motion at a time over the sum of both error estimates, for a body in units `I^xx = C = 1`. The unit of `L`
-/// is its initial size plus what the torque can add.
+/// Largest difference from the numerical motion at a time over the sum of both error estimates. The unit of `L` is its initial size plus what the torque
+/// can add.
 fn over_estimates(
     motion: &impl Motion<f64, State = BodyState<f64>>,
     exact: &TaylorMotion<f64>,
     problem: &Problem<f64>,
     t: f64,
 ) -> Result<f64, Error> {
-    let s = problem.coefficients();
+    let (body, s) = (problem.spheroid(), problem.coefficients());
     let anisotropic = s - Matrix3::from_diagonal_element(s.trace() / 3.0);
-    let size = problem.initial().momentum.norm() + (2.0 * anisotropic.norm()).sqrt();
+    let pull = (2.0 * body.inertia_xx * body.constant_c.abs() * anisotropic.norm()).sqrt();
+    let size = problem.initial().momentum.norm() + pull;
     let off = largest_difference(&motion.state(t)?, &exact.state(t)?, size);
     Ok(off / (motion.error_estimate(t) + exact.error_estimate(t)))
 }
@@ -175,9 +176,9 @@ fn steady_motion() -> Result<Measured, String> {
         // A rotation faster by 1e-6 is not steady, if the torque is above rounding.
         let initial = problem.initial();
         let beside = problem.starting_from(BodyState { momentum: initial.momentum * (1.0 + 1e-6), ..*initial })?;
-        let pull = scene.s.zz - scene.s.xx;
+        let pull = body.constant_c * (scene.s.zz - scene.s.xx) / body.inertia_xx;
         let (sin, cos) = angles.beta.sin_cos();
-        let speed = rate.abs() + initial.momentum.norm() + (2.0 * pull.abs()).sqrt();
+        let speed = rate.abs() + initial.momentum.norm() / body.inertia_xx + (2.0 * pull.abs()).sqrt();
         let noticed = 1e-6 * (2.0 * pull * sin * cos).abs() / (speed * speed) > 1e-13;
         if noticed && UniformMotion::steady(&beside, span).is_ok() {
             return Err("a state beside steady precession was taken for one".into());

@@ -19,7 +19,7 @@ checks! {
     Property "propagation-integrals" [24]: integrals_of_examples;
     AtMost(1e-14) "largest drift / sum of the magnitudes of the integral's terms";
     because "rounding of 1,200 steps adds up as their square root, 35 times 1.1e-16";
-    /// E, Omega^z, K, |n|, |e_x| and n.e_x are conserved along random motions over 50 t_c
+    /// E, Omega^z, K, |n|, |e_x| and n.e_x are conserved along random motions over 50 units of time
     Property "propagation-random-integrals" [24]: integrals_of_random_motions;
     AtMost(8.0) "largest drift / (sum of magnitudes, 2.2e-16, sqrt(steps + 1))";
     because "a random walk of the rounding of each step, a few ulp at most each";
@@ -31,7 +31,7 @@ checks! {
     Autodiff "propagation-derivatives" [25]: derivatives_by_duals;
     AtMost(1e-6) "largest |dual - difference| / largest derivative";
     because "a central difference of step 1e-5 has 1e-10 of truncation, grown with t^3, and 1e-8 of rounding";
-    /// a random motion propagated over 30 t_c and back returns to its start
+    /// a random motion propagated over 30 units of time and back returns to its start
     Property "propagation-time-reversal" [25]: time_reversal;
     AtMost(1.0) "largest error / sum of the two error estimates";
     because "the equations are reversible; what remains is the error that both ways estimate, and the other rate at which the way back turns e_x \

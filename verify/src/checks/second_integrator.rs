@@ -6,11 +6,11 @@ use crate::second_integrator::{motion_in_angles, regular_motion};
 checks! {
     /// a Runge-Kutta method of another crate gives the same motion by the regular equations
     Oracle "second-integrator" [25]: regular_forms;
-    AtMost(1e-11) "largest difference of n, L, e_x after 20 t_c, 200 random scenes";
+    AtMost(1e-11) "largest difference of n, L, e_x after 20 units of time, 200 random scenes";
     because "the other method's tolerance 1e-13 per step, added up over some hundred steps and grown with the phase";
     /// away from the poles the motion by Eq. (25) in Euler angles, turns counted, is that of the regular equations
     Property "second-integrator-angles" [22, 25]: forms_agree;
-    AtMost(1e-10) "largest difference of alpha, beta, gamma after 20 t_c, random scenes whose axis stays 0.1 rad off the poles";
+    AtMost(1e-10) "largest difference of alpha, beta, gamma after 20 units of time, random scenes whose axis stays 0.1 rad off the poles";
     because "1e-11 of the regular equations, divided by the least sin(beta) of 0.1";
 }
 

@@ -12,7 +12,7 @@ checks! {
     Oracle "symmetric-reference" [25]: against_reference;
     AtMost(1e-13) "largest error of a component";
     because "phases of 300 rad with frequencies rounded to 2.2e-16";
-    /// the exact solution and the numerical motion agree in n and e_x over 50 t_c, at random for s^XX = s^YY
+    /// the exact solution and the numerical motion agree in n and e_x over 50 units of time, at random for s^XX = s^YY
     Oracle "symmetric-propagation" [25]: || worst_over(31, 300, &symmetric_scenes(), compare_with_propagation);
     AtMost(1.0) "largest difference / (error estimate of the numerical motion + 8 roundings of phase, initial angle and initial rate)";
     because "the same motion, computed twice; eight initial values and parameters are rounded";
@@ -31,7 +31,7 @@ checks! {
     because "a few roundings of the rates, times the time";
     /// started on either root of Eq. (26) the exact solution precesses steadily at that rate
     Property "symmetric-steady" [26]: steady;
-    AtMost(4.0) "largest error of the angles at 50 t_c / (1 + phase, 1 + 1 / (stiffness sin^2 b), 2.2e-16)";
+    AtMost(4.0) "largest error of the angles at 50 units of time / (1 + phase, 1 + 1 / (stiffness sin^2 b), 2.2e-16)";
     because "roundings of the rates, times the time";
     /// after any number of periods beta returns and alpha, gamma have advanced by their mean rates
     Property "symmetric-period" [25]: periods;
@@ -187,7 +187,9 @@ fn derivatives() -> Result<Measured, String> {
 /// `1 +` the angle of rotation in `t` (rad).
 fn phase(scene: &RandomScene, t: f64) -> f64 {
     let state = scene.state();
-    1.0 + t * (state.momentum.norm() + (scene.rates.alpha.abs() + scene.rates.beta.abs() + scene.rates.gamma.abs()))
+    1.0 + t
+        * (state.momentum.norm() / scene.spheroid.inertia_xx
+            + (scene.rates.alpha.abs() + scene.rates.beta.abs() + scene.rates.gamma.abs()))
 }
 
 fn free_limit() -> Result<Measured, String> {

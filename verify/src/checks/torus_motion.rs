@@ -9,7 +9,7 @@ use twofold::solutions::torus::TorusSolution;
 checks! {
     /// a motion reflected in a principal plane of s^IJ, with n and L as vectors, is a motion in -t
     Property "torus-reflection" [25]: reflection;
-    AtMost(1e-11) "largest difference of a component, 50 random motions over 20 t_c, each plane, by two integrators";
+    AtMost(1e-11) "largest difference of a component, 50 random motions over 20 units of time, each plane, by two integrators";
     because "two integrations of some 40 rad at the tolerance 1e-13, whose estimated errors add to some 5e-12";
     /// energy, Omega^z, K and |n| are the same at every point of the torus, and n.e_x is zero there
     Property "torus-integrals" [24, 25]: integrals;

@@ -41,7 +41,7 @@ impl Case {
 
     /// A bound on the angular velocity of the body.
     pub(super) fn turning(&self, state: &BodyState<f64>) -> f64 {
-        state.momentum.norm() / self.motion.spheroid().inertia_zz.min(1.0)
+        state.momentum.norm() / self.motion.spheroid().inertia_zz.min(self.motion.spheroid().inertia_xx)
     }
 }
 

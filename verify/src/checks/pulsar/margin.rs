@@ -22,7 +22,7 @@ checks! {
     /// the fourth and the sixth time derivative of m.n also stay below their bounds, by their mean values: the first and third divided differences
     /// of the third derivative
     Property "beam-margin-high-bounds" [44]: high_rates_within_bounds;
-    AtMost(1.0) "largest mean value / its bound, 40 random motions without and with a bulge, steps of 0.04 t_c";
+    AtMost(1.0) "largest mean value / its bound, 40 random motions without and with a bulge, steps of 0.04 units of time";
     because "a bound of a derivative bounds its mean values; rounding of a third difference is 1e-11";
 }
 
@@ -75,7 +75,7 @@ fn problem_of(scene: &RandomScene, bulge: bool) -> Result<Problem<f64>, Error> {
 /// States by time.
 type States<S> = Box<dyn Fn(S) -> Result<BodyState<S>, Error>>;
 
-/// States over 20 t_c: by Taylor series, or of the averaged motion, which is exact for a bulge alone.
+/// States over 20 units of time: by Taylor series, or of the averaged motion, which is exact for a bulge alone.
 fn states<S: Real>(problem: &Problem<S>, tolerance: f64) -> Result<States<S>, Error> {
     if problem.bulge().re() == 0.0 {
         let motion = problem.taylor((0.0, 20.0), tolerance)?;
@@ -100,7 +100,7 @@ fn beam_and_observer(scene: &RandomScene) -> (Beam<f64>, Vector3<f64>) {
 }
 
 /// The largest figure from the three bounds at the start, the margin and its rates by the kernel, and its first three
-/// derivatives by duals, at 25 times of 40 random motions over 20 t_c.
+/// derivatives by duals, at 25 times of 40 random motions over 20 units of time.
 fn along_motions(bulge: bool, figure: fn([f64; 3], [f64; 4], [f64; 4]) -> f64) -> Result<Measured, String> {
     worst_over(44, 40, &scenes(), |scene| Ok(of_motion(scene, bulge, figure)?))
 }

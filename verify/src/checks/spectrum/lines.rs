@@ -18,8 +18,8 @@ checks! {
     because "two hundred lines of the next decade below 4e-13 are left out, and the numerical motion is right to 1e-11";
     /// amplitudes and phases of the twenty strongest lines of each are those of the Fourier integral over the numerical motion
     Oracle "lines-of-motion" [47, 71]: lines_by_fourier_integral;
-    AtMost(5e-9) "largest difference of a complex amplitude, Kaiser window of shape 20 over 24,000 t_c";
-    because "no two lines are nearer than 0.028 / t_c, where the window lets through 2.5e-9 of a line; the others are 2 in sum";
+    AtMost(5e-10) "largest difference of a complex amplitude, Kaiser window of shape 20 over 24,000 t_c";
+    because "no two lines are nearer than 0.028 / t_c, where the window lets through 2.5e-10 of a line; the others are 2 in sum";
     /// m.n and h_+ of motions in random frames, with axes, sizes of L and coefficients drawn at random, are the sums of their lines
     Property "lines-random" [47, 71]: random_motions;
     AtMost(1e-9) "largest difference from the numerical motion, 40 motions, 5 times up to 200 t_c each; infinite if a line is not at the combination \
