@@ -49,7 +49,7 @@ impl Simulation {
     /// decide nothing.
     ///
     /// # Errors
-    /// If a motion cannot be computed, or none of a thousand scenes is accepted; eight are enough.
+    /// If a motion cannot be computed, or none of a thousand scenes is accepted; one of eight or nine is.
     pub fn new(seed: u64) -> Result<Self, InferenceError> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let campaign = [Campaign::Pulses, Campaign::Strain, Campaign::Both][(seed % 3) as usize];
