@@ -64,8 +64,7 @@ impl fmt::Display for Error {
             }
             Error::Unsupported { what, why } => write!(f, "{what}: {why}"),
             Error::NotConverged { what, iterations, residual } => {
-                let plural = if *iterations == 1 { "" } else { "s" };
-                write!(f, "{what}: no convergence in {iterations} iteration{plural}, residual {residual:e}")
+                write!(f, "{what}: no convergence in {iterations} iterations, residual {residual:e}")
             }
         }
     }

@@ -31,7 +31,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 use twofold::Error;
-use twofold_scene::scene_file::SceneError;
+use twofold_scene::scene_file::{SceneError, counted};
 use twofold_verify::{claims, equation_table, stability};
 
 pub(crate) use inference_arguments::{FisherArgs, FitArgs, ForecastArgs, MeasurementArgs, TableArgs};
@@ -253,12 +253,6 @@ fn status(result: Result<(), Failure>) -> ExitCode {
 fn end(status: u8, message: &str) -> ExitCode {
     let _ = writeln!(io::stderr(), "error: {message}");
     ExitCode::from(status)
-}
-
-/// A count with its noun: `1 prior` or `2 priors`.
-fn counted<N: std::fmt::Display + PartialEq + From<u8>>(number: N, noun: &str) -> String {
-    let plural = if number == N::from(1) { "" } else { "s" };
-    format!("{number} {noun}{plural}")
 }
 
 /// A line on standard error that is not an error.

@@ -25,7 +25,7 @@ pub(crate) use document::{Entry, FileFormat, Replaced, Section};
 pub(crate) use fault::Fault;
 pub use fault::SceneError;
 pub use motion::Units;
-pub use names::{did_you_mean, listed, nearest, shortened};
+pub use names::{counted, did_you_mean, listed, nearest, shortened};
 pub use observation::{COLUMN_GROUPS, Catalogued, MOST_SAMPLES, Pulsar, Times, Viewer, column_group, like_julian_date};
 pub(crate) use observation::{NAMELESS, columns_in, read_end, read_times, read_tolerance_and_method};
 pub use spin_down::{IndexOrSecond, SpinDown};

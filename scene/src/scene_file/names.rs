@@ -9,6 +9,12 @@ pub fn listed(names: &[&str]) -> String {
     }
 }
 
+/// A count with its noun: `1 prior` or `2 priors`.
+pub fn counted<N: std::fmt::Display + PartialEq + From<u8>>(number: N, noun: &str) -> String {
+    let plural = if number == N::from(1) { "" } else { "s" };
+    format!("{number} {noun}{plural}")
+}
+
 /// The text on one line, without control characters, truncated after 40 characters.
 pub fn shortened(text: &str) -> String {
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ").replace(char::is_control, "\u{fffd}");

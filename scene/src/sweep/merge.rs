@@ -4,6 +4,7 @@ use std::io::{self, BufRead, Write};
 
 use super::Sweep;
 use super::chunk::start_of_row;
+use crate::scene_file::counted;
 
 /// Writes the rows of `parts`, named tables, under one header; together they must be all scenes of the sweep, in order. The first and the
 /// last row of each part that have numbers are computed again. Returns how many rows of each part are `failed`.
@@ -74,8 +75,7 @@ fn is_failed(names: &[String], status: usize, row: &[u8]) -> Result<bool, String
     let row = String::from_utf8_lossy(row);
     let fields: Vec<_> = row.trim_end_matches('\n').split(',').collect();
     if fields.len() != names.len() {
-        let plural = if fields.len() == 1 { "" } else { "s" };
-        return Err(format!("{} field{plural}: must be {}", fields.len(), names.len()));
+        return Err(format!("{}: must be {}", counted(fields.len(), "field"), names.len()));
     }
     let (is_failed, allowed) = match fields[status] {
         "ok" => (false, "a number or empty"),
@@ -119,8 +119,8 @@ pub fn merge_errors(
         count += 1;
     }
     if count != failed {
-        let plural = if count == 1 { "" } else { "s" };
-        return Err(format!("{part} has {count} row{plural}: must be {failed}, one for each scene that failed"));
+        let rows = counted(count, "row");
+        return Err(format!("{part} has {rows}: must be {failed}, one for each scene that failed"));
     }
     writer.flush().map_err(|error| format!("the table of errors: {error}"))
 }

@@ -108,8 +108,7 @@ pub(super) fn integrated(
     let Braking { rate, index, torque_share } = *time.braking();
     let initial = problem.initial();
     let slowed = problem.starting_from(BodyState { momentum: initial.momentum * time.slowing(0.0), ..*initial })?;
-    // From the angles, independently of the harmonics in the model.
-    let mean = 1.0 - (wobble.cos() * chi.cos()).powi(2) - 0.5 * (wobble.sin() * chi.sin()).powi(2);
+    let mean = mean_squared_sine(wobble, chi);
     let modulation = torque_share / (1.0 - torque_share + torque_share * mean);
     braked_states(
         &slowed,
@@ -118,6 +117,11 @@ pub(super) fn integrated(
         times,
         1e-14,
     )
+}
+
+/// Mean of `sin^2` of the angle between the magnetic axis and `L` over a precession, from the angles, independently of the harmonics in the model.
+fn mean_squared_sine(wobble: f64, chi: f64) -> f64 {
+    1.0 - (wobble.cos() * chi.cos()).powi(2) - 0.5 * (wobble.sin() * chi.sin()).powi(2)
 }
 
 fn difference(clock: &PulsarClock, time: f64, state: &BodyState<f64>) -> Result<f64, String> {
@@ -277,9 +281,8 @@ fn damped_residual() -> Result<Measured, String> {
     let off = worst_of(times.iter().zip(&states), |(time, state)| difference(&clock, **time, state))?;
     // sin^2 theta_m has the harmonics a_1 cos psi + a_2 cos 2 psi; the delay is its second integral. It falls with the wobble.
     let ((sin, cos), (sin_chi, cos_chi)) = (WOBBLE.sin_cos(), CHI.sin_cos());
-    let mean = 1.0 - (cos * cos_chi).powi(2) - 0.5 * (sin * sin_chi).powi(2);
     let (once, twice) = (2.0 * sin * cos * sin_chi * cos_chi, 0.5 * (sin * sin_chi).powi(2));
-    let oscillation = time.braking().rate / mean * (once + twice / 4.0) / (rate * rate);
+    let oscillation = time.braking().rate / mean_squared_sine(WOBBLE, CHI) * (once + twice / 4.0) / (rate * rate);
     let detail = format!("oscillation up to {oscillation:.1e} rad, differences up to {:.1e}", off.figure);
     Ok(Measured::new(off.figure / oscillation, detail))
 }

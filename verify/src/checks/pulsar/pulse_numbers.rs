@@ -86,7 +86,8 @@ impl Counts {
             let (l, m, o) = (state.momentum.normalize(), case.beam.direction(&state), case.observer);
             Ok(l.dot(&o.cross(&m)).atan2(o.dot(&m) - l.dot(&o) * l.dot(&m)))
         };
-        let (mut time, mut at, mut turned) = (0.0, azimuth(0.0)?, 0.0);
+        let mut at = azimuth(0.0)?;
+        let (mut time, mut unwrapped) = (0.0, at);
         let mut numbers = Vec::new();
         for arrival in found {
             while time < arrival.closest_approach {
@@ -96,9 +97,9 @@ impl Counts {
                 if step.abs() > 0.5 {
                     return Ok(());
                 }
-                (at, turned) = (next, turned + step);
+                (at, unwrapped) = (next, unwrapped + step);
             }
-            numbers.push(((turned + azimuth(0.0)?) / TAU).round() as i64);
+            numbers.push((unwrapped / TAU).round() as i64);
         }
         let Some((first, last)) = numbers.first().copied().zip(numbers.last().copied()) else { return Ok(()) };
         let sense = if last < first { -1 } else { 1 };
