@@ -81,7 +81,7 @@ impl QuasiPeriodicMotion {
 
     /// Frequency (rad per unit of time) of a combination of the three angles, and its estimated error.
     pub(super) fn frequency(&self, multiples: [i32; 3]) -> [f64; 2] {
-        let sum = self.turns(multiples).high * TAU;
+        let sum = (self.turns(multiples) * DoubleDouble::TAU).high;
         let order: i32 = multiples.iter().map(|k| k.abs()).sum();
         [sum, f64::from(order) * self.rate_error + f64::EPSILON * sum.abs()]
     }

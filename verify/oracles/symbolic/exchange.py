@@ -16,7 +16,8 @@ mp.mp.dps = 60
 ANY = (-24, 24, 8)
 LAYOUT = {
     "angles": {name: ANY for name in "alpha gamma frame_alpha frame_gamma phi_o delta azimuth x y".split()}
-    | {name: (2, 7, 8) for name in ("beta", "frame_beta", "theta_o", "half_width", "half_opening", "zeta", "colatitude", "chi")},
+    | {name: (2, 20, 8) for name in ("beta", "frame_beta", "theta_o", "half_width", "zeta", "colatitude", "chi")}
+    | {"half_opening": (2, 7, 8)},
     "numbers": {name: (4, 16, 8) for name in "i_xx i_zz c j_1 j_2 j_3 spin size distance rho".split()}
     | {name: (-16, 16, 8) for name in "alpha_1 beta_1 gamma_1 alpha_2 beta_2 gamma_2 w_1 w_2 w_3 g_1 g_2 g_3".split()}
     | {name: (1, 15, 16) for name in "x_1 x_2 x_3 x_4 x_5 amplitude".split()}
@@ -28,12 +29,12 @@ LAYOUT = {
 
 
 def draw(generator):
-    """A point: numbers by name, an angle by its t. Zeros are excluded: they would hide a term."""
+    """A point: numbers by name, an angle by its t. Zeros and right angles are excluded: they would hide a term."""
     point = {}
-    for ranges in LAYOUT.values():
+    for kind, ranges in LAYOUT.items():
         for name, (low, high, denominator) in ranges.items():
             numerator = 0
-            while numerator == 0:
+            while numerator == 0 or (kind == "angles" and abs(numerator) == denominator):
                 numerator = generator.randint(low, high)
             point[name] = Fraction(numerator, denominator)
     return point

@@ -5,7 +5,7 @@ stretched time tau with dtau / dt = f / f_0 = 1 / u this is d(u^(n - 2)) / dtau 
 tau = 0: the oscillating part of the integral has no constant.
 """
 
-from sympy import Matrix, asinh, atan, cos, diff, exp, integrate, pi, sin, sqrt, symbols, tan
+from sympy import Matrix, asinh, atan2, cos, diff, exp, integrate, pi, sin, sqrt, symbols, tan
 
 from coordinates import rotation
 
@@ -64,11 +64,12 @@ def delay():
 def damped():
     """The wobble damped by friction, d theta / dtau = -gamma sin theta cos theta, and the lead of psi, with the rate w cos theta / cos theta_0, over
     w tau."""
-    wobble = atan(tan(theta) * exp(-damping * s))
+    wobble = atan2(sin(theta) * exp(-damping * s), cos(theta))
     assert (diff(wobble, s) + damping * sin(wobble) * cos(wobble)).simplify() == 0
-    # cos theta = 1 / sqrt(1 + tan^2 theta).
     swept = rate / (cos(theta) * damping) * (asinh(exp(damping * s) / tan(theta)) - asinh(1 / tan(theta)))
     speed = rate * cos(wobble) / cos(theta)
-    point = {theta: 0.7, symbols("size"): 1.3, symbols("x_5"): 0.6, s: 2.1}
-    assert abs((diff(swept, s) - speed).subs(point).evalf(30)) < 1e-13 and swept.subs(s, 0) == 0
+    for colatitude in (0.7, 2.2):
+        point = {theta: colatitude, symbols("size"): 1.3, symbols("x_5"): 0.6, s: 2.1}
+        assert abs((diff(swept, s) - speed).subs(point).evalf(30)) < 1e-13
+    assert swept.subs(s, 0) == 0
     return wobble.subs(s, tau), (swept - rate * s).subs(s, tau)

@@ -6,7 +6,7 @@ use super::RationalPoint;
 use super::point::Coded;
 use crate::prelude::*;
 
-/// A range of fractions `n / denominator` with `low <= n <= high`, without zero.
+/// A range of fractions `n / denominator` with `low <= n <= high`, without zero, and for an angle without the right angle, which would hide a term.
 type Range = (i32, i32, i32);
 
 /// Names of angles and numbers with their ranges.
@@ -43,18 +43,19 @@ pub struct Document {
 impl Layout {
     /// A random point, drawn from the ranges in the order of the names.
     pub fn draw(&self, random: &mut Random) -> BTreeMap<String, (i32, i32)> {
-        let mut fraction = |&(low, high, denominator): &Range| {
+        let mut fraction = |&(low, high, denominator): &Range, is_angle: bool| {
             let count = u64::from(high.abs_diff(low)) + 1;
             loop {
                 // The bias is at most 49 of 2^64, which is negligible.
                 let numerator = low + (random.word() % count) as i32;
-                if numerator != 0 {
+                if numerator != 0 && !(is_angle && numerator.abs() == denominator) {
                     return (numerator, denominator);
                 }
             }
         };
-        let all = self.angles.iter().chain(&self.numbers);
-        all.map(|(name, range)| (name.clone(), fraction(range))).collect()
+        let angles = self.angles.iter().map(|of| (of, true));
+        let all = angles.chain(self.numbers.iter().map(|of| (of, false)));
+        all.map(|((name, range), is_angle)| (name.clone(), fraction(range, is_angle))).collect()
     }
 
     /// A point over another type of numbers.

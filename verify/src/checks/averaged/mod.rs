@@ -4,6 +4,6 @@ pub(super) mod averaging;
 pub(super) mod decades;
 pub(super) mod derivatives;
 pub(super) mod estimates;
-pub(super) mod orders;
+pub(in crate::checks) mod orders;
 mod scenes;
 pub(super) mod top;

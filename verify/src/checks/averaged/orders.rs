@@ -40,7 +40,7 @@ const ORDERS: [AveragingOrder; 2] = [AveragingOrder::First, AveragingOrder::Seco
 const SCALES: [f64; 5] = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3];
 
 /// tp-II with `s` scaled by `k`.
-fn tp_2(k: f64) -> Result<Problem<f64>, Error> {
+pub(in crate::checks) fn tp_2(k: f64) -> Result<Problem<f64>, Error> {
     let scene = reference_motion("tp-2");
     Problem::new(scene.spheroid, scene.coefficients.scaled(k).tensor(), scene.initial())
 }
@@ -113,14 +113,23 @@ fn random_geometries() -> Result<Measured, String> {
     }
 }
 
+/// States of [`tp_2`] at late times, from `data/mean_reference.csv`: `k`, the time and the state.
+pub(in crate::checks) fn late_states_of_tp_2() -> Result<Vec<(f64, f64, BodyState<f64>)>, String> {
+    let lines = include_str!("../../../data/mean_reference.csv").lines().filter(|line| !line.starts_with(['#', 'k']));
+    lines
+        .map(|line| {
+            let numbers: Vec<f64> =
+                line.split(',').map(|cell| cell.parse().map_err(|_| line.to_owned())).collect::<Result<_, _>>()?;
+            let state = BodyState::from_vectors([2, 5, 8].map(|i| Vector3::from_column_slice(&numbers[i..i + 3])));
+            Ok((numbers[0], numbers[1], state))
+        })
+        .collect()
+}
+
 /// Errors of both orders by `k`: the largest over the times of the reference.
 fn errors_of_reference() -> Result<Vec<(f64, [f64; 2])>, String> {
     let mut errors: Vec<(f64, [f64; 2])> = Vec::new();
-    for line in include_str!("../../../data/mean_reference.csv").lines().filter(|line| !line.starts_with(['#', 'k'])) {
-        let numbers: Vec<f64> =
-            line.split(',').map(|cell| cell.parse().map_err(|_| line.to_owned())).collect::<Result<_, _>>()?;
-        let [k, t] = [numbers[0], numbers[1]];
-        let exact = BodyState::from_vectors([2, 5, 8].map(|i| Vector3::from_column_slice(&numbers[i..i + 3])));
+    for (k, t, exact) in late_states_of_tp_2()? {
         if errors.last().is_none_or(|(last, _)| *last != k) {
             errors.push((k, [0.0; 2]));
         }

@@ -3,6 +3,7 @@
 
 use nalgebra::Complex;
 
+use super::super::averaged::orders::{late_states_of_tp_2, tp_2};
 use super::signals::{LEAST, examples, lines_of_signals, rate, signals_of, strongest};
 use crate::mean_rate::{azimuth_of_momentum, kaiser, mean_rate_of};
 use crate::prelude::*;
@@ -25,6 +26,11 @@ checks! {
     AtMost(1e-9) "largest difference from the numerical motion, 40 motions, 5 times up to 200 t_c each; infinite if a line is not at the combination \
      that it is called, or the least amplitude is above 2e-11";
     because "up to a thousand lines below 1e-12 are left out";
+    /// at late times the components of n and e_x along X are the sums of their lines, within the error that each line states for its frequency: tp-II
+    /// with s scaled by 1e-4 to 1e-6, compared with states computed with 32 digits
+    Oracle "line-uncertainties" [25, 57]: uncertainties;
+    AtMost(1.0) "largest difference from the state / (sum over the lines of amplitude x stated error x t, and 1e-11), 3e5 to 1.5e7 t_c";
+    because "frequencies are rounded once, by at most half of the stated error; the lines below 1e-12 that are left out add to less than 1e-11";
     /// in free precession m.n has exactly four lines, alpha', |gamma'| and alpha' +- gamma', with amplitudes in closed form, and h exactly two, alpha'
     /// and 2 alpha'
     Oracle "free-precession-lines" [47, 48, 68, 71]: free_precession;
@@ -52,6 +58,29 @@ checks! {
 
 fn sum(list: &LineList, t: f64) -> f64 {
     list.constant + list.lines.iter().map(|line| line.value(t)).sum::<f64>()
+}
+
+fn uncertainties() -> Result<Measured, String> {
+    let late: Vec<_> = late_states_of_tp_2()?.into_iter().filter(|(_, t, _)| *t > 2e5).collect();
+    let mut scales: Vec<f64> = late.iter().map(|(k, ..)| *k).collect();
+    scales.dedup();
+    worst_of(scales, |&k| {
+        let motion = QuasiPeriodicMotion::new(&tp_2(k)?)?;
+        worst_of(0..2, |&vector| {
+            let component = |state: &BodyState<f64>| [state.axis, state.equatorial_axis][vector].x;
+            let list = motion.lines(LEAST, |state| Ok::<_, Error>([component(state), 1.0]))?;
+            worst_of(late.iter().filter(|(of, ..)| *of == k), |(_, t, state)| {
+                // The angle over the whole time, to 32 digits: its rounding would be as large as that of the frequency.
+                let value = |line: &SpectralLine| {
+                    let angle = DoubleDouble::from_f64(line.frequency) * *t + DoubleDouble::from_f64(line.phase);
+                    line.amplitude * angle.sin_cos().1.high()
+                };
+                let sum = list.constant + list.lines.iter().map(value).sum::<f64>();
+                let stated: f64 = list.lines.iter().map(|line| line.amplitude * line.uncertainty).sum();
+                Ok((sum - component(state)).abs() / (stated * t + 1e-11))
+            })
+        })
+    })
 }
 
 fn sums_of_lines() -> Result<Measured, String> {
