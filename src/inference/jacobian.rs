@@ -254,6 +254,7 @@ impl Jacobian {
 mod tests {
     use super::*;
     use crate::inference::{Signal, data_of, stars};
+    use crate::propagation::Motion;
 
     fn strain_at(star: &Parameters<f64>, times: &[f64]) -> Vec<Datum> {
         let signal = Signal::new(star, *times.last().expect("a time")).expect("a motion");
@@ -277,6 +278,36 @@ mod tests {
                 assert_eq!(weighted.matrix[(row, column)] * datum.sigma, found.matrix[(row, column)]);
                 assert_eq!(weighted.magnitudes[(row, column)] * datum.sigma, found.magnitudes[(row, column)]);
             }
+        }
+    }
+
+    /// By differences of `m.n`: an edge moves by `sin(rho) / |d(m.n)/dt|` per radian, the closest approach by the rotation rate over `|d2(m.n)/dt2|`, and
+    /// a period as both of its pulses.
+    #[test]
+    fn rounding_of_pulses_is_that_of_the_directions() {
+        let mut star = stars::precessing();
+        star.spheroid.inertia_xx = 2.0;
+        star.spheroid.inertia_zz *= 2.0;
+        let signal = Signal::new(&star, 20.0).expect("a motion");
+        let events = signal.events().expect("pulses");
+        let kinds = [Observable::Arrivals, Observable::ClosestApproaches, Observable::Periods].map(|kind| (kind, 1.0));
+        let data = data_of(&signal, &events, &[], &kinds).expect("data");
+        let found = jacobian(&star, &events, &data, &[Parameter::Spin]).expect("derivatives");
+        let motion = star.problem().and_then(|problem| problem.taylor((0.0, 20.0), 1e-14)).expect("a motion");
+        let margin = |t: f64| star.beam().margin(&motion.state(t).expect("a state"), &star.observer().direction);
+        let h = 1e-4;
+        let edge = |t: f64| star.rho.sin() * 2.0 * h / (margin(t + h) - margin(t - h)).abs();
+        let edges = |event: &Event| edge(event.start) + edge(event.end);
+        let closest = |event: &Event| {
+            let t = event.closest;
+            turning_rate(&star) * h * h / (margin(t + h) - 2.0 * margin(t) + margin(t - h)).abs()
+        };
+        let expected = events.iter().map(edges).chain(events.iter().map(closest));
+        let expected = expected.chain(events.windows(2).map(|pair| edges(&pair[0]) + edges(&pair[1])));
+        let expected: Vec<f64> = expected.collect();
+        assert!(events.len() > 2 && expected.len() == data.len(), "{events:?}");
+        for (found, expected) in found.rounding.iter().zip(expected) {
+            assert!((found / (expected * 2e-12) - 1.0).abs() < 0.1, "{found:e} {expected:e}");
         }
     }
 

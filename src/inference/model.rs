@@ -159,3 +159,46 @@ impl Model for TimingModel {
         Vec::new()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::inference::stars;
+
+    #[test]
+    fn last_digits_and_differences_are_those_of_the_stored_values() {
+        let star = stars::precessing();
+        let other = star.moved(&[Parameter::ThetaO], &[0.25]);
+        assert_relative_eq!(
+            Model::difference(&other, &star, Parameter::ThetaO),
+            0.25,
+            max_relative = 1e-15,
+            epsilon = 0.0
+        );
+        assert_eq!(Model::last_digit(&star, Parameter::ThetaO), f64::EPSILON * star.theta_o);
+
+        let f1 = [(TimingParameter::F1, -3e-10)];
+        let [slow, fast] = [1e-15, 3e-15].map(|low| TimingModel::new([10.0, low], &f1).unwrap());
+        let f0 = TimingParameter::F0;
+        assert_relative_eq!(Model::difference(&fast, &slow, f0), 2e-15, max_relative = 1e-12, epsilon = 0.0);
+        assert_relative_eq!(Model::last_digit(&slow, f0), 10.0 * f64::EPSILON * f64::EPSILON, epsilon = 0.0);
+        assert_eq!(Model::last_digit(&slow, TimingParameter::F1), f64::EPSILON * 3e-10);
+    }
+
+    /// A star at rest is turned by the torque: at most by `I^xx w^2 / 2 = C |s|`, with `s` without its trace.
+    #[test]
+    fn rates_range_as_far_as_the_rotation_or_the_torque() {
+        let mut star = stars::precessing();
+        assert_eq!(Model::range(&star, Parameter::Chi), 1.0);
+        assert_eq!(Model::range(&star, Parameter::AlphaRate), star.alpha_rate.abs().max(star.spin().abs()));
+        (star.alpha_rate, star.beta_rate) = (0.0, 1e-3);
+        star = star.moved(&[Parameter::Spin], &[-star.spin()]);
+        star.spheroid.inertia_xx = 1.7;
+        star.spheroid.constant_c = -0.6;
+        let s = star.coefficients - nalgebra::Matrix3::identity() * (star.coefficients.trace() / 3.0);
+        let expected = (2.0 * 0.6 * s.norm() / 1.7).sqrt();
+        assert_relative_eq!(Model::range(&star, Parameter::Spin), expected, max_relative = 1e-14, epsilon = 0.0);
+    }
+}

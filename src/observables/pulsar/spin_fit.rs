@@ -213,6 +213,25 @@ mod tests {
         }
     }
 
+    /// Times in two parts are their sums, and as many derivatives as are fitted leave nothing of a polynomial.
+    #[test]
+    fn residuals_are_at_the_sums_of_times_and_without_polynomials() {
+        let numbers = [0, 9, 17, 40, 71, 93, 120];
+        let time = |number: i64| (number as f64 + 50.0).powf(0.6) * 10.0;
+        let fit = |parts: fn(f64) -> [f64; 2]| {
+            let points: Vec<_> = numbers.iter().map(|&number| (number, parts(time(number)))).collect();
+            SpinFit::new(&points, 1).expect("a fit")
+        };
+        let (of_one, of_two) = (fit(|t| [t, 0.0]), fit(|t| [0.25 * t, 0.75 * t]));
+        for (one, two) in of_one.residuals.iter().zip(&of_two.residuals) {
+            assert!((one - two).abs() < 1e-11 && one.abs() > 1e-4, "{one} {two}");
+        }
+        let times = numbers.map(time);
+        let turns: Vec<f64> = times.iter().map(|t| 0.3 - 0.02 * t + 1e-3 * t * t).collect();
+        assert!(of_one.residuals_of_turns(&times, turns.clone(), 1).iter().all(|left| left.abs() < 1e-10));
+        assert!(of_one.residuals_of_turns(&times, turns, 0).iter().any(|left| left.abs() > 1e-2));
+    }
+
     /// Twenty years of a millisecond pulsar with a known sinusoidal delay of 3 ns.
     #[test]
     fn a_signal_of_nanoseconds_is_found_over_decades() {

@@ -128,9 +128,9 @@ pub(super) fn turns_of(rates: &[DoubleDouble; 3], multiples: [i32; 3]) -> Double
     if sum.high.abs() <= CANCELLED * size { DoubleDouble::from(0.0) } else { sum }
 }
 
-/// Rate (rad per unit of time) of a combination of angles.
+/// Rate (rad per unit of time) of a combination of angles, rounded once.
 pub(super) fn rate_of(rates: &[DoubleDouble; 3], multiples: [i32; 3]) -> f64 {
-    turns_of(rates, multiples).high * TAU
+    (turns_of(rates, multiples) * DoubleDouble::TAU).high
 }
 
 /// The rows of a basis, completed with unit vectors along the angles that do not move.

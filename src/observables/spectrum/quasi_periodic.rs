@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use super::fundamental_frequencies::{FundamentalFrequencies, turns_of};
+use super::fundamental_frequencies::{FundamentalFrequencies, rate_of, turns_of};
 use crate::dynamics::{BodyState, Problem};
 use crate::error::Error;
 use crate::numerics::double_double::DoubleDouble;
@@ -66,7 +66,7 @@ impl QuasiPeriodicMotion {
 
     /// Rates of the three angles (rad per unit of time). If `L.n` is zero up to rounding, they add up to no rotation about `n`.
     pub(crate) fn rates(&self) -> [f64; 3] {
-        self.rates.map(|rate| rate.high * TAU)
+        self.rates.map(|rate| (rate * DoubleDouble::TAU).high)
     }
 
     /// The fundamental frequencies by which lines are named.
@@ -81,7 +81,7 @@ impl QuasiPeriodicMotion {
 
     /// Frequency (rad per unit of time) of a combination of the three angles, and its estimated error.
     pub(super) fn frequency(&self, multiples: [i32; 3]) -> [f64; 2] {
-        let sum = (self.turns(multiples) * DoubleDouble::TAU).high;
+        let sum = rate_of(&self.rates, multiples);
         let order: i32 = multiples.iter().map(|k| k.abs()).sum();
         [sum, f64::from(order) * self.rate_error + f64::EPSILON * sum.abs()]
     }
@@ -107,6 +107,23 @@ mod tests {
     use super::*;
     use crate::dynamics::RigidSpheroid;
     use crate::dynamics::fixture::problem;
+
+    /// An `L.n` that is rounding turns nothing about `n`, also for a needle of little inertia; the frequencies know it.
+    #[test]
+    fn a_spin_that_is_rounding_is_none() {
+        let star = RigidSpheroid { inertia_xx: 1e-3, inertia_zz: 3e-4, constant_c: 1e-3 };
+        for spin in [-6e-16, 6e-16] {
+            let start = BodyState {
+                axis: Vector3::z(),
+                momentum: Vector3::new(1e-3, 2e-4, 1e-3 * spin),
+                equatorial_axis: Vector3::x(),
+            };
+            let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
+            let motion = QuasiPeriodicMotion::new(&Problem::new(star, s, start).unwrap()).unwrap();
+            let psi = motion.frequencies().all.iter().find(|of| of.symbol == "psi'").unwrap();
+            assert!(psi.rate.abs() < 1e-25, "{spin}: {psi:?}");
+        }
+    }
 
     #[test]
     fn nothing_moves_without_momentum_and_torque() {

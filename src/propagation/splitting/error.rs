@@ -245,6 +245,28 @@ mod tests {
         assert_eq!(turn_of_axes([0.0; 3]), Matrix3::identity());
     }
 
+    /// The start of a motion has the error of the end of the one before, and its rounding is added to that of all before it.
+    #[test]
+    fn errors_of_motions_that_go_on_add_up() {
+        let part = || motion([0.3, 0.1, -0.4], &GRADIENT_8_8_6, 0.0625, 64.0);
+        let rounding = ErrorEstimate::new(part().axis_states()).shared_rounding * 4.0;
+        let mut end = part().error_at_end();
+        for before in 1..4 {
+            let next = part().with_initial_error(end.clone());
+            let estimate = ErrorEstimate::new(next.axis_states());
+            assert!((estimate.at_start[1] / (rounding * f64::from(before)) - 1.0).abs() < 1e-14, "{before}");
+            let expected = [end.largest, *estimate.largest.last().unwrap()];
+            for (t, largest, parts) in [(3.0, expected[0], before), (7.0, expected[1], before + 1)] {
+                let expected = largest + READING + rounding * f64::from(parts);
+                assert!((next.error_estimate(t) / expected - 1.0).abs() < 1e-12, "{before} {t}");
+            }
+            end = next.error_at_end();
+        }
+        // The same backwards in time.
+        let back = axis_problem([0.3, 0.1, -0.4]).splitting_by(&GRADIENT_8_8_6, (7.0, 3.0), 0.0625).unwrap();
+        assert!((back.error_at_end().shared_rounding / rounding - 1.0).abs() < 1e-14);
+    }
+
     #[test]
     fn motions_are_compared_at_256_times_or_half_as_many() {
         for (count, times, stride) in [(512.0, 256, 1.0), (514.0, 129, 2.0)] {

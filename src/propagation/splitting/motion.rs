@@ -389,6 +389,16 @@ mod tests {
         }
     }
 
+    /// With `w.n = c` the rotation about `n` is that of `L.n = I^xx c`.
+    #[test]
+    fn the_rate_about_the_axis_is_that_of_the_momentum() {
+        let motion = motion((0.0, 1.0), 0.1).unwrap();
+        let (states, star) = (motion.axis_states(), motion.spheroid());
+        let axis = Vector3::new(0.6, 0.0, 0.8);
+        let expected = star.rate_about_axis(&axis, &(axis * (star.inertia_xx * 0.3)));
+        assert_relative_eq!(states.rate_about_axis_for(0.3), -expected, max_relative = 1e-15, epsilon = 0.0);
+    }
+
     fn motion(span: (f64, f64), step: f64) -> Result<SplittingMotion<AxisState<f64>>, Error> {
         axis_problem(S).splitting_by(&STRANG, span, step)
     }

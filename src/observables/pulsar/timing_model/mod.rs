@@ -320,6 +320,15 @@ mod tests {
         }
     }
 
+    /// A time in two parts is their sum, whatever its parts.
+    #[test]
+    fn rates_of_the_phase_are_at_the_sum_of_both_parts() {
+        let model = slowing_down(&[(F2, 3e-18)]);
+        let rate = model.phase_rate([4e8, 0.0]).unwrap();
+        assert_relative_eq!(model.phase_rate([1e8, 3e8]).unwrap(), rate, max_relative = 1e-14, epsilon = 0.0);
+        assert!((model.phase_rate([1e8, 0.0]).unwrap() / rate - 1.0).abs() > 1e-3);
+    }
+
     #[test]
     fn parameters_have_ranges() {
         refused(&[(Wobble, -0.1)], "wobble (rad)", -0.1);
