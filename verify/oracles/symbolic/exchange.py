@@ -93,6 +93,9 @@ class Evaluator:
     def at(self, point):
         """Values and scales."""
         *values, extra = self.function(*(self._input(name, point) for name in self.names))
+        if not self.quantity.exact:
+            # What is left of 60 digits where terms cancel, as for the waves of a sphere.
+            values = [v if abs(v) > mp.mpf(10) ** -50 else mp.mpf(0) for v in values]
         scale = self.quantity.scale
         if scale is None:
             return values, [abs(v) for v in values]
