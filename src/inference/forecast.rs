@@ -96,6 +96,14 @@ mod tests {
     use crate::inference::stars;
     use crate::parameters::ThirdRate;
 
+    #[test]
+    fn periods_are_refused() {
+        let noise = [(Observable::Arrivals, 1e-3), (Observable::Periods, 1e-3)];
+        let found = forecast(&stars::slow(), &noise, &[Parameter::Spin], Parameter::Spin, &[100.0], &[3]);
+        let expected = Error::Unsupported { what: "periods", why: ALLOWED_IN_FORECASTS };
+        assert_eq!(found.err(), Some(InferenceError::Model(expected)));
+    }
+
     /// Epochs of strains are equally spaced from the start to the end, in a span of any length.
     #[test]
     fn epochs_of_strains_fill_the_span() {

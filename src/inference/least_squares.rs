@@ -392,6 +392,26 @@ mod tests {
         assert_eq!(why(least_squares(&start, &undefined, &[A])).0, "a derivative is not finite");
     }
 
+    /// The last digit of 2e15 is 0.44. With a standard deviation of 1 it is a step of 0.44 standard deviations, which is too long; with one of 100,
+    /// of 0.0044.
+    #[test]
+    fn a_number_too_coarse_for_its_error_is_named() {
+        let uphill = |residuals: fn([f64; 3]) -> Option<Vec<f64>>, derivatives: fn([f64; 3]) -> Vec<[f64; 3]>| {
+            least_squares(
+                &Numbers::unbounded([2e15, 0.0, 0.0]),
+                &Functions { count: 2, residuals, derivatives, all_rounding: false },
+                &[A],
+            )
+        };
+        let coarse = uphill(|[a, ..]| Some(vec![3.0 + (a - 2e15), 0.0]), |_| vec![[-1.0, 0.0, 0.0], [0.0; 3]]);
+        match coarse {
+            Err(InferenceError::Coarse { unknown: "a", step }) => close(step, 2e15 * f64::EPSILON),
+            other => panic!("{other:?}"),
+        }
+        let fine = uphill(|[a, ..]| Some(vec![3.0 + 0.01 * (a - 2e15), 0.0]), |_| vec![[-0.01, 0.0, 0.0], [0.0; 3]]);
+        assert_eq!(why(fine).0, "no step reduces chi^2");
+    }
+
     /// `exp(-a)` has no minimum: every step has length one, without end.
     #[test]
     fn too_many_steps_are_told() {

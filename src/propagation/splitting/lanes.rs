@@ -259,13 +259,16 @@ mod tests {
         let ready = Ready::new(0, &scene).unwrap().unwrap();
         let of_body = ready.scene.clone();
         let angles = angles(scheme, step * of_body.largest_rate);
-        let found = states(register, Ready { scheme, step, steps: 256, angles, ..ready });
+        let mut outcomes = [None];
+        propagate_in_lanes(register, vec![Ready { scheme, step, steps: 256, angles, ..ready }], &mut outcomes);
+        let [Some(Ok(Samples { states, step_count, order }))] = outcomes else { panic!("a motion") };
+        assert_eq!((step_count, order), (256, 2));
 
         let alone = DoubleSteps::new(scheme, &of_body.field, step, of_body.largest_rate);
         let mut state = of_body.start;
         alone.open(&mut state);
         alone.advance(&mut state, of_body.casimir, 256);
         alone.close(&mut state);
-        assert_eq!(found, [of_body.state(&state)]);
+        assert_eq!(states, [of_body.state(&state)]);
     }
 }

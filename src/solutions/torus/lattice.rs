@@ -330,6 +330,17 @@ mod tests {
     use crate::solutions::torus::TorusSolution;
     use crate::solutions::torus::plane::tests::BODY;
 
+    #[test]
+    fn flows_are_thin_where_they_are_parallel_or_not_finite() {
+        let integrals = Integrals::new(&BODY, &Matrix3::from_diagonal(&Vector3::new(-0.4, 0.0, 0.6)), 1.0, DOUBLE);
+        let walk = Walk::new(&integrals, 1.0, 1e-3);
+        let axes = |n: Vector3<f64>, momentum| [n, momentum, n.cross(&Vector3::new(0.1, 0.7, -0.2))];
+        let n = Vector3::new(0.48, 0.6, 0.64);
+        assert!(!walk.is_thin(&axes(n, Vector3::new(0.3, -0.2, 0.5)), 1e-3));
+        assert!(walk.is_thin(&axes(Vector3::z(), Vector3::z() * 9.0), 1e-3));
+        assert!(walk.is_thin(&axes(n, Vector3::new(f64::NAN, 0.0, 0.5)), 0.0));
+    }
+
     /// With large and small `L`, at rest, along `n`, on an axis, and with `n` in a potential well: half orbits end in the plane, one of them at the
     /// half turn of its start, and no state at half or a third of them is in the plane.
     #[test]

@@ -7,7 +7,7 @@ use crate::dynamics::first_integrals::FirstIntegrals;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 
-/// Tolerance for `K` of a state, relative to the size of its terms, some `L.L s` and `C I^xx s`: a double root of the quartic is known to half the
+/// Tolerance for `K` of a state, relative to the size of its terms, some `L.L s` and `C I^xx s s`: a double root of the quartic is known to half the
 /// digits, and `K` then to all.
 const TOLERANCE: f64 = 1e-13;
 
@@ -153,10 +153,10 @@ impl Wanted {
         Plane { axes, along, half, square, q }
     }
 
-    /// Tolerance for `K` of a state.
+    /// Tolerance for `K` of a state. `L.L` is at most the sum.
     fn tolerance(&self, plane: &Plane, s: &Vector3<f64>) -> f64 {
-        let size = plane.square[0].abs() + plane.square[1].abs() + self.constant_c.abs() * self.inertia;
-        TOLERANCE * size * s.amax()
+        let sum = plane.square[0].abs() + 2.0 * self.constant_c.abs() * self.inertia * s.amax();
+        TOLERANCE * sum * s.amax()
     }
 
     /// Range of the angle `b` in which `K` has an extremum in a plane: about the angle at which `L` is along the second axis, as far as the torque
@@ -205,6 +205,7 @@ impl Wanted {
 #[cfg(test)]
 pub(super) mod tests {
     use approx::assert_relative_eq;
+    use nalgebra::Matrix3;
 
     use super::*;
     use crate::dynamics::first_integrals::first_integrals;
@@ -244,6 +245,35 @@ pub(super) mod tests {
         assert_eq!(range(2.0, [2.5, -1.0]), None);
         let square = Plane { axes: [0, 1], along: 2.0, half: 0.1, square: [3.5, 1.0], q: [0.0; 3] };
         assert_eq!(square.momentum_across(1.2), 0.0);
+    }
+
+    /// By the magnitudes of the terms of `K`, for slow and fast rotation and eigenvalues of any size; in the last case the two terms of `L.L`
+    /// cancel.
+    #[test]
+    fn the_tolerance_is_relative_to_the_terms_of_the_integral() {
+        for body in [BODY, PROLATE] {
+            for size in [1e-6, 1.0, 100.0] {
+                for (s, b, along, across) in [
+                    ([0.21, -0.04, 0.09], 0.3, 0.9, 1.7),
+                    ([0.21, -0.04, 0.09], 1.1, 0.0, 1e-9),
+                    ([1.0, -1.0, 0.1], 0.01, 0.0, 1e-9),
+                    ([1.0, -1.0, 0.1], 1.56, 0.0, 1e-9),
+                ] {
+                    let s = Vector3::from(s) * size;
+                    let state = in_plane([0, 1], b, along, across);
+                    let integrals = first_integrals(&body, &Matrix3::from_diagonal(&s), &state);
+                    let wanted = Wanted::new(&body, &integrals).unwrap();
+                    let plane = wanted.plane(&s, [0, 1]);
+                    let pull = 2.0 * body.constant_c * body.inertia_xx * s[2];
+                    let (middle, half, [m0, m1]) = ((s[0] + s[1]) / 2.0, plane.half, plane.square);
+                    let terms = [middle * m0, middle * m1, half * m0, half * m1, half * along * along, pull * half];
+                    let sum: f64 = terms.iter().map(|term| term.abs()).sum();
+                    let ratio = wanted.tolerance(&plane, &s) / TOLERANCE / sum;
+                    assert!((0.3..3.0).contains(&ratio), "{ratio} {s} {b}");
+                    assert!(plane.miss(b).abs() < wanted.tolerance(&plane, &s));
+                }
+            }
+        }
     }
 
     #[test]

@@ -137,3 +137,54 @@ impl Torus {
         (n.x.abs().max((momentum.x / self.unit).abs()) < EXACT).then_some(starts)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Matrix4;
+
+    use super::*;
+
+    /// By the growth of deviations in the equations of motion: with `d = (u_1, u_2, u_1', u_2')` and `d' = M d`, whether an eigenvalue of `M`
+    /// has a positive real part. Just below and above the spin that stabilises the axis of the highest energy, and at the other axes.
+    #[test]
+    fn rest_is_unstable_where_deviations_grow() {
+        for (inertia_xx, constant_c, size) in
+            [(1.3_f64, 0.8, 1.0_f64), (3.0, -0.7, 1.0), (0.4, -0.7, 1e-3), (0.4, 5.0, 1e-3)]
+        {
+            let body = RigidSpheroid { inertia_xx, inertia_zz: 1.5, constant_c };
+            let values = Vector3::new(0.21, -0.04, 0.09) * size;
+            for axis in 0..3 {
+                let stiffness = [(axis + 1) % 3, (axis + 2) % 3].map(|j| 2.0 * constant_c * (values[j] - values[axis]));
+                let roots = stiffness.map(|k| (-k * inertia_xx).max(0.0).sqrt());
+                let critical = (roots[0] + roots[1]).max(1e-2 * size.sqrt());
+                for momentum in [0.99 * critical, 1.01 * critical] {
+                    // G u_2' and -G u_1' in the equations above, divided by I^xx.
+                    let gyroscopic = momentum / inertia_xx;
+                    let [k1, k2] = stiffness.map(|k| k / inertia_xx);
+                    let matrix = Matrix4::new(
+                        0.0,
+                        0.0,
+                        1.0,
+                        0.0, //
+                        0.0,
+                        0.0,
+                        0.0,
+                        1.0, //
+                        -k1,
+                        0.0,
+                        0.0,
+                        -gyroscopic, //
+                        0.0,
+                        -k2,
+                        gyroscopic,
+                        0.0,
+                    );
+                    let growth = matrix.complex_eigenvalues().iter().fold(f64::NEG_INFINITY, |most, x| most.max(x.re));
+                    let (n, momentum) = (Vector3::ith(axis, 1.0), Vector3::ith(axis, momentum));
+                    let found = near_unstable_rest(&body, &values, n, momentum, momentum.norm().max(1.0));
+                    assert_eq!(found, growth > 1e-4 * size.sqrt(), "{body:?} {axis} {momentum} {growth:e}");
+                }
+            }
+        }
+    }
+}
