@@ -282,6 +282,12 @@ mod tests {
     }
 
     #[test]
+    fn a_segment_stores_its_share_of_the_steps() {
+        let memory = Memory { table: 10.0, steps: 100.0, most_stored: 30.0, per_step: 2.0 };
+        assert_eq!([1, 4, 50].map(|count| memory.of_a_segment(count)), [70.0, 60.0, 14.0]);
+    }
+
+    #[test]
     fn free_rotation_names_the_torque_that_forbids_its_derivatives() {
         let free = forecast(Method::Free, [0.02, 0.01, -0.03], (0.0, 1.0), vec![Parameter::Beta]);
         let Err(Error::Domain { value, .. }) = free.prediction else { panic!("{free:?}") };

@@ -350,7 +350,7 @@ mod tests {
             (Method::Taylor, (10.5, 20.0), "start at the time"),
         ] {
             let error = motion(method, span).continuing_from(earlier.clone()).unwrap_err().to_string();
-            assert!(error.contains(why), "{error}");
+            assert!(error.starts_with("motion that goes on from another: ") && error.contains(why), "{error}");
         }
         let other = super::tests::problem([2e-6, 1e-6, -4e-6]).motion_by(Method::Taylor, (10.0, 20.0), 1e-9).unwrap();
         assert!(other.continuing_from(earlier).unwrap_err().to_string().contains("same body"));

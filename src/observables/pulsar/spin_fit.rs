@@ -102,9 +102,7 @@ impl SpinFit {
     /// fitted to `turns` and subtracted, and the rest is divided by the frequency of this fit at each time. There must be as many `turns` as `times`,
     /// and more distinct times than fitted parameters.
     pub fn residuals_of_turns(&self, times: &[f64], turns: Vec<f64>, derivatives: usize) -> Vec<f64> {
-        let unit = times.iter().fold(0.0_f64, |largest, time| largest.max(time.abs()));
-        let scaled: Vec<_> = times.iter().map(|time| time / unit).collect();
-        let left = without_polynomial(&scaled, turns, 1 + derivatives).2;
+        let left = without_polynomial(times, turns, 1 + derivatives).2;
         left.iter().zip(times).map(|(turns, time)| turns / self.frequency_at(*time)).collect()
     }
 
@@ -210,6 +208,23 @@ mod tests {
         }
         for (second, number) in [(1e-3, 100_000), (1e-3, 10_000_000), (-1e-3, 1000)] {
             assert!(fit(second).time_of(number)[0].is_nan(), "{second} {number}");
+        }
+        // From cubics so weak that Newton's method converges to others for which it does not, in two units of time.
+        for unit in [1.0_f64, 1e12] {
+            let (mut exact, mut none) = (0, 0);
+            for k in 0..1000 {
+                let second = 1e-6 * 10f64.powf(0.005 * f64::from(k)) * unit.powi(3);
+                let fit = SpinFit { frequency: [10.0 * unit, 0.0], ..fit(second) };
+                let t = DoubleDouble::from(fit.time_of(1000));
+                if t.high.is_nan() {
+                    none += 1;
+                    continue;
+                }
+                exact += 1;
+                let off = t * (DoubleDouble::from(10.0 * unit) + t * t * (second / 6.0)) - 1000.0.into();
+                assert!(off.high.abs() < 1e-23, "{second:e}: {off:?}");
+            }
+            assert!(exact > 100 && none > 100, "{exact} {none}");
         }
     }
 

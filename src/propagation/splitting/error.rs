@@ -218,8 +218,8 @@ fn largest_difference<const V: usize>(a: &Moving<f64, V>, b: &Moving<f64, V>, ra
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::AxisState;
-    use crate::dynamics::fixture::{AXIS_STATE, axis_problem};
+    use crate::dynamics::fixture::{AXIS_STATE, axis_problem, problem};
+    use crate::dynamics::{AxisState, BodyState, RotationState};
     use crate::propagation::Motion;
     use crate::propagation::splitting::{STRANG, Scheme, SplittingMotion};
 
@@ -265,6 +265,28 @@ mod tests {
         // The same backwards in time.
         let back = axis_problem([0.3, 0.1, -0.4]).splitting_by(&GRADIENT_8_8_6, (7.0, 3.0), 0.0625).unwrap();
         assert!((back.error_at_end().shared_rounding / rounding - 1.0).abs() < 1e-14);
+    }
+
+    /// The motions compared go on from where they ended before: those from a displaced start end as a motion that starts there, also `e_x`, whose
+    /// rate about `n` is that of their own `L.n`.
+    #[test]
+    fn a_motion_that_goes_on_is_compared_with_those_before() {
+        let s = [0.3, 0.1, -0.4];
+        let span = (3.0, 7.0);
+        let displaced = {
+            let BodyState { axis, momentum, equatorial_axis } = *problem(s).initial();
+            let momentum = momentum + axis * 1e-3 + equatorial_axis * 2e-3;
+            BodyState { axis, momentum, equatorial_axis }
+        };
+        let others = [displaced.vectors(); 2];
+        let earlier = ErrorAtEnd { largest: 0.0, shared_rounding: 0.0, others };
+        let motion = problem(s).splitting_by(&GRADIENT_8_8_6, span, 0.01).unwrap().with_initial_error(earlier);
+        let expected = problem(s).starting_from(displaced).unwrap().taylor(span, 1e-13).unwrap().state(7.0).unwrap();
+        for found in motion.error_at_end().others {
+            for (found, expected) in found.iter().zip(expected.vectors()) {
+                assert!((found - expected).norm() < 1e-9, "{found} {expected}");
+            }
+        }
     }
 
     #[test]

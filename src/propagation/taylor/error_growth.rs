@@ -250,6 +250,7 @@ mod tests {
         let known = Difference { rotation: vector, momentum: vector, length: 0.1, off_frame: [0.1, 0.2] };
         growth.add(&known, [1e-4, 2e-4]);
         growth.covariance.mixed = matrix(0.3) * 1e-8;
+        growth.covariance.with_length = [vector, vector];
         let taken = growth.clone().of_orthonormal_state(2.0, 3.0);
         assert_eq!((taken.known.rotation, taken.known.momentum), (vector, vector * 2.0));
         assert_eq!((taken.known.length, taken.known.off_frame), (0.0, [0.0; 2]));
@@ -287,6 +288,15 @@ mod tests {
         growth.covariance.mixed = n.cross(&w) * n.transpose() * 1e-7;
         let squared = deviation * deviation + 2e-7 * n.cross(&w).norm_squared();
         assert_relative_eq!(growth.of_spin(&n, &w), 6.0 * squared.sqrt(), max_relative = 1e-9);
+    }
+
+    #[test]
+    fn the_error_of_the_length_is_the_sum_of_the_known_and_the_unknown_one() {
+        let mut growth = ErrorGrowth::none(1.5);
+        growth.known.length = -1e-3;
+        assert_relative_eq!(growth.of_length(), 3e-3, max_relative = 1e-14);
+        growth.covariance.length = 4e-6;
+        assert_relative_eq!(growth.of_length(), 3e-3 + 12e-3, max_relative = 1e-14);
     }
 
     #[test]

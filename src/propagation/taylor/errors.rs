@@ -333,7 +333,8 @@ mod tests {
             let (errors, series) = rotating::<V>(momentum);
             let mut growth = ErrorGrowth::none(errors.momentum_unit);
             // The axis is X; per unit of time `unit`.
-            growth.add(&Difference { momentum: Vector3::new(1e-6, 0.0, 0.0), ..Difference::default() }, [0.0; 2]);
+            let known = Difference { momentum: Vector3::new(1e-6, 0.0, 0.0), length: 4e-7, ..Difference::default() };
+            growth.add(&known, [0.0; 2]);
             let earlier = ErrorAtEnd { growth, unit: errors.unit, of_angle: 1e-8, largest: 0.0 };
             let vectors = [Vector3::x(), momentum, Vector3::y()];
             let problem = Problem::unchecked(SPHEROID, Matrix3::zeros(), BodyState::from_vectors(vectors));
@@ -345,11 +346,31 @@ mod tests {
         }
         let momentum = Vector3::new(0.0, 0.0, 1.3);
         let [start, grown] = with_error::<3>(momentum);
+        // And at the start by half of three times the error of the length of n.
         // |1.1 / 1.3 - 1| * 1.3 / 1.1 of three times the error, over 0.1 units of time.
         let expected = 3e-6 * (0.2 / 1.1) * 0.1;
-        assert_relative_eq!(start, 1e-8, max_relative = 1e-14);
+        assert_relative_eq!(start, 1e-8 + 6e-7, max_relative = 1e-6);
         assert_relative_eq!(grown, expected, max_relative = 1e-6);
-        assert_eq!(with_error::<2>(momentum)[1], 0.0);
+        assert_eq!(with_error::<2>(momentum), [1e-8, 0.0]);
+    }
+
+    /// Half a unit in the last place of each component of `n`, its rotation and `L`: nine deviations, and none without an earlier motion.
+    #[test]
+    fn the_end_of_an_earlier_motion_was_rounded() {
+        let momentum = Vector3::new(0.3, -0.5, 70.0);
+        let alone = rotating::<3>(momentum).0;
+        let growth = ErrorGrowth::none(alone.momentum_unit);
+        let earlier = ErrorAtEnd { growth, unit: alone.unit, of_angle: 0.0, largest: 0.0 };
+        let problem = Problem::unchecked(
+            SPHEROID,
+            Matrix3::zeros(),
+            BodyState::from_vectors([Vector3::x(), momentum, Vector3::y()]),
+        );
+        let setup = ScaledProblem::<f64, 3>::new((true, Work::Waiting), &problem, (0.0, 1.0), 1e-10).unwrap();
+        let after = TaylorErrors::<3>::of(&setup, Some(&earlier));
+        let expected = 3.0 * ErrorGrowth::counted_deviation(0.5 * f64::EPSILON);
+        assert!((alone.momentum_unit - 1.0).abs() > 0.1, "{}", alone.momentum_unit);
+        assert_relative_eq!(after.before - alone.before - after.of_angle, expected, max_relative = 0.1);
     }
 
     /// A step of a free star has no truncation error; an error of `e` that has shrunk to less than an eighth leaves deviations of `e^2`, once.

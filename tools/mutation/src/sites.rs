@@ -470,6 +470,7 @@ impl<'ast> Visit<'ast> for Visitor<'_> {
     fn visit_item(&mut self, item: &'ast Item) {
         match item {
             Item::Mod(m) if of_tests(&m.attrs) => {}
+            Item::Fn(f) if of_tests(&f.attrs) => {}
             Item::Static(_) | Item::Enum(_) | Item::Struct(_) | Item::Type(_) | Item::Use(_) | Item::Macro(_) => {}
             Item::Const(c) if c.ident != "_" && c.generics.params.is_empty() => {
                 if !self.constants.contains_key(&c.ident.to_string()) {
@@ -504,7 +505,7 @@ impl<'ast> Visit<'ast> for Visitor<'_> {
     }
 
     fn visit_impl_item_fn(&mut self, f: &'ast syn::ImplItemFn) {
-        if f.sig.constness.is_none() && f.sig.ident != "fmt" {
+        if f.sig.constness.is_none() && f.sig.ident != "fmt" && !of_tests(&f.attrs) {
             let name = f.sig.ident.to_string();
             self.named(name.clone(), |v| v.faulty(&name, &f.block));
         }

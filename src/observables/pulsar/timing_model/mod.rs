@@ -382,6 +382,12 @@ mod tests {
                 assert!(off.abs() < 3e-15, "{number}: {off:e}");
             }
         }
+        // Where rounding does not let the phase come within 1e-15 of the number.
+        let fast = slowing_down(&[(F1, -1e-13), (PrecessionRate, 2.0), (Wobble, 0.6)]);
+        for number in 0..20_000 {
+            let Turns { whole, fraction } = fast.phase(fast.arrival(number).unwrap()).unwrap();
+            assert!(((whole - number) as f64 + fraction).abs() < 3e-15, "{number}");
+        }
         assert!(slowing_down(&[]).arrival(9_000_000_000_000_001).is_err());
         // A star whose phase goes backwards in part of each precession.
         let back_and_forth = slowing_down(&[(F1, -1e-13), (PrecessionRate, -60.0), (Wobble, 1.05)]);
