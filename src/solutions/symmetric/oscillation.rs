@@ -239,6 +239,7 @@ impl<S: Real> PoleTerm<S> {
 #[cfg(test)]
 mod tests {
     use approx::assert_relative_eq;
+    use nalgebra::Complex;
 
     use super::*;
     use crate::numerics::elliptic::jacobi::complete_integral;
@@ -273,6 +274,21 @@ mod tests {
             let found = Oscillation::new(&points, distance).unwrap().half_period;
             let expected = 2.0 * complete_integral(square / (1.0 + square)) / (1.0 + square).sqrt();
             assert_relative_eq!(found, expected, max_relative = 4e-15);
+        }
+    }
+
+    /// By complex arithmetic, also where `xi^2 + M eta^2` is below zero.
+    #[test]
+    fn roots_of_a_pair_are_those_of_complex_numbers() {
+        for (mean, root_of_product) in [(0.5, 0.7), (-0.5, 0.7), (-2.6, 3.0)] {
+            let motion = oscillation(mean, root_of_product);
+            let a = Complex::new(mean, motion.determinant.sqrt());
+            for (xi, eta) in [(1.0, 0.4), (0.3, 1.0), (0.1, 2.5), (0.0, 0.8)] {
+                let (sum, product) = motion.roots_of_pair(xi, eta);
+                let square = a * (eta * eta) + xi * xi;
+                assert_relative_eq!(sum, 2.0 * square.sqrt().re, max_relative = 1e-14, epsilon = 0.0);
+                assert_relative_eq!(product, square.norm(), max_relative = 1e-14, epsilon = 0.0);
+            }
         }
     }
 
