@@ -373,6 +373,26 @@ mod tests {
         }
     }
 
+    /// Samples are taken from the segments that contain them, also backwards in time: as from the series on the torus.
+    #[test]
+    fn samples_are_taken_from_their_segments() {
+        for sense in [1.0, -1.0] {
+            let rotations = [2.8e4, 2.9e4, 5.2e4].map(|rotation| sense * rotation);
+            let (mut scene, plan) = scene("tp-2", "splitting", &["e_z"], &rotations);
+            scene.tolerance = 1e-8;
+            let whole = scene.problem.motion_by(Method::Torus, (0.0, scene.duration()), 1e-12).unwrap();
+            let mut count = 0;
+            let take = |time: f64, sample: &Sample| {
+                let (found, expected) = (sample.axis(), whole.axis_state(time).unwrap());
+                assert!((found.axis - expected.axis).norm() < 1e-7, "{time}");
+                count += 1;
+                Ok::<_, Error>(())
+            };
+            for_each_sample(&scene, &plan, ErrorEstimates::None, take, |_, _, _| Ok(())).unwrap();
+            assert_eq!((count, segment_count(&scene, &plan)), (3, 11));
+        }
+    }
+
     /// So that memory does not grow with the span, a motion of more than 5e4 rad is in segments of at most 5e3 rad: 5.2e4 rad are eleven. An error does
     /// not decrease with time at the end of a segment. The error of a closed form, which begins with the scene, does not grow with the number of earlier segments. The
     /// error is requested only at the end, or at the samples.

@@ -68,6 +68,9 @@ mod tests {
             let expected = found.angles().unwrap();
             assert_eq!(window.initial_angles, expected);
         }
+        // Also of a scene of a single time.
+        let alone = Scene { times: Times::Listed { start: 5.0, times: vec![9.0] }, ..scene.clone() };
+        assert_eq!(alone.window(5.0, 6.0).unwrap().0.times, Times::Even { start: 5.0, end: 6.0, samples: 2 });
         let (same, error) = scene.window(5.0, 6.0).unwrap();
         assert_eq!((same.problem.initial(), error), (scene.problem.initial(), 0.0));
     }

@@ -265,6 +265,19 @@ mod tests {
         (measurement, signal)
     }
 
+    /// In units of those of the star, whose `I^xx` and `C` are one to 1e-8 only.
+    #[test]
+    fn moments_of_inertia_and_c_are_relative_to_those_of_the_star() {
+        let measurement = Measurement::new(Scene::named("millisecond-pulsar").unwrap(), "strain:1e-28", None).unwrap();
+        let parameters = &measurement.parameters;
+        for unknown in [Parameter::InertiaXx, Parameter::InertiaZz, Parameter::ConstantC] {
+            let (factor, unit) = measurement.unit(unknown);
+            let of_xx = unknown.value(parameters) / parameters.spheroid.inertia_xx;
+            assert!((factor * unknown.value(parameters) / of_xx - 1.0).abs() < 1e-15 && unit == "1", "{factor}");
+        }
+        assert!(parameters.spheroid.inertia_xx > 1.0 + 1e-12);
+    }
+
     #[test]
     fn many_samples_are_refused_where_strains_are_taken_at_them() {
         for (observe, samples, is_taken) in [
@@ -306,8 +319,12 @@ mod tests {
                 "{rows}"
             );
         }
-        let why = measurement.data_in(&[strains("3,1,2\n4,1,2\n4,1,2\n")], &signal).unwrap_err();
-        assert!(why.contains("h_plus = 1.0 occurs twice"), "{why}");
+        let again = strains("3,1,2\n4,1,2\n4,1,2\n");
+        // Of both polarizations, and of one.
+        for observe in ["strain:1", "h_plus:1"] {
+            let why = measured(observe, 400.0, 10).0.data_in(std::slice::from_ref(&again), &signal).unwrap_err();
+            assert!(why.contains("h_plus = 1.0 occurs twice"), "{why}");
+        }
     }
 
     #[test]

@@ -60,10 +60,11 @@ pub fn read_timing(
     Ok(data)
 }
 
-/// The sum of two doubles as the nearest double and the rest, whichever two doubles were given.
+/// The sum of two doubles as the nearest double and the rest, whichever two doubles were given (Knuth's exact sum); zeros are positive.
 fn same([time, rest]: [f64; 2]) -> [f64; 2] {
     let sum = time + rest;
-    [sum + 0.0, (rest - (sum - time)) + 0.0]
+    let added = sum - time;
+    [sum + 0.0, (time - (sum - added)) + (rest - added) + 0.0]
 }
 
 /// The time (s) of an arrival that has the time of another one, or of a width that has the time and the length of another one; `None` if there is none. No two
@@ -216,6 +217,58 @@ mod tests {
         let mut data = TimingData { arrivals: Vec::new(), widths: Vec::new(), priors: Vec::new() };
         let noise = [(Observable::Arrivals, 0.5), (Observable::Widths, 0.25)];
         file.add_timing(&Epoch::new(55000, 0.0).unwrap(), &noise, &mut data).map(|()| data)
+    }
+
+    #[test]
+    fn the_same_time_is_found_in_whatever_two_parts() {
+        let twice = |times: [[f64; 2]; 2]| {
+            let arrivals = times.map(|time| MeasuredArrival { time, sigma: 1.0, number: None });
+            measured_twice(&TimingData { arrivals: arrivals.to_vec(), ..TimingData::default() })
+        };
+        for [one, other] in [
+            [[1e9, 0.25], [1e9 + 0.25, 0.0]],
+            [[0.1, 0.2], [0.2, 0.1]],
+            [[1e-9, 1e9], [1e9, 1e-9]],
+            [[-3.0, 0.0], [-1.0, -2.0]],
+            [[0.0, 0.0], [-0.0, -0.0]],
+            [[5.0, 1e-20], [5.0, 1e-20]],
+        ] {
+            assert_eq!(twice([one, other]), Some(other));
+        }
+        for times in [
+            [[1e9, 0.25], [1e9, 0.5]],
+            [[5.0, 1e-20], [5.0, 2e-20]],
+            [[5.0, 0.0], [5.0, 1e-20]],
+            [[1.0, 0.0], [-1.0, 0.0]],
+        ] {
+            assert_eq!(twice(times), None);
+        }
+        let width = |time| MeasuredWidth { time, duration: 0.1, sigma: 1.0 };
+        let widths = |times: [f64; 2]| TimingData { widths: times.map(width).to_vec(), ..TimingData::default() };
+        assert_eq!(measured_twice(&widths([7.0, 7.0])), Some([7.0, 0.0]));
+        assert_eq!(measured_twice(&widths([7.0, 8.0])), None);
+    }
+
+    #[test]
+    fn two_files_with_numbers_need_a_model() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str, text: &str| {
+            let path = folder.path().join(name);
+            std::fs::write(&path, text).unwrap();
+            path.to_str().unwrap().to_owned()
+        };
+        let line = |day: &str, flag: &str| format!("FORMAT 1\nx 0.0 {day} 2.0 @{flag}\n");
+        let numbered = [path("a.tim", &line("55000.5", " -pn 3")), path("b.tim", &line("55001.5", " -pn 9"))];
+        let plain = path("c.tim", &line("55002.5", ""));
+        let read = |paths: &[&String]| {
+            let paths: Vec<String> = paths.iter().map(|path| path.to_string()).collect();
+            read_timing(&paths, &Epoch::new(55000, 0.0).unwrap(), &[], None)
+        };
+        let [a, b] = &numbered;
+        assert!(read(&[a, b]).unwrap_err().starts_with(&format!("{b}: it numbers its pulses")));
+        for paths in [[a, &plain], [&plain, b]] {
+            assert_eq!(read(&paths).unwrap().arrivals.len(), 2);
+        }
     }
 
     /// A `.tim` file is recognised by its name, or by its first line that is not a comment. Uncertainties are in

@@ -112,7 +112,6 @@ fn what_goes_through_every_turn_has_a_longest_span() {
     assert_eq!(far("columns = ['e_z']"), None);
 }
 
-/// The first scene that is not written is reported each time that it changes, and the table is that of a single thread.
 #[test]
 fn a_part_with_half_a_last_row_is_not_merged() {
     let lines = format!("{VARIED}[time]\ntimes = [3.0]\n");
@@ -131,8 +130,11 @@ fn a_part_with_half_a_last_row_is_not_merged() {
         let why = merged(&whole[..whole.len() - torn]).unwrap_err();
         assert_eq!(why, "part ends within the row of scene 8");
     }
+    let why = merged(&[&whole[..], b"\n"].concat()).unwrap_err();
+    assert_eq!(why, "part has a line that is not a row where scene 9 is expected");
 }
 
+/// The first scene that is not written is reported each time that it changes, and the table is that of a single thread.
 #[test]
 fn a_sweep_tells_how_far_it_is() {
     let text = text(&format!(
