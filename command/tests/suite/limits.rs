@@ -236,6 +236,7 @@ fn what_is_wrong_is_named() {
     assert!(
         stderr(&other).contains("--periods: no limits")
             && stdout(&other).contains("f0")
+            && stdout(&other).ends_with("independent normal errors\n")
             && !folder.at("limits.csv").exists()
     );
 }
