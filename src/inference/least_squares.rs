@@ -392,8 +392,8 @@ mod tests {
         assert_eq!(why(least_squares(&start, &undefined, &[A])).0, "a derivative is not finite");
     }
 
-    /// The last digit of 2e15 is 0.44. With a standard deviation of 1 it is a step of 0.44 standard deviations, which is too long; with one of 100,
-    /// of 0.0044.
+    /// The last digit of 2e15, taken as `2^-52` of it, is 0.44. With a standard deviation of 1 it is a step of 0.44 standard deviations, which is too
+    /// long; with one of 100, of 0.0044. The derivatives have the wrong sign, so that neither fit ends at its minimum.
     #[test]
     fn a_number_too_coarse_for_its_error_is_named() {
         let uphill = |residuals: fn([f64; 3]) -> Option<Vec<f64>>, derivatives: fn([f64; 3]) -> Vec<[f64; 3]>| {

@@ -286,10 +286,20 @@ mod tests {
                 assert_eq!(line.combination, exact.combination);
                 assert!((line.amplitude - exact.amplitude).abs() < with_noise.least);
             }
+            // In another unit too.
+            for unit in [1e6, 1e-6] {
+                let noisy = |state: &BodyState<f64>| unit * (state.axis.z + part * noise(state.axis.z));
+                let same = found.lines(1e-14, |state| Ok::<_, Error>([noisy(state), unit])).unwrap();
+                assert_eq!(same.lines.len(), with_noise.lines.len());
+                assert!((same.least / unit / with_noise.least - 1.0).abs() < 1e-2, "{:e}", same.least);
+            }
         }
         // Noise large enough to be a real signal of the program is not assumed to be noise.
-        let loud = found.lines(1e-14, |state| Ok::<_, Error>([state.axis.z + 1e-7 * noise(state.axis.z), 1.0]));
-        assert!(matches!(loud, Err(Error::Domain { .. })), "{loud:?}");
+        for unit in [1.0, 1e-6] {
+            let noisy = |state: &BodyState<f64>| unit * (state.axis.z + 1e-7 * noise(state.axis.z));
+            let loud = found.lines(1e-14, |state| Ok::<_, Error>([noisy(state), unit]));
+            assert!(matches!(loud, Err(Error::Domain { .. })), "{loud:?}");
+        }
     }
 
     #[test]

@@ -331,7 +331,7 @@ mod tests {
     use crate::solutions::torus::plane::tests::BODY;
 
     #[test]
-    fn flows_are_thin_where_they_are_parallel_or_not_finite() {
+    fn flows_are_thin_where_they_vanish_or_are_not_finite() {
         let integrals = Integrals::new(&BODY, &Matrix3::from_diagonal(&Vector3::new(-0.4, 0.0, 0.6)), 1.0, DOUBLE);
         let walk = Walk::new(&integrals, 1.0, 1e-3);
         let axes = |n: Vector3<f64>, momentum| [n, momentum, n.cross(&Vector3::new(0.1, 0.7, -0.2))];

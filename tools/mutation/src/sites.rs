@@ -470,7 +470,6 @@ impl<'ast> Visit<'ast> for Visitor<'_> {
     fn visit_item(&mut self, item: &'ast Item) {
         match item {
             Item::Mod(m) if of_tests(&m.attrs) => {}
-            Item::Fn(f) if of_tests(&f.attrs) => {}
             Item::Static(_) | Item::Enum(_) | Item::Struct(_) | Item::Type(_) | Item::Use(_) | Item::Macro(_) => {}
             Item::Const(c) if c.ident != "_" && c.generics.params.is_empty() => {
                 if !self.constants.contains_key(&c.ident.to_string()) {
