@@ -456,7 +456,8 @@ def test_names_of_files_in_bytes(tmp_path):
 
 
 def test_signals_are_handled_between_costly_scenes(interrupted):
-    costly = 'scene = "tp-2"\n[[vary]]\nparameter = "star.inertia_ratio"\ngrid = { from = 1.1, to = 1.2, points = 200 }\n[time]\ntimes = [1000.0]\n[output]\nmethod = "taylor"\ncolumns = ["e_z"]\n'
+    # A quarter of a minute, so that the thread that sends the signals has its turn on a busy machine; the fourth ends it.
+    costly = 'scene = "tp-2"\n[[vary]]\nparameter = "star.inertia_ratio"\ngrid = { from = 1.1, to = 1.2, points = 20000 }\n[time]\ntimes = [1000.0]\n[output]\nmethod = "taylor"\ncolumns = ["e_z"]\n'
     interrupted(twofold.Sweep(toml=costly).run)
 
 
