@@ -7,12 +7,12 @@ use crate::dynamics::first_integrals::FirstIntegrals;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 
-/// Tolerance for `K` of a state, relative to the size of its terms, some `L.L s` and `C I^xx s s`: a double root of the quartic is known to half the
+/// Tolerance for `K` of a state, relative to the terms of `2 I^xx H` times `s`: a double root of the quartic is known to half the
 /// digits, and `K` then to all.
 const TOLERANCE: f64 = 1e-13;
 
-/// Rounding of `L.L`, relative to its terms.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// Rounding of the energy and of `L.L`, relative to their terms.
+pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// States with axes closer than this are identical: a double root is known to half the digits.
 const NEAREST: f64 = 1e-6;
@@ -49,8 +49,13 @@ pub(super) struct Plane {
 }
 
 impl Plane {
+    /// `u^2`; where it is below zero by more than its rounding, there is no state of this energy.
+    fn square_across(&self, b: f64) -> f64 {
+        self.square[0] + self.square[1] * (2.0 * b).cos() - self.along * self.along
+    }
+
     fn momentum_across(&self, b: f64) -> f64 {
-        (self.square[0] + self.square[1] * (2.0 * b).cos() - self.along * self.along).max(0.0).sqrt()
+        self.square_across(b).max(0.0).sqrt()
     }
 
     /// `K - K_0`.
@@ -83,7 +88,9 @@ impl Plane {
         loop {
             let next = b - self.miss(b) / self.slope(b);
             // NaN on the edge, where the slope has a pole.
-            let helps = self.miss(next).abs() < 0.5 * self.miss(b).abs() && (next - start).abs() < FARTHEST;
+            let helps = self.miss(next).abs() < 0.5 * self.miss(b).abs()
+                && (next - start).abs() < FARTHEST
+                && self.square_across(next) >= -2.0 * self.rounding;
             if !helps {
                 return b;
             }
@@ -91,14 +98,13 @@ impl Plane {
         }
     }
 
-    /// Tolerance for `K` of the state at the angle `b`: of its terms, and of `u`.
+    /// Tolerance for `K` of the state at the angle `b`: the rounding of its terms, and that of `u`.
     fn tolerance(&self, s: &Vector3<f64>, b: f64) -> f64 {
         let of_u = self.rounding.sqrt().min(self.rounding / (2.0 * self.momentum_across(b)));
         TOLERANCE / ROUNDING * self.rounding * s.amax() + 4.0 * (self.half * self.along).abs() * of_u
     }
 
-    /// `x` between -1 and 1 where `u^2 >= 0` to its rounding: for weak coefficients the energy of a motion, as a double, may belong only to
-    /// neighbours of its states.
+    /// `x` between -1 and 1 where `u^2 >= 0` to its rounding: the rounded energy of a motion may be slightly too small for any state.
     fn range(&self) -> Option<(f64, f64)> {
         let ([m0, m1], square) = (self.square, self.along * self.along - self.rounding);
         let (mut low, mut high) = (-1.0_f64, 1.0_f64);

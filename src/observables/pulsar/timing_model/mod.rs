@@ -56,8 +56,11 @@ const MOST_TURNS: f64 = 9e15;
 /// Maximum number of Newton steps from a number to its time.
 const STEPS: usize = 40;
 
-/// Upper limit on the rounding of a phase (turns): of its geometry and of its fraction, some 1e-16 each.
+/// Upper limit on the rounding of a phase (turns) at a given double of the time: of its geometry and of its fraction, some 1e-16 each.
 const ROUNDING: f64 = 1e-13;
+
+/// Largest rounding of a phase (turns) with which an arrival is a time.
+const LARGEST_ROUNDING: f64 = 1e-3;
 
 /// A pulsar described by its timing parameters.
 #[derive(Debug, Clone)]
@@ -148,10 +151,11 @@ impl TimingModel {
     }
 
     /// Arrival time (s since the epoch) of a pulse: the time at which the phase equals its number. The unevaluated sum of two doubles, accurate to
-    /// the rounding of the geometry, 1e-16 of a turn and what the precession turns in the last digit of the time as one double.
+    /// the rounding of the geometry, 1e-16 of a turn, and to what the geometry and F2 change the phase by within the last digit of the time as one
+    /// double.
     ///
     /// # Errors
-    /// As for [`phase`](Self::phase); [`Error::NotConverged`] for a precession about as fast as the rotation.
+    /// As for [`phase`](Self::phase); [`Error::NotConverged`] where the geometry changes the phase about as fast as the rotation does.
     pub fn arrival(&self, number: i64) -> Result<[f64; 2], Error> {
         check_turns(number as f64)?;
         // Up to the largest number of turns every integer is a double.
@@ -165,13 +169,19 @@ impl TimingModel {
             // This slope leaves out that of the geometry. Each step therefore leaves a fraction of the error, the relative
             // contribution of the geometry, which is small for a slow precession.
             time -= (off / (self.frequency.high * self.time.slowing(tau[0]))).into();
-            let rounding = ROUNDING + f64::EPSILON * (self.value(PrecessionRate) * time.high).abs();
-            if off.abs() < 1e-15 || off.abs() >= last && last < rounding {
+            if off.abs() < 1e-15 || off.abs() >= last && last < self.rounding_at(time.into())? {
                 return Ok(time.into());
             }
             last = off.abs();
         }
         Err(Error::NotConverged { what: "arrival of a pulse (turns)", iterations: STEPS, residual: last })
+    }
+
+    /// Rounding of the phase (turns) at a time: the geometry and F2 beyond that of a dipole are evaluated at the time as one double.
+    fn rounding_at(&self, t: [f64; 2]) -> Result<f64, Error> {
+        let of_rotation = self.frequency.high * self.time.slowing(self.time.stretched_at(t)?[0]);
+        let rate_of_rest = self.phase_rate(t)? - of_rotation;
+        Ok((ROUNDING + f64::EPSILON * (rate_of_rest * t[0]).abs()).min(LARGEST_ROUNDING))
     }
 
     fn phase_at(&self, tau: [f64; 2], t: f64) -> Result<Turns, Error> {
@@ -386,13 +396,21 @@ mod tests {
                 assert!(off.abs() < 3e-15, "{number}: {off:e}");
             }
         }
-        // Its phase jumps where the time, as a double, changes by its last digit: between two such times no phase is the number.
+        // The phase jumps where the time, as a double, changes by its last digit: between two such times no phase is the number. Also where the
+        // position angle swings by nearly half a turn, once in 2,000 turns, and a precession of the other sense makes the jumps longer than the steps.
         let fast = slowing_down(&[(F1, -1e-13), (PrecessionRate, 2.0), (Wobble, 0.6)]);
-        for number in (0..1_000).chain(10_000_000..10_000_200) {
-            let time = fast.arrival(number).unwrap();
-            let Turns { whole, fraction } = fast.phase(time).unwrap();
-            let off = (whole - number) as f64 + fraction;
-            assert!(off.abs() < 3e-15 + f64::EPSILON * time[0], "{number}: {off:e}");
+        let swinging = [(F1, -1e-13), (PrecessionRate, -3e-3), (Wobble, 0.5), (Chi, 0.501)];
+        let swinging = slowing_down(&swinging);
+        for (model, numbers, allowed) in [
+            (&fast, 0..1_000, 2e-13),
+            (&fast, 10_000_000..10_000_200, 2e-9),
+            (&swinging, 577_620_000..577_622_200, 1e-7),
+        ] {
+            for number in numbers {
+                let Turns { whole, fraction } = model.phase(model.arrival(number).unwrap()).unwrap();
+                let off = (whole - number) as f64 + fraction;
+                assert!(off.abs() < allowed, "{number}: {off:e}");
+            }
         }
         assert!(slowing_down(&[]).arrival(9_000_000_000_000_001).is_err());
         // A star whose phase goes backwards in part of each precession.
