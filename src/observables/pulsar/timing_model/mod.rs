@@ -396,8 +396,8 @@ mod tests {
                 assert!(off.abs() < 3e-15, "{number}: {off:e}");
             }
         }
-        // The phase jumps where the time, as a double, changes by its last digit: between two such times no phase is the number. Also where the
-        // position angle swings by nearly half a turn, once in 2,000 turns, and a precession of the other sense makes the jumps longer than the steps.
+        // The phase jumps where the time, as a double, changes by its last digit, so that for some numbers no time has this phase. The jumps are
+        // largest where the position angle swings by nearly half a turn, here once in 2,000 turns.
         let fast = slowing_down(&[(F1, -1e-13), (PrecessionRate, 2.0), (Wobble, 0.6)]);
         let swinging = [(F1, -1e-13), (PrecessionRate, -3e-3), (Wobble, 0.5), (Chi, 0.501)];
         let swinging = slowing_down(&swinging);
