@@ -265,12 +265,18 @@ mod tests {
 
     const SPHEROID: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.8 };
 
+    /// A free star with `n` along X and `e_x` along Y.
+    fn free_star<const V: usize>(momentum: Vector3<f64>) -> ScaledProblem<f64, V> {
+        let state = BodyState::from_vectors([Vector3::x(), momentum, Vector3::y()]);
+        let problem = Problem::unchecked(SPHEROID, Matrix3::zeros(), state);
+        ScaledProblem::new((true, Work::Waiting), &problem, (0.0, 1.0), 1e-10).unwrap()
+    }
+
     /// A free star, and the Taylor series of the rotation of `n` and of the vector carried along about a constant `L` at the rate `|L| / I^xx`, in
     /// the scaled unit of time.
     fn rotating<const V: usize>(momentum: Vector3<f64>) -> (TaylorErrors<V>, Vec<Columns<V>>) {
         let vectors = [Vector3::x(), momentum, Vector3::y()];
-        let problem = Problem::unchecked(SPHEROID, Matrix3::zeros(), BodyState::from_vectors(vectors));
-        let setup = ScaledProblem::<f64, V>::new((true, Work::Waiting), &problem, (0.0, 1.0), 1e-10).unwrap();
+        let setup = free_star::<V>(momentum);
         let unit = setup.scale.time;
         let mut coefficient = Columns::<V>::from_fn(|i, j| vectors[j][i]);
         let mut series = vec![coefficient];
@@ -336,10 +342,7 @@ mod tests {
             let known = Difference { momentum: Vector3::new(1e-6, 0.0, 0.0), length: 4e-7, ..Difference::default() };
             growth.add(&known, [0.0; 2]);
             let earlier = ErrorAtEnd { growth, unit: errors.unit, of_angle: 1e-8, largest: 0.0 };
-            let vectors = [Vector3::x(), momentum, Vector3::y()];
-            let problem = Problem::unchecked(SPHEROID, Matrix3::zeros(), BodyState::from_vectors(vectors));
-            let setup = ScaledProblem::<f64, V>::new((true, Work::Waiting), &problem, (0.0, 1.0), 1e-10).unwrap();
-            let mut errors = TaylorErrors::<V>::of(&setup, Some(&earlier));
+            let mut errors = TaylorErrors::of(&free_star::<V>(momentum), Some(&earlier));
             let start = errors.of_angle;
             errors.step_of_columns(&series, 0.1, &end(&series, 0.1));
             [start, errors.of_angle - start]
@@ -362,13 +365,7 @@ mod tests {
         let alone = rotating::<3>(momentum).0;
         let growth = ErrorGrowth::none(alone.momentum_unit);
         let earlier = ErrorAtEnd { growth, unit: alone.unit, of_angle: 0.0, largest: 0.0 };
-        let problem = Problem::unchecked(
-            SPHEROID,
-            Matrix3::zeros(),
-            BodyState::from_vectors([Vector3::x(), momentum, Vector3::y()]),
-        );
-        let setup = ScaledProblem::<f64, 3>::new((true, Work::Waiting), &problem, (0.0, 1.0), 1e-10).unwrap();
-        let after = TaylorErrors::<3>::of(&setup, Some(&earlier));
+        let after = TaylorErrors::of(&free_star::<3>(momentum), Some(&earlier));
         let expected = 3.0 * ErrorGrowth::counted_deviation(0.5 * f64::EPSILON);
         assert!((alone.momentum_unit - 1.0).abs() > 0.1, "{}", alone.momentum_unit);
         assert_relative_eq!(after.before - alone.before - after.of_angle, expected, max_relative = 0.02);

@@ -44,11 +44,16 @@ pub(super) struct Plane {
     square: [f64; 2],
     /// `K - K_0 = q(x) - 2 half p u sin 2b`.
     q: [f64; 3],
-    /// Rounding of `u^2`, the difference of `L.L` and `p^2`.
-    rounding: f64,
+    /// Upper limit on `L.L` and on the terms of which it is computed.
+    size: f64,
 }
 
 impl Plane {
+    /// Rounding of `u^2`, the difference of `L.L` and `p^2`.
+    fn rounding(&self) -> f64 {
+        ROUNDING * self.size
+    }
+
     /// `u^2`; where it is below zero by more than its rounding, there is no state of this energy.
     fn square_across(&self, b: f64) -> f64 {
         self.square[0] + self.square[1] * (2.0 * b).cos() - self.along * self.along
@@ -90,7 +95,7 @@ impl Plane {
             // NaN on the edge, where the slope has a pole.
             let helps = self.miss(next).abs() < 0.5 * self.miss(b).abs()
                 && (next - start).abs() < FARTHEST
-                && self.square_across(next) >= -2.0 * self.rounding;
+                && self.square_across(next) >= -2.0 * self.rounding();
             if !helps {
                 return b;
             }
@@ -100,13 +105,14 @@ impl Plane {
 
     /// Tolerance for `K` of the state at the angle `b`: the rounding of its terms, and that of `u`.
     fn tolerance(&self, s: &Vector3<f64>, b: f64) -> f64 {
-        let of_u = self.rounding.sqrt().min(self.rounding / (2.0 * self.momentum_across(b)));
-        TOLERANCE / ROUNDING * self.rounding * s.amax() + 4.0 * (self.half * self.along).abs() * of_u
+        let rounding = self.rounding();
+        let of_u = rounding.sqrt().min(rounding / (2.0 * self.momentum_across(b)));
+        TOLERANCE * self.size * s.amax() + 4.0 * (self.half * self.along).abs() * of_u
     }
 
     /// `x` between -1 and 1 where `u^2 >= 0` to its rounding: the rounded energy of a motion may be slightly too small for any state.
     fn range(&self) -> Option<(f64, f64)> {
-        let ([m0, m1], square) = (self.square, self.along * self.along - self.rounding);
+        let ([m0, m1], square) = (self.square, self.along * self.along - self.rounding());
         let (mut low, mut high) = (-1.0_f64, 1.0_f64);
         if m1 == 0.0 {
             return (m0 >= square).then_some((low, high));
@@ -171,8 +177,8 @@ impl Wanted {
             middle * m1 + half * (2.0 * along * along - m0) + normal_pull * half,
             -half * m1,
         ];
-        let rounding = ROUNDING * (self.size + 2.0 * c.abs() * inertia * s.amax());
-        Plane { axes, along, half, square, q, rounding }
+        let size = self.size + 2.0 * c.abs() * inertia * s.amax();
+        Plane { axes, along, half, square, q, size }
     }
 
     /// Range of the angle `b` in which `K` has an extremum in a plane: about the angle at which `L` is along the second axis, as far as the torque
@@ -246,7 +252,7 @@ pub(super) mod tests {
     #[test]
     fn the_range_is_where_the_momentum_is_real() {
         let range = |along: f64, square: [f64; 2]| {
-            Plane { axes: [0, 1], along, half: 0.1, square, q: [0.0; 3], rounding: 0.0 }.range()
+            Plane { axes: [0, 1], along, half: 0.1, square, q: [0.0; 3], size: 0.0 }.range()
         };
         assert_eq!(range(2.0, [9.0, 0.0]), Some((-1.0, 1.0)));
         assert_eq!(range(3.0, [9.0, 0.0]), Some((-1.0, 1.0)));
@@ -259,7 +265,7 @@ pub(super) mod tests {
         assert_eq!(range(2.0, [9.0, -1.0]), Some((-1.0, 1.0)));
         assert_eq!(range(2.0, [2.5, 1.0]), None);
         assert_eq!(range(2.0, [2.5, -1.0]), None);
-        let square = Plane { axes: [0, 1], along: 2.0, half: 0.1, square: [3.5, 1.0], q: [0.0; 3], rounding: 0.0 };
+        let square = Plane { axes: [0, 1], along: 2.0, half: 0.1, square: [3.5, 1.0], q: [0.0; 3], size: 0.0 };
         assert_eq!(square.momentum_across(1.2), 0.0);
     }
 
@@ -354,8 +360,7 @@ pub(super) mod tests {
     /// With `L.n` exactly zero the equation is quadratic, and its roots are candidates without correction.
     #[test]
     fn roots_of_the_quadratic_on_one_side_are_both_found() {
-        let plane =
-            Plane { axes: [0, 1], along: 0.0, half: 0.3, square: [4.0, 0.1], q: [0.18, -0.9, 1.0], rounding: 0.0 };
+        let plane = Plane { axes: [0, 1], along: 0.0, half: 0.3, square: [4.0, 0.1], q: [0.18, -0.9, 1.0], size: 0.0 };
         let candidates = plane.candidates();
         for root in [0.3, 0.6] {
             assert!(candidates.iter().any(|x| (x - root).abs() < 1e-14), "{candidates:?}");

@@ -161,23 +161,14 @@ mod tests {
                     // G u_2' and -G u_1' in the equations above, divided by I^xx.
                     let gyroscopic = momentum / inertia_xx;
                     let [k1, k2] = stiffness.map(|k| k / inertia_xx);
-                    let matrix = Matrix4::new(
-                        0.0,
-                        0.0,
-                        1.0,
-                        0.0, //
-                        0.0,
-                        0.0,
-                        0.0,
-                        1.0, //
-                        -k1,
-                        0.0,
-                        0.0,
-                        -gyroscopic, //
-                        0.0,
-                        -k2,
-                        gyroscopic,
-                        0.0,
+                    let matrix = Matrix4::from_row_slice(
+                        &[
+                            [0.0, 0.0, 1.0, 0.0],
+                            [0.0, 0.0, 0.0, 1.0],
+                            [-k1, 0.0, 0.0, -gyroscopic],
+                            [0.0, -k2, gyroscopic, 0.0],
+                        ]
+                        .concat(),
                     );
                     let growth = matrix.complex_eigenvalues().iter().fold(f64::NEG_INFINITY, |most, x| most.max(x.re));
                     let (n, momentum) = (Vector3::ith(axis, 1.0), Vector3::ith(axis, momentum));
