@@ -287,7 +287,14 @@ mod tests {
                 assert_eq!(weighted.matrix[(row, column)] * datum.sigma, found.matrix[(row, column)]);
                 assert_eq!(weighted.magnitudes[(row, column)] * datum.sigma, found.magnitudes[(row, column)]);
             }
+            assert_eq!(weighted.rounding[row] * datum.sigma, found.rounding[row]);
         }
+    }
+
+    /// A motion is computed for no longer than its data need.
+    #[test]
+    fn the_last_time_is_that_of_the_data() {
+        assert_eq!(last(&[[0.0, 0.25], [0.5, 0.125], [0.25, 0.0]]), 0.625);
     }
 
     /// By differences of `m.n`: an edge moves by `sin(rho) / |d(m.n)/dt|` per radian, the closest approach by the rotation rate over `|d2(m.n)/dt2|`, and

@@ -16,18 +16,18 @@ const FIRST_GRID: [usize; 3] = [8, 8, 4];
 /// Largest number of points of a grid, which takes some tenths of a second.
 const MOST_POINTS: usize = 1 << 18;
 
-/// Coefficients at the edge of the grid must be below this fraction of the least amplitude.
+/// Amplitudes at the edge of the grid must be below this fraction of the least amplitude.
 const EDGE: f64 = 0.1;
 
-/// Coefficients at the edge are noise if they are below this fraction of the size of the function, and if doubling the points in the angle has twice left more
+/// Amplitudes at the edge are noise if they are below this fraction of the size of the function, and if doubling the points in the angle has twice left more
 /// than [`UNCHANGED`] of them.
-const LARGEST_NOISE: f64 = 1e-10;
+const LARGEST_NOISE: f64 = 2e-10;
 const UNCHANGED: f64 = 0.7;
 
 /// Number of points off the grid at which the sum of the lines is compared with the function.
 const PLACES: usize = 16;
 
-/// Listed lines exceed this multiple of the largest noise coefficient and of the error of the states.
+/// Listed lines exceed this multiple of the largest amplitude of noise and of the error of the states.
 const ABOVE_NOISE: f64 = 4.0;
 
 /// One line `amplitude cos(frequency t + phase)`.
@@ -86,7 +86,7 @@ impl QuasiPeriodicMotion {
         let at = |turns: [f64; 3]| function(&self.state_after_turns(turns));
         let still = self.still(&at)?;
         let mut counts: [usize; 3] = core::array::from_fn(|i| if still[i] { 1 } else { FIRST_GRID[i] });
-        // For each angle, how often in a row doubling its points has left the coefficients at the edge unchanged, and the largest of them.
+        // For each angle, how often in a row doubling its points has left the amplitudes at the edge unchanged, and the largest of them.
         let mut before = [(0, f64::INFINITY); 3];
         loop {
             let (mut values, mut size) = (Vec::with_capacity(counts.iter().product()), 0.0_f64);
@@ -97,11 +97,11 @@ impl QuasiPeriodicMotion {
             }
             let all = coefficients(&values, counts);
             let (strongest, edges) = strongest_and_edges(&all, counts);
-            let wanted = (least * 2.0 * strongest).max(ABOVE_NOISE * self.error() * size);
+            let wanted = (least * strongest).max(ABOVE_NOISE * self.error() * size);
             let is_noise = |i: usize| before[i].0 >= 2 && edges[i] < LARGEST_NOISE * size;
-            let next = (0..3).filter(|&i| counts[i] > 1 && 2.0 * edges[i] > EDGE * wanted && !is_noise(i));
+            let next = (0..3).filter(|&i| counts[i] > 1 && edges[i] > EDGE * wanted && !is_noise(i));
             let Some(angle) = next.max_by(|&i, &j| edges[i].total_cmp(&edges[j])) else {
-                let noise = (0..3).filter(|&i| is_noise(i)).map(|i| ABOVE_NOISE * 2.0 * edges[i]).fold(0.0, f64::max);
+                let noise = (0..3).filter(|&i| is_noise(i)).map(|i| ABOVE_NOISE * edges[i]).fold(0.0, f64::max);
                 return self.listed(&all, counts, wanted.max(noise).max(f64::MIN_POSITIVE), &at);
             };
             let (times, last) = before[angle];
@@ -189,16 +189,16 @@ impl QuasiPeriodicMotion {
 /// A term of the series: multiples of the angles, and their coefficient.
 type Term = ([i32; 3], Complex<f64>);
 
-/// Largest coefficient apart from the constant, and for each angle the largest among multiples in the upper quarter of the
+/// Largest amplitude of a line, which is twice a coefficient, and for each angle the largest among multiples in the upper quarter of the
 /// grid.
 fn strongest_and_edges(all: &[Complex<f64>], counts: [usize; 3]) -> (f64, [f64; 3]) {
     let (mut strongest, mut edges) = (0.0_f64, [0.0_f64; 3]);
-    for (place, size) in all.iter().map(|coefficient| coefficient.norm()).enumerate().skip(1) {
-        strongest = strongest.max(size);
+    for (place, amplitude) in all.iter().map(|coefficient| 2.0 * coefficient.norm()).enumerate().skip(1) {
+        strongest = strongest.max(amplitude);
         let multiples = multiples(place, counts);
         for i in 0..3 {
             if counts[i] > 1 && 8 * multiples[i].unsigned_abs() as usize >= 3 * counts[i] {
-                edges[i] = edges[i].max(size);
+                edges[i] = edges[i].max(amplitude);
             }
         }
     }
@@ -236,18 +236,27 @@ mod tests {
         assert!(all.lines.windows(2).all(|pair| pair[0].amplitude >= pair[1].amplitude && pair[1].frequency > 0.0));
     }
 
+    /// A free body whose `n_x` is `3^(1/2) / 2` times the cosine of one angle.
+    fn free_precession() -> QuasiPeriodicMotion {
+        let star = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 0.5, constant_c: 0.0 };
+        let axis = Vector3::new(0.75_f64.sqrt(), 0.0, 0.5);
+        let initial = BodyState { axis, momentum: Vector3::z(), equatorial_axis: Vector3::y() };
+        motion(&Problem::new(star, Matrix3::zeros(), initial).unwrap())
+    }
+
+    /// The polynomial of Chebyshev, `cos k theta` for `x = cos theta`.
+    fn chebyshev(k: f64, x: f64) -> f64 {
+        (k * x.clamp(-1.0, 1.0).acos()).cos()
+    }
+
     /// With `x = cos theta` a polynomial of Chebyshev is one line. On eight points the line of `7 theta` adds to that of `theta`: the amplitude of
     /// `3 theta` at the edge of the grid shows that there may be such lines.
     #[test]
     fn amplitudes_are_right_to_a_tenth_of_the_least_one() {
-        let star = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 0.5, constant_c: 0.0 };
-        let axis = Vector3::new(0.75_f64.sqrt(), 0.0, 0.5);
-        let initial = BodyState { axis, momentum: Vector3::z(), equatorial_axis: Vector3::y() };
-        let found = motion(&Problem::new(star, Matrix3::zeros(), initial).unwrap());
-        let chebyshev = |k: f64, x: f64| (k * x.clamp(-1.0, 1.0).acos()).cos();
+        let found = free_precession();
         for edge in [1.1e-4, 1.5e-4, 1.9e-4] {
             let all = lines(&found, 1e-3, |state| {
-                let x = state.axis.x / axis.x;
+                let x = state.axis.x / 0.75_f64.sqrt();
                 x + edge * chebyshev(3.0, x) + 1.1e-4 * chebyshev(7.0, x)
             });
             assert!((all.lines[0].amplitude - 1.0).abs() < 1e-4, "{edge:e}: {:?}", all.lines[0]);
@@ -277,8 +286,8 @@ mod tests {
         let exact = lines(&found, 1e-14, |state| state.axis.z);
         for part in [1e-11, 1e-10] {
             let with_noise = lines(&found, 1e-14, |state| state.axis.z + part * noise(state.axis.z));
-            // Eight times the largest coefficient at the edge; these coefficients are each about the size of the noise over the root of twelve times
-            // the number of points.
+            // Four times the largest amplitude at the edge. An amplitude is twice a coefficient, which is about the size of the noise over the root of
+            // twelve times the number of points.
             assert!((8e-3 * part..0.2 * part).contains(&with_noise.least), "{part:e}: {:e}", with_noise.least);
             assert!(with_noise.left < 2.0 * part && exact.left < 1e-12, "{:e}", with_noise.left);
             assert!(with_noise.lines.len() > 10);
@@ -300,6 +309,19 @@ mod tests {
             let loud = found.lines(1e-14, |state| Ok::<_, Error>([noisy(state), unit]));
             assert!(matches!(loud, Err(Error::Domain { .. })), "{loud:?}");
         }
+    }
+
+    /// Lines of the same small amplitude up to the seventh multiple: the amplitude at the edge is unchanged once, as for noise, and then zero.
+    #[test]
+    fn lines_of_equal_amplitude_are_not_noise() {
+        let found = free_precession();
+        let part = 1e-11;
+        let all = lines(&found, 1e-12, |state| {
+            let x = state.axis.x / 0.75_f64.sqrt();
+            x + part * (2..8).map(|k| chebyshev(f64::from(k), x)).sum::<f64>()
+        });
+        assert_eq!(all.lines.len(), 7);
+        assert!(all.lines[1..].iter().all(|line| (line.amplitude / part - 1.0).abs() < 1e-3), "{:?}", all.lines);
     }
 
     #[test]
@@ -363,6 +385,28 @@ mod tests {
             for t in [0.0, 17.0, 290.0, 4321.0] {
                 let sum = all.constant + all.lines.iter().map(|line| line.value(t)).sum::<f64>();
                 assert!((sum - value(&exact.state([t, 0.0]))).abs() < 1e-5, "{speed} {t}: {sum}");
+            }
+        }
+    }
+
+    /// After a start from rest a body may turn about `n`, in either sense: only a rotation about `n` that is rounding is left out.
+    #[test]
+    fn a_body_without_spin_may_turn() {
+        let star = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.2, constant_c: 1.0 };
+        let s = Matrix3::from_diagonal(&Vector3::new(0.04, 0.02, -0.06));
+        for (x, sign) in [(0.6, 1.0), (0.8, -1.0)] {
+            let axis = Vector3::new(x, 0.5, 0.5).normalize();
+            let equatorial_axis = axis.cross(&Vector3::x()).normalize();
+            let initial = BodyState { axis, momentum: Vector3::zeros(), equatorial_axis };
+            let problem = Problem::new(star, s, initial).unwrap();
+            let found = motion(&problem);
+            assert!(found.frequencies().rate("psi'").is_some_and(|rate| rate * sign > 0.2), "{found:?}");
+            let value = |state: &BodyState<f64>| state.equatorial_axis.x;
+            let all = lines(&found, 1e-7, value);
+            let exact = crate::propagation::PhasedMotion::exact(&problem, 1e4).unwrap();
+            for t in [0.0, 17.0, 4321.0] {
+                let sum = all.constant + all.lines.iter().map(|line| line.value(t)).sum::<f64>();
+                assert!((sum - value(&exact.state([t, 0.0]))).abs() < 1e-5, "{x} {t}: {sum}");
             }
         }
     }

@@ -340,6 +340,26 @@ mod tests {
         assert!((model.phase_rate([1e8, 0.0]).unwrap() / rate - 1.0).abs() > 1e-3);
     }
 
+    /// The rotation has 32 digits, however much it slows down. What remains has those of the time as one double.
+    #[test]
+    fn rounding_of_the_phase_is_that_of_the_geometry() {
+        let (t, rounding) = (4e8, |model: &TimingModel, t| model.rounding_at([t, 0.0]).unwrap());
+        let even = TimingModel::new([100.0, 1e-16], &[(F1, -1e-8), (F2, 3e-18)]).unwrap();
+        assert!(even.phase_rate([t, 0.0]).unwrap() < 97.0);
+        assert_relative_eq!(rounding(&even, t), ROUNDING, max_relative = 1e-3, epsilon = 0.0);
+        let cubic = TimingModel::new([100.0, 0.0], &[(F2, 6e-18)]).unwrap();
+        for t in [t, -t] {
+            let of_rest = f64::EPSILON * 3e-18 * t.abs().powi(3);
+            assert_relative_eq!(rounding(&cubic, t), ROUNDING + of_rest, max_relative = 1e-6, epsilon = 0.0);
+        }
+    }
+
+    #[test]
+    fn defaults_are_right_angles() {
+        let model = TimingModel::new([10.0, 0.0], &[]).unwrap();
+        assert_eq!((model.value(Chi), model.value(Inclination), model.value(Wobble)), (PI / 2.0, PI / 2.0, 0.0));
+    }
+
     #[test]
     fn parameters_have_ranges() {
         refused(&[(Wobble, -0.1)], "wobble (rad)", -0.1);
