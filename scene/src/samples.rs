@@ -275,7 +275,8 @@ impl<'s, X: SegmentState> Segments<'s, X> {
     /// The fraction of the scene's tolerance that a segment may use, such that the truncation per unit of time is that of
     /// one motion over the whole span: an error made at the time `t` grows with the rotation from `t` on.
     fn share_of_tolerance(&self, length: f64) -> f64 {
-        let growth = |duration: f64| duration.abs() * (1.0 + self.scene.turning_rate() * duration.abs() / 2.0);
+        // The length and the total have the same sign.
+        let growth = |duration: f64| duration * (1.0 + self.scene.turning_rate() * duration.abs() / 2.0);
         if self.total == 0.0 {
             return self.scene.tolerance;
         }
@@ -295,6 +296,14 @@ fn since_start_within(scene: &Scene, time: f64, from: f64, to: f64) -> [f64; 2] 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_plan_without_a_motion_has_no_segments() {
+        let scene = Scene::named("tp-2").unwrap();
+        let plan = scene.plan(&[]).unwrap();
+        let why = Segments::<AxisState<f64>>::new(&scene, &plan).err().unwrap().to_string();
+        assert_eq!(why, "motion of the plan: none of its outputs needs one");
+    }
 
     /// An error made at the time `t` grows to `1 + rate (end - t)` times itself by the end. The sum over all segments must stay below the tolerance.
     #[test]

@@ -32,7 +32,7 @@ impl Scene {
             };
             let sampled = for_each_sample(&until, &plan, ErrorEstimates::AtEnd, take, |_, _, _| Ok(()))?;
             angles = state.angles().unwrap_or(angles);
-            error = sampled.error.unwrap_or(0.0);
+            error = sampled.error.expect("the estimate at the end");
         }
         let scene = Self {
             problem: self.problem.starting_from(state)?,

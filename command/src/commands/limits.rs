@@ -283,7 +283,8 @@ mod tests {
             }
         }
         assert_eq!(periods("1:2:10000").expect("as many as are allowed").rates().len(), 10_000);
-        for text in ["50:90", "50:90:0", "50:90:10001", "50:90:2:2", "0.9e-6:90:2", "50:1.1e9:2", "50:NaN:2"] {
+        for text in ["50:90", "50:90:0", "50:90:10001", "50:90:2:2", "0.9e-6:90:2", "50:1.1e9:2", "50:NaN:2", "50:50:2"]
+        {
             assert!(periods(text).is_err_and(|why| why.starts_with("must be two periods")), "{text}");
         }
     }

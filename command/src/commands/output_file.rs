@@ -110,4 +110,18 @@ mod tests {
         assert_eq!(meanwhile(false), ("theirs".to_owned(), true));
         assert_eq!(meanwhile(true), ("ours".to_owned(), false));
     }
+
+    #[test]
+    fn a_file_is_removed_for_nothing_only_with_leave() {
+        for replace in [false, true] {
+            let folder = tempfile::tempdir().expect("folder");
+            let path = folder.path().join("table.csv");
+            let Ok(output) = OutputFile::beside(&path, replace) else { panic!("the name is free") };
+            fs::write(&path, "theirs").expect("file");
+            assert!(output.nothing().is_ok());
+            assert_eq!(path.exists(), !replace);
+            let Ok(output) = OutputFile::beside(&folder.path().join("none.csv"), replace) else { panic!("a new name") };
+            assert!(output.nothing().is_ok());
+        }
+    }
 }

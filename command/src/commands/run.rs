@@ -137,7 +137,7 @@ fn angular_velocity_at_start(scene: &Scene) -> f64 {
 fn components(scene: &Scene) -> &'static str {
     let (body, s, l) = (scene.problem.spheroid(), scene.problem.coefficients(), scene.problem.initial().momentum);
     let values = s.symmetric_eigenvalues();
-    let by_torque = 2.0 * body.inertia_xx * body.constant_c.abs() * (values.max() - values.min());
+    let by_torque = 2.0 * body.inertia_xx * body.constant_c * (values.max() - values.min());
     if l.norm_squared() < by_torque { "n, e_x and L / (2 I^xx C (s_max - s_min))^(1/2)" } else { "n, e_x and L / |L|" }
 }
 
@@ -220,5 +220,27 @@ fn note_poles(scene: &Scene, summary: &Summary) {
              are left empty",
             summary.rows_on_pole, summary.rows, scene.units.time_name
         ));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
+    use twofold::nalgebra::{Matrix3, Vector3};
+
+    use super::*;
+
+    /// Eigenvalues differ by 0.05: with `I^xx = 2` and `C = 3` the torque can produce `L^2 = 2 I^xx C 0.05 = 0.6`.
+    #[test]
+    fn an_error_of_l_is_relative_to_the_size_that_the_torque_produces_if_that_is_larger() {
+        let mut scene = Scene::named("tp-2").unwrap();
+        let star = RigidSpheroid { inertia_xx: 2.0, inertia_zz: 2.5, constant_c: 3.0 };
+        let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
+        for (square, is_of_torque) in [(0.59_f64, true), (0.61, false)] {
+            let momentum = Vector3::new(0.6, 0.0, -0.8) * square.sqrt();
+            let state = BodyState { axis: Vector3::z(), momentum, equatorial_axis: Vector3::x() };
+            scene.problem = Problem::new(star, s, state).unwrap();
+            assert_eq!(components(&scene).contains("s_max - s_min"), is_of_torque, "{square}");
+        }
     }
 }

@@ -105,8 +105,9 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
             let _ = std::fs::remove_file(args.out.join(file(old)));
         }
     }
-    note_left_out(&timing, epochs.len());
-    let farthest = epochs.iter().map(|at| at.seconds_since(&pulsar.epoch)[0].abs()).fold(0.0, f64::max);
+    left_out(epochs.len(), timing.pulses.len(), timing.dark).iter().for_each(|why| note(why));
+    let distances = epochs.iter().map(|at| at.seconds_since(&pulsar.epoch)[0].abs());
+    let farthest = distances.max_by(f64::total_cmp).expect("at least two epochs");
     note(&format!(
         "estimated error of the residuals: {:.1e} s; an arrival time is rounded to 1e-16 d, 8.6e-12 s",
         pulsar.residual_error(farthest)
@@ -161,22 +162,23 @@ pub(super) fn days_apart(times: impl ExactSizeIterator<Item = f64>) -> f64 {
     if intervals > 0.0 { (ends[1] - ends[0]) / intervals / DAY } else { f64::NAN }
 }
 
-fn note_left_out(timing: &Timing, asked: usize) {
-    let shared = asked - timing.pulses.len() - timing.dark;
+/// Why the epochs `asked` for have fewer `pulses`: several in one turn, or no pulse in a turn (`dark`).
+fn left_out(asked: usize, pulses: usize, dark: usize) -> Vec<String> {
+    let (shared, mut reasons) = (asked - pulses - dark, Vec::new());
     if shared > 0 {
         let are = if shared == 1 { "is" } else { "are" };
-        note(&format!(
+        reasons.push(format!(
             "{shared} of {asked} epochs {are} in the same turn as an earlier one; each pulse is written once"
         ));
     }
-    if timing.dark > 0 {
-        note(&format!(
-            "{} of {asked} epochs {} no pulse: in that turn the line of sight stays outside the beam, or inside it for longer than the \
-             search covers, one and a half turns either way",
-            timing.dark,
-            if timing.dark == 1 { "has" } else { "have" }
+    if dark > 0 {
+        let have = if dark == 1 { "has" } else { "have" };
+        reasons.push(format!(
+            "{dark} of {asked} epochs {have} no pulse: in that turn the line of sight stays outside the beam, or inside it for longer than the \
+             search covers, one and a half turns either way"
         ));
     }
+    reasons
 }
 
 /// The requested epochs, from the scene or from the options.
@@ -198,9 +200,7 @@ fn epochs(args: &TimingArgs, scene: &Scene, epoch: &Epoch) -> Result<Vec<Epoch>,
     let (count, step) = match args.every {
         Some(every) => {
             positive("--every", every)?;
-            // The quotient of decimal numbers can be below a whole number by the rounding of both day fractions and by its own.
-            let rounding = 2.0 * f64::EPSILON / every + 4.0 * f64::EPSILON * days / every;
-            ((days / every + rounding).floor() + 1.0, every)
+            (intervals(days, every) + 1.0, every)
         }
         None => {
             let count = args.epochs.unwrap_or(scene.times.count());
@@ -238,6 +238,13 @@ fn positive(option: &str, value: f64) -> Result<(), Failure> {
 
 pub(super) fn date(text: &str) -> Result<Epoch, String> {
     text.parse().map_err(|_| "must be a modified Julian date from 0 to 1e7, such as 55321.25".to_owned())
+}
+
+/// How often `every` fits into a span. The quotient of decimal numbers can be below a whole number by the rounding of both day fractions and by its
+/// own.
+fn intervals(days: f64, every: f64) -> f64 {
+    let rounding = 2.0 * f64::EPSILON / every + 4.0 * f64::EPSILON * days / every;
+    (days / every + rounding).floor()
 }
 
 #[cfg(test)]
@@ -311,5 +318,36 @@ mod tests {
         assert_eq!(days(&[13.0, 10.0, 11.0]), 1.5);
         assert_eq!(days(&[-2.0, -1.0]), 1.0);
         assert!(days(&[4.0]).is_nan() && days(&[]).is_nan());
+    }
+
+    #[test]
+    fn epochs_without_a_pulse_of_their_own_are_told_by_reason() {
+        assert_eq!(left_out(9, 9, 0), [""; 0]);
+        let both = left_out(9, 7, 1);
+        assert!(both[0].starts_with("1 of 9 epochs is in the same turn"), "{both:?}");
+        assert!(both[1].starts_with("1 of 9 epochs has no pulse"), "{both:?}");
+        let both = left_out(9, 2, 4);
+        assert!(both[0].starts_with("3 of 9 epochs are in the same turn"), "{both:?}");
+        assert!(both[1].starts_with("4 of 9 epochs have no pulse"), "{both:?}");
+    }
+
+    /// Decimal days and steps, of which a whole number fits into the span; and the span shorter by a thousandth of a step.
+    #[test]
+    fn a_whole_number_of_decimal_steps_is_counted() {
+        for (step, every) in [("0.1", 0.1), ("0.7", 0.7), ("0.003", 0.003), ("1e-8", 1e-8), ("3.3", 3.3)] {
+            for first in 0..200 {
+                let from = Epoch::new(55_000, f64::from(first) / 200.0).unwrap();
+                for number in [1, 2, 3, 7, 49, 1000, 12_345, 400_003] {
+                    let to = |part: f64| {
+                        let days = f64::from(number) * part * every;
+                        let at = from.after([days * DAY, 0.0]).unwrap();
+                        at.seconds_since(&from)[0] / DAY
+                    };
+                    assert_eq!(intervals(to(1.0), every), f64::from(number), "{step} from {first}/200");
+                    let short = 1.0 - 1e-3 / f64::from(number);
+                    assert_eq!(intervals(to(short), every), f64::from(number - 1), "{step} from {first}/200");
+                }
+            }
+        }
     }
 }

@@ -22,7 +22,7 @@ impl Table {
     }
 
     pub(super) fn last_time(&self) -> f64 {
-        self.rows.last().map_or(0.0, |row| row[0])
+        self.rows.last().expect("a table that is read has rows")[0]
     }
 }
 
@@ -93,7 +93,7 @@ pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, 
         return Err(format!("{file}: is empty"));
     }
     if rows.len() < rows_wanted {
-        let end = text.lines().last().map_or(0, |line| line.chars().count()) + 1;
+        let end = text.lines().last().unwrap_or("").chars().count() + 1;
         let message = format!("the file is incomplete; expected {rows_wanted} rows, found {}", rows.len());
         return fault(last_line, end, message);
     }

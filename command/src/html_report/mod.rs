@@ -208,6 +208,10 @@ pub(crate) mod tests {
             for check in claim.checks {
                 assert!(part(page, &cross_reference::check(check), "</tr>").contains(&link), "{check} {link}");
             }
+            for table in claim.golden {
+                let table = cross_reference::golden(table);
+                assert!(part(page, &table, "</article>").contains(&link), "{table} {link}");
+            }
             // A claim placed in Eq. (25) is named at that equation.
             let number = claim.place.split_once("Eq. (").and_then(|(_, rest)| rest.split(')').next()?.parse().ok());
             if let Some(number) = number {
@@ -238,6 +242,15 @@ pub(crate) mod tests {
             }
         }
         assert!(named > 20, "{named}");
+        // Checks named in the text are links, and so are discrepancies.
+        let text = part(page, "discrepancies", "</section>");
+        let linked = content.results.iter().filter(|(check, _)| {
+            let name = format!("<code>{}</code>", check.id);
+            text.contains(&format!("<a href=\"#{}\">{name}</a>", cross_reference::check(check.id)))
+        });
+        assert!(linked.count() > 50);
+        let to_discrepancies = values(page, "href").into_iter().filter(|link| link.starts_with("#discrepancy-"));
+        assert!(to_discrepancies.count() > 5);
         // Captions name equations too.
         let equation = part(page, "eq-57", "</article>");
         assert!(equation.contains("href=\"#figure-pulse-series\""), "{equation}");

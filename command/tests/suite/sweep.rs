@@ -307,23 +307,30 @@ fn a_file_that_appears_before_the_table_is_named_stays() {
 
 /// A sweep that is killed when its table is already renamed but its journal still exists.
 #[test]
-fn a_sweep_killed_while_it_tidied_tells_again_that_scenes_failed() {
-    let folder = Folder::with(&[("sweep.toml", SWEEP)]);
-    let run = || stderr(&ends(folder.run(&["sweep", "sweep.toml", "--out", "table.csv"]), 3));
-    let why = "error: some scenes failed; table.csv.errors.csv lists them with the reasons\n";
-    assert!(run().ends_with(why));
-    let [table, errors] = ["table.csv", "table.csv.errors.csv"].map(|name| folder.bytes(name));
-    let text = SweepText::read(&folder.at("sweep.toml").to_string_lossy()).expect("a sweep");
-    let files = SpoolFiles::of(&folder.at("table.csv"));
-    let mut spool = Spool::open(files, &Identity::new(&text, &(0..800)), [b"", b""], 0..800).expect("a table");
-    spool.append(800, [&table, &errors], 80).expect("rows");
-    spool.commit().expect("a mark");
-    spool.completed().expect("a mark");
-    drop(spool);
-    fs::remove_file(folder.at("table.csv.partial")).expect("rows");
-    assert_eq!(run(), why);
-    assert!(folder.bytes("table.csv") == table);
-    assert_eq!(folder.names(), ["sweep.toml", "table.csv", "table.csv.errors.csv"]);
+fn a_sweep_killed_while_it_tidied_tells_again_whether_scenes_failed() {
+    let one = |ratio: &str| {
+        format!("scene = 'tp-2'\n[[vary]]\nparameter = 'star.inertia_ratio'\nvalues = [{ratio}]\n[time]\nend = 1.0\n")
+    };
+    for (sweep, scenes, failed) in [(SWEEP, 800, 80), (&one("5.0"), 1, 1), (&one("0.9"), 1, 0)] {
+        let folder = Folder::with(&[("sweep.toml", sweep)]);
+        let status = if failed == 0 { 0 } else { 3 };
+        let run = || stderr(&ends(folder.run(&["sweep", "sweep.toml", "--out", "table.csv"]), status));
+        let why = "error: some scenes failed; table.csv.errors.csv lists them with the reasons\n";
+        assert_eq!(run().ends_with(why), failed > 0);
+        let (table, names) = (folder.bytes("table.csv"), folder.names());
+        let errors = if failed == 0 { Vec::new() } else { folder.bytes("table.csv.errors.csv") };
+        let text = SweepText::read(&folder.at("sweep.toml").to_string_lossy()).expect("a sweep");
+        let (files, identity) = (SpoolFiles::of(&folder.at("table.csv")), Identity::new(&text, &(0..scenes)));
+        let mut spool = Spool::open(files, &identity, [b"", b""], 0..scenes).expect("a table");
+        spool.append(scenes, [&table, &errors], failed).expect("rows");
+        spool.commit().expect("a mark");
+        spool.completed().expect("a mark");
+        drop(spool);
+        fs::remove_file(folder.at("table.csv.partial")).expect("rows");
+        assert_eq!(run(), if failed == 0 { "" } else { why });
+        assert!(folder.bytes("table.csv") == table);
+        assert_eq!(folder.names(), names);
+    }
 }
 
 /// A billion scenes start at once, take little memory, and are interrupted without loss; the size of the table is predicted, and the count for the

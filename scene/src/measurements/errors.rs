@@ -48,9 +48,25 @@ pub fn beside<M: Model>(fisher: &Fisher<M>, factor: f64, random: &mut ChaCha8Rng
 #[cfg(test)]
 mod tests {
     use rand::SeedableRng;
-    use twofold::inference::{MeasuredArrival, MeasuredWidth};
+    use twofold::inference::{MeasuredArrival, MeasuredWidth, Signal};
 
     use super::*;
+    use crate::measurements::Measurement;
+    use crate::scene_file::Scene;
+
+    /// A thousand million standard deviations of `beta` are some thousand turns, and an angle to Z is at most half a turn.
+    #[test]
+    fn a_start_that_is_never_allowed_is_refused() {
+        let measurement = Measurement::new(Scene::named("tp-2").unwrap(), "arrivals:1e-6", Some("beta")).unwrap();
+        let signal = Signal::new(&measurement.parameters, measurement.end).unwrap();
+        let (events, data) = (measurement.events(&signal).unwrap(), measurement.simulated(&signal).unwrap());
+        let fisher = Fisher::of(&measurement.parameters, &events, &data, &measurement.unknowns).unwrap();
+        let factor = 1e4 / fisher.sigmas()[0];
+        let start = |factor: f64| beside(&fisher, factor, &mut ChaCha8Rng::seed_from_u64(1));
+        assert!(start(1.0).is_ok());
+        let why = start(factor).unwrap_err().to_string();
+        assert_eq!(why, "a simulated start: none of a hundred draws is within the limits of the unknowns");
+    }
 
     /// The random numbers are used first for arrivals and then for widths, in standard deviations of each.
     #[test]

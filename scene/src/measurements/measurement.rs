@@ -309,6 +309,9 @@ mod tests {
         assert_eq!((data.len(), left_out), (6, LeftOut { first_turn: 1, shared_turns: 0 }));
         let why = measurement.data_in(&both[1..], &signal).unwrap_err();
         assert!(why.contains("--observe arrivals: there is no such datum in strains"), "{why}");
+        let twice = [pulses("1,9,50,1,50,\n1,10,56,1,56,\n"), pulses("1,10,56,1,56,\n")];
+        let why = measured("arrivals:1", 400.0, 10).0.data_in(&twice, &signal).unwrap_err();
+        assert!(why.starts_with("pulses: arrivals = 56.0 occurs twice"), "{why}");
 
         let (measurement, signal) = measured("strain:1", 400.0, 10);
         for (rows, is_taken) in [("3,1,2\n", false), ("3,1.5,2\n", true), ("5,1,2\n", true)] {

@@ -98,6 +98,13 @@ mod tests {
     use super::*;
 
     #[test]
+    fn strain_is_one_of_the_kinds_where_its_polarizations_are() {
+        let refused = |allowed| parse_noise("wind:1", allowed, 1.0).unwrap_err();
+        assert!(refused(&Observable::ALL).ends_with(", strain"), "{}", refused(&Observable::ALL));
+        assert_eq!(refused(&[Observable::Widths]), "`wind`: must be one of widths");
+    }
+
+    #[test]
     fn parameters_are_those_of_the_scene_off_the_poles() {
         let mut scene = Scene::named("b1828-11").unwrap();
         for (beta, is_taken) in [(1e-5, true), (1e-7, false), (std::f64::consts::FRAC_PI_2, true)] {

@@ -64,7 +64,7 @@ pub fn read_timing(
 fn same([time, rest]: [f64; 2]) -> [f64; 2] {
     let sum = time + rest;
     let added = sum - time;
-    [sum + 0.0, (time - (sum - added)) + (rest - added) + 0.0]
+    [sum + 0.0, (time - (sum - added)) + (rest - added)]
 }
 
 /// The time (s) of an arrival that has the time of another one, or of a width that has the time and the length of another one; `None` if there is none. No two
@@ -291,9 +291,13 @@ mod tests {
         let data = read("data", &format!("{header}55000,0.5,3\n")).unwrap();
         assert_eq!((data.arrivals[0].time, data.arrivals[0].sigma), ([43_200.0, 0.0], 0.5));
         assert_eq!(data.widths, [MeasuredWidth { time: 43_200.0, duration: 3.0, sigma: 0.25 }]);
-        for (row, column) in
-            [("x,0.5,3", "arrival_day [MJD]"), ("55000,x,3", "arrival_fraction [d]"), ("55000,0.5,0", "duration [s]")]
-        {
+        assert_eq!(read("data", &format!("{header}55000,0.5,1e9\n")).unwrap().widths[0].duration, 1e9);
+        for (row, column) in [
+            ("x,0.5,3", "arrival_day [MJD]"),
+            ("55000,x,3", "arrival_fraction [d]"),
+            ("55000,0.5,0", "duration [s]"),
+            ("55000,0.5,2e9", "duration [s]"),
+        ] {
             let why = read("data", &format!("{header}{row}\n")).unwrap_err();
             assert!(why.starts_with(&format!("data:2: `{column}`")), "{why}");
         }

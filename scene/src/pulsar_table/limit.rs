@@ -296,6 +296,22 @@ mod tests {
         }
     }
 
+    /// With one uncertain angle `Delta lambda` changes in proportion to its uncertainty.
+    #[test]
+    fn a_limit_is_rough_where_inputs_change_it_by_a_third() {
+        let text = "[[pulsar]]\nname = \"x\"\nspin_period = 4e-3\nlambda = 95\nchi = 51\nwidth = 13\nwidth_change = 0.02\nyears = 15\n";
+        let pulsar = crate::pulsar_table::pulsars("table", text).unwrap().remove(0);
+        let [chi, width] = [&pulsar.chi, &pulsar.width].map(|quantity| Quantity::exact(quantity.value));
+        let exact = Pulsar { chi, width, width_change: Quantity::exact(1.0), ..pulsar };
+        let with =
+            |uncertainty: f64| Pulsar { lambda: Quantity { uncertainty, ..Quantity::exact(95.0) }, ..exact.clone() };
+        let figure = with(0.01).figure("lambda_change").unwrap();
+        let relative = figure.from_inputs / figure.value.abs() / 0.01;
+        for (part, is_rough) in [(0.26, false), (0.33, false), (0.34, true)] {
+            assert_eq!(with(part / relative).is_rough(), Ok(is_rough), "{part}");
+        }
+    }
+
     /// A change of 0.3 deg with an error of 0.02 deg is measured better than one of 0.001 deg with an error of 0.05 deg, although the first gives the
     /// weaker limit: had both changes been zero, it would give the stronger one.
     #[test]

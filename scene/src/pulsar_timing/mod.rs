@@ -210,6 +210,15 @@ mod tests {
         (pulsar, timing)
     }
 
+    #[test]
+    fn more_than_two_derivatives_are_not_fitted() {
+        let pulsar = PulsarScene::new(&scene("[0.0, 0.0, 0.0]")).unwrap();
+        let epochs = [0.0, 1e6, 2e6, 3e6].map(|time| pulsar.epoch.after([time, 0.0]).unwrap());
+        assert!(pulsar.timed(&epochs, 2).is_ok());
+        let Err(Refusal::Model(why)) = pulsar.timed(&epochs, 3) else { panic!("three derivatives") };
+        assert!(why.to_string().starts_with("number of derivatives = 3"), "{why}");
+    }
+
     /// `C = I^xx / t_c^2`, and the strain in seconds follows from that in `t_c` with the square of it.
     #[test]
     fn a_scene_in_seconds_has_its_units() {

@@ -101,13 +101,15 @@ mod tests {
     /// 1e-8 rad; along the line of sight a rounding of the cosine is some 1e-8 rad too.
     #[test]
     fn a_star_without_wobble_shows_its_axis_at_the_difference_and_the_sum_of_angles() {
-        for (inclination, chi) in [(60, 65), (60, 60), (75, 75), (82, 98), (35, 145), (120, 60)] {
+        // At 20.7 degrees the cosine of the smallest angle is rounded to above one.
+        let equal = [60.0, 75.0, 82.0, 20.7].map(|angle| (angle, angle));
+        for (inclination, chi) in equal.into_iter().chain([(60.0, 65.0), (82.0, 98.0), (35.0, 145.0), (120.0, 60.0)]) {
             let (_, _, [nearest, farthest]) = angles(&[
                 ("\"60 deg\"", &format!("\"{inclination} deg\"")),
                 ("\"65 deg\"", &format!("\"{chi} deg\"")),
                 ("\"1.0 deg\"", "\"0 deg\""),
             ]);
-            let (inclination, chi) = (f64::from(inclination).to_radians(), f64::from(chi).to_radians());
+            let (inclination, chi) = (f64::to_radians(inclination), f64::to_radians(chi));
             let sum = (inclination + chi).min(2.0 * std::f64::consts::PI - inclination - chi);
             assert!((nearest - (inclination - chi).abs()).abs() < 5e-8, "{nearest}");
             assert!((farthest - sum).abs() < 5e-8, "{farthest}");

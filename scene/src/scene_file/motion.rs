@@ -432,6 +432,18 @@ fn refuse_overflow(section: &Section<'_>, state: &BodyState<f64>) -> Result<(), 
 mod tests {
     use super::*;
 
+    #[test]
+    fn azimuths_are_counted_from_the_direction_nearest_to_x() {
+        let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];
+        for (l, first) in [(x, y), (-x, y), (y, x), (-y, x), (z, x)] {
+            assert_eq!(outwards(&l, 0.0), first, "{l}");
+            assert!((outwards(&l, FRAC_PI_2) - l.cross(&first)).norm() < 1e-15, "{l}");
+        }
+        // Some 6 degrees from X.
+        let tilted = Vector3::new(0.995, 0.0, (1.0_f64 - 0.995 * 0.995).sqrt());
+        assert_eq!(outwards(&tilted, 0.0), y);
+    }
+
     /// For a sphere of 1.4 solar masses and 12 km, sqrt(G M / R^3) / (2 pi) with SI values. A flatter star of the same mean radius has
     /// its equator farther out, where gravity holds it less.
     #[test]

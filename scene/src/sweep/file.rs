@@ -7,7 +7,7 @@ use toml::de::{DeTable, DeValue};
 use twofold::plan::Output;
 
 use super::outputs::{ERRORS, Outputs, Summary};
-use super::parameters::{Law, Parameters, Source};
+use super::parameters::{Law, Parameters, Points, Source};
 use super::{MOST_COLUMNS, MOST_SCENES, Sweep};
 use crate::scene_file::{
     COLUMN_GROUPS, Columns, Entry, Fault, FileFormat, Replaced, SCENE, Scene, SceneError, Section, Times, built_in,
@@ -195,13 +195,12 @@ fn parameters(
             return Err(parameter.refuse_because("the scene gives it in degrees; write a number there, in rad"));
         }
         found.keys.push(parameter_key(&parameter, known, &found.keys)?);
-        let (length, source) = match source(&section, streams)? {
-            (None, source) => {
-                streams += 1;
-                found.sources.push((usize::MAX, source));
-                continue;
-            }
-            (Some(length), source) => (length, source),
+        let Some((length, points)) = points(&section)? else {
+            let random = section.table("random", "{ distribution = \"..\", .. }")?;
+            let random = random.ok_or_else(|| section.missing("one of `values`, `grid` and `random`"))?;
+            found.sources.push(Source::Random { stream: streams, law: law(&random)? });
+            streams += 1;
+            continue;
         };
         let name = section.optional("together").map(|entry| entry.string().map(|name| (entry, name))).transpose()?;
         let group = name.as_ref().and_then(|(_, name)| groups.iter().find(|group| group.0 == *name));
@@ -218,13 +217,13 @@ fn parameters(
                 found.lengths.push(length);
             }
         }
-        found.sources.push((axis, source));
+        found.sources.push(Source::Axis(axis, points));
     }
     random_axis(document, streams > 0, &mut found)?;
     Ok(found)
 }
 
-/// The axis of the random parameters, the last one, and their seed.
+/// The axis of the random draws, the last one, and their seed.
 fn random_axis(document: &Section<'_>, is_random: bool, found: &mut Parameters) -> Result<(), Fault> {
     for key in ["seed", "draws"] {
         if let Some(entry) = document.optional(key).filter(|_| !is_random) {
@@ -235,9 +234,7 @@ fn random_axis(document: &Section<'_>, is_random: bool, found: &mut Parameters) 
         let draws = document.required("draws", "number of random draws for each point of the grids and lists")?;
         let seed = document.required("seed", "a whole number, the seed of the random draws")?;
         found.seed = seed.whole_number(0, i64::MAX as usize)? as u64;
-        let axis = found.lengths.len();
         found.lengths.push(draws.whole_number(1, MOST_SCENES as usize)? as u64);
-        found.sources.iter_mut().filter(|source| source.0 == usize::MAX).for_each(|source| source.0 = axis);
     }
     Ok(())
 }
@@ -256,33 +253,28 @@ fn parameter_key(entry: &Entry<'_>, known: &[String], taken: &[String]) -> Resul
     Err(entry.refuse_because(&format!("must be a number of the scene file, one of {}.{guess}", listed(&known))))
 }
 
-/// The source of the numbers and their count; `None` if they are drawn at random.
-fn source(section: &Section<'_>, stream: u64) -> Result<(Option<u64>, Source), Fault> {
+/// The numbers of a list or a grid, and their count; `None` if there is neither.
+fn points(section: &Section<'_>) -> Result<Option<(u64, Points)>, Fault> {
     const LISTS: &str = "a list of at least one number";
     if let Some(entry) = section.optional("values") {
         let values = entry.list(LISTS)?.iter().map(Entry::number).collect::<Result<Vec<_>, _>>()?;
         if values.is_empty() {
             return Err(entry.refuse(LISTS));
         }
-        return Ok((Some(values.len() as u64), Source::Values(values)));
+        return Ok(Some((values.len() as u64, Points::Values(values))));
     }
-    if let Some(grid) = section.table("grid", "{ from = .., to = .., points = .. }")? {
-        return self::grid(&grid).map(|(points, source)| (Some(points), source));
-    }
-    match section.table("random", "{ distribution = \"..\", .. }")? {
-        Some(random) => Ok((None, Source::Random { stream, law: law(&random)? })),
-        None => Err(section.missing("one of `values`, `grid` and `random`")),
-    }
+    let grid = section.table("grid", "{ from = .., to = .., points = .. }")?;
+    grid.map(|grid| self::grid(&grid)).transpose()
 }
 
-fn grid(section: &Section<'_>) -> Result<(u64, Source), Fault> {
+fn grid(section: &Section<'_>) -> Result<(u64, Points), Fault> {
     section.only("from to points scale")?;
     let points = section.required("points", "number of points, both ends included")?;
     let points = points.whole_number(2, MOST_SCENES as usize)? as u64;
     let scale = section.optional("scale").map_or(Ok("linear"), |entry| entry.word(&["linear", "log"]))?;
     let logarithmic = scale == "log";
     let (from, to) = ends(section, logarithmic)?;
-    Ok((points, Source::Grid { from, to, logarithmic }))
+    Ok((points, Points::Grid { from, to, logarithmic }))
 }
 
 fn law(section: &Section<'_>) -> Result<Law, Fault> {

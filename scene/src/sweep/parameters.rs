@@ -10,16 +10,17 @@ use rand_distr::{Distribution, Normal, StandardUniform};
 pub(super) struct Parameters {
     /// Dotted keys in the scene, in the order of the sweep file.
     pub(super) keys: Vec<String>,
-    /// The axis and the numbers of each key.
-    pub(super) sources: Vec<(usize, Source)>,
+    /// Where the numbers of each key come from.
+    pub(super) sources: Vec<Source>,
     /// Number of points of each axis.
     pub(super) lengths: Vec<u64>,
     /// Key of the random numbers.
     pub(super) seed: u64,
 }
 
+/// Numbers of a list or of a grid.
 #[derive(Debug)]
-pub(super) enum Source {
+pub(super) enum Points {
     Values(Vec<f64>),
     /// Between two ends, both included.
     Grid {
@@ -28,6 +29,12 @@ pub(super) enum Source {
         /// Whether the ratios of neighbours are equal, rather than their differences.
         logarithmic: bool,
     },
+}
+
+#[derive(Debug)]
+pub(super) enum Source {
+    /// The points of an axis.
+    Axis(usize, Points),
     /// Drawn independently for each scene.
     Random {
         /// Stream of random numbers, separate for each such parameter.
@@ -67,9 +74,9 @@ impl Parameters {
         for (point, &length) in points.iter_mut().zip(&self.lengths).rev() {
             (rest, *point) = (rest / length, rest % length);
         }
-        let number = |(axis, source): &(usize, Source)| match source {
-            Source::Values(values) => values[points[*axis] as usize],
-            Source::Grid { from, to, logarithmic } => {
+        let number = |source: &Source| match source {
+            Source::Axis(axis, Points::Values(values)) => values[points[*axis] as usize],
+            Source::Axis(axis, Points::Grid { from, to, logarithmic }) => {
                 grid_point(*from, *to, *logarithmic, points[*axis], self.lengths[*axis] - 1)
             }
             Source::Random { stream, law } => law.draw(self.seed, *stream, scene),
@@ -124,16 +131,16 @@ impl Law {
 mod tests {
     use super::*;
 
-    fn parameters(sources: Vec<(usize, Source)>, lengths: Vec<u64>) -> Parameters {
+    fn parameters(sources: Vec<Source>, lengths: Vec<u64>) -> Parameters {
         let keys = (0..sources.len()).map(|i| i.to_string()).collect();
         Parameters { keys, sources, lengths, seed: 7 }
     }
 
     #[test]
     fn the_last_axis_is_the_fastest_and_zipped_parameters_go_together() {
-        let values = |values: &[f64]| Source::Values(values.to_vec());
-        let grid = Source::Grid { from: 1.0, to: 100.0, logarithmic: true };
-        let all = parameters(vec![(0, values(&[1.0, 2.0])), (1, grid), (0, values(&[-1.0, -2.0]))], vec![2, 3]);
+        let values = |values: &[f64]| Source::Axis(0, Points::Values(values.to_vec()));
+        let grid = Source::Axis(1, Points::Grid { from: 1.0, to: 100.0, logarithmic: true });
+        let all = parameters(vec![values(&[1.0, 2.0]), grid, values(&[-1.0, -2.0])], vec![2, 3]);
         assert_eq!(all.count(), Some(6));
         let rows: Vec<_> = (0..6).map(|k| all.of_scene(k)).collect();
         assert_eq!(rows[0], [1.0, 1.0, -1.0]);
@@ -153,7 +160,7 @@ mod tests {
             (1e160, 1e-160, 1.0),
             (f64::from_bits(1), 4.0, 2.0_f64.powi(-536)),
         ] {
-            let grid = parameters(vec![(0, Source::Grid { from, to, logarithmic: true })], vec![3]);
+            let grid = parameters(vec![Source::Axis(0, Points::Grid { from, to, logarithmic: true })], vec![3]);
             let points: Vec<_> = (0..3).flat_map(|k| grid.of_scene(k)).collect();
             assert_eq!([points[0], points[2]], [from, to]);
             assert!((points[1] / middle - 1.0).abs() < 1e-12, "{points:?}");

@@ -397,6 +397,20 @@ mod tests {
     }
 
     #[test]
+    fn a_table_is_recorded_as_complete_before_a_file_gets_its_name() {
+        let folder = tempfile::tempdir().expect("folder");
+        let folder = folder.path();
+        grow(folder, "text", 4).expect("a table");
+        let files = SpoolFiles::of(&folder.join("a.csv"));
+        assert_eq!(files.complete(&identity("text")), None);
+        let mut spool =
+            Spool::open(files.clone(), &identity("text"), [b"head\n", b"errors\n"], 0..40).expect("a table");
+        spool.name_errors(&folder.join("a.csv"), false).expect("a name");
+        assert_eq!(files.complete(&identity("text")), Some(1));
+        assert_eq!(fs::read(errors_beside(&folder.join("a.csv"))).expect("errors"), bytes(folder)[1]);
+    }
+
+    #[test]
     fn only_the_same_sweep_is_continued_and_by_one_process() {
         let folder = tempfile::tempdir().expect("a folder");
         let folder = folder.path();
