@@ -29,7 +29,7 @@ fn arguments(line: &str) -> Vec<&str> {
     quoted.flat_map(|(i, part)| if i % 2 == 1 { vec![part] } else { part.split_whitespace().collect() }).collect()
 }
 
-/// `NAME: TEXT` or `NAME of SOURCE: FROM -> TO; FROM -> TO`.
+/// `NAME: TEXT` or `NAME of SOURCE: FROM -> TO; FROM -> TO`. The source is a file of the session, a built-in scene or sweep, or a file of the repository.
 fn write_file(folder: &Folder, line: &str) {
     let (head, text) = line.split_once(':').unwrap_or((line, ""));
     let text = text.strip_prefix(' ').unwrap_or(text);
@@ -45,7 +45,8 @@ fn write_file(folder: &Folder, line: &str) {
     };
     let known = built_in(source).or(SWEEPS.iter().find(|sweep| sweep.name == source));
     let read = || fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(source)).expect(source);
-    let mut found = known.map_or_else(read, |file| file.toml.to_owned());
+    let of_session = folder.at(source).exists().then(|| folder.read(source));
+    let mut found = of_session.unwrap_or_else(|| known.map_or_else(read, |file| file.toml.to_owned()));
     for change in text.split("; ").filter(|change| !change.is_empty()) {
         let (from, to) = change.split_once(" ->").expect(change);
         let from = unescaped(from);
