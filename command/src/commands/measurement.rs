@@ -196,6 +196,9 @@ mod tests {
             let fisher = Fisher { unknowns: vec![Wobble], covariance: dmatrix![sigma * sigma], ..fisher.clone() };
             assert_eq!(uncertainties(&fisher, |_| (1.0, String::new()))[0][1][1], digits, "{sigma:e}");
         }
+        // A value of exactly one, and a sigma of 3e-11.
+        let one = Fisher { unknowns: vec![Wobble], covariance: dmatrix![0.75e-11 * 0.75e-11], ..fisher.clone() };
+        assert_eq!(uncertainties(&one, |_| (4.0, String::new()))[0][1][1], "1.000000000000");
         assert_eq!(uncertainties(&fisher, |_| (1.0, String::new()))[0][1][2..4], ["2.00e-15", ""]);
         // Names are aligned left, numbers right.
         let page = readable(&short);

@@ -215,6 +215,20 @@ mod tests {
         assert!(pulsed > 100, "{pulsed}");
     }
 
+    /// Also at times at which the rate is negative.
+    #[test]
+    fn the_scale_of_a_rate_is_its_largest_size() {
+        let [example, ..] = paper_examples();
+        let motion = Start::of(&example).unwrap().motion(30.0).unwrap();
+        let rate = |t: f64| motion.state(t).unwrap().rates(&spheroid()).unwrap().beta;
+        let times: Vec<f64> = (1..=300).map(|k| 0.1 * f64::from(k)).filter(|t| rate(*t) < 0.0).collect();
+        let largest = times.iter().map(|t| -rate(*t)).fold(0.0, f64::max);
+        let table = Table { rows: times.iter().map(|t| vec![*t]).collect() };
+        let (_, scales) = angles(&example, &table).unwrap();
+        // Two motions, each to its tolerance.
+        assert!(largest > 1e-3 && (scales.beta_rate / largest - 1.0).abs() < 1e-8, "{scales:?} {largest}");
+    }
+
     #[test]
     fn a_mean_is_over_time_and_not_over_rows() {
         // At uneven times, 1 + 2 t has the mean of its ends.

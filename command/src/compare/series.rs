@@ -90,6 +90,8 @@ mod tests {
             recompute::train(&start, &table).unwrap().0.periods().map(|found| vec![found.time, found.value]).collect();
         let verdicts = |rows: &[Vec<f64>]| {
             let files = by_stamps(known, &Table { rows: rows.to_vec() }, &example).unwrap();
+            let largest_at = files.iter().flat_map(|file| &file.columns).map(|column| column.time).collect::<Vec<_>>();
+            assert!(largest_at.iter().all(|time| rows.iter().any(|row| row[0] == *time)), "{largest_at:?}");
             files.iter().map(|file| file.columns.iter().map(|column| column.verdict).collect()).collect::<Vec<Vec<_>>>()
         };
         use Verdict::{Agrees, Differs, NotJudged};
