@@ -383,7 +383,11 @@ fn bad_sweeps_are_refused_before_anything_is_written() {
     let files = refused_files("bad-sweeps");
     for (file, expected) in &files {
         let folder = Folder::new();
-        is_refused(&folder.run(&["sweep", file, "--out", "table.csv"]), expected);
+        let refused = folder.run(&["sweep", file, "--out", "table.csv"]);
+        is_refused(&refused, expected);
+        // The message begins with the path of the sweep, or of a scene beside it.
+        let beside = Path::new(file).parent().expect("a folder").display().to_string();
+        assert!(stderr(&refused).starts_with(&format!("error: {beside}/")), "{}", stderr(&refused));
         assert!(folder.names().is_empty(), "{file}");
     }
     assert!(files.len() >= 70, "only {} bad sweeps found", files.len());

@@ -139,14 +139,14 @@ mod tests {
     #[test]
     fn the_last_axis_is_the_fastest_and_zipped_parameters_go_together() {
         let values = |values: &[f64]| Source::Axis(0, Points::Values(values.to_vec()));
-        let grid = Source::Axis(1, Points::Grid { from: 1.0, to: 100.0, logarithmic: true });
-        let all = parameters(vec![values(&[1.0, 2.0]), grid, values(&[-1.0, -2.0])], vec![2, 3]);
-        assert_eq!(all.count(), Some(6));
-        let rows: Vec<_> = (0..6).map(|k| all.of_scene(k)).collect();
+        let grid = Source::Axis(1, Points::Grid { from: 1.0, to: 1000.0, logarithmic: true });
+        let all = parameters(vec![values(&[1.0, 2.0]), grid, values(&[-1.0, -2.0])], vec![2, 4]);
+        assert_eq!(all.count(), Some(8));
+        let rows: Vec<_> = (0..8).map(|k| all.of_scene(k)).collect();
         assert_eq!(rows[0], [1.0, 1.0, -1.0]);
-        assert!((rows[1][1] - 10.0).abs() < 1e-14);
-        assert_eq!(rows[2], [1.0, 100.0, -1.0]);
-        assert_eq!(rows[5], [2.0, 100.0, -2.0]);
+        assert!((rows[1][1] - 10.0).abs() < 1e-14 && (rows[2][1] - 100.0).abs() < 1e-13, "{rows:?}");
+        assert_eq!(rows[3], [1.0, 1000.0, -1.0]);
+        assert_eq!(rows[7], [2.0, 1000.0, -2.0]);
         assert_eq!(parameters(vec![], vec![u64::MAX, 2]).count(), None);
     }
 
