@@ -331,21 +331,19 @@ mod tests {
         assert!(both[1].starts_with("4 of 9 epochs have no pulse"), "{both:?}");
     }
 
-    /// Decimal days and steps, of which a whole number fits into the span; and the span shorter by a thousandth of a step.
+    /// Dates and steps in thousandths of a day, of which a whole number fits into the span; and a span that is a tenth of a second shorter.
     #[test]
     fn a_whole_number_of_decimal_steps_is_counted() {
-        for (step, every) in [("0.1", 0.1), ("0.7", 0.7), ("0.003", 0.003), ("1e-8", 1e-8), ("3.3", 3.3)] {
-            for first in 0..200 {
-                let from = Epoch::new(55_000, f64::from(first) / 200.0).unwrap();
-                for number in [1, 2, 3, 7, 49, 1000, 12_345, 400_003] {
-                    let to = |part: f64| {
-                        let days = f64::from(number) * part * every;
-                        let at = from.after([days * DAY, 0.0]).unwrap();
-                        at.seconds_since(&from)[0] / DAY
-                    };
-                    assert_eq!(intervals(to(1.0), every), f64::from(number), "{step} from {first}/200");
-                    let short = 1.0 - 1e-3 / f64::from(number);
-                    assert_eq!(intervals(to(short), every), f64::from(number - 1), "{step} from {first}/200");
+        let date = |thousandths: u32| {
+            Epoch::new(50_000 + i64::from(thousandths / 1000), f64::from(thousandths % 1000) / 1000.0).unwrap()
+        };
+        for step in [1, 3, 7, 100, 700, 3300] {
+            let every = f64::from(step) / 1000.0;
+            for first in [0, 1, 399, 999] {
+                for number in (1..100_000).step_by(37) {
+                    let [seconds, _] = date(first + number * step).seconds_since(&date(first));
+                    assert_eq!(intervals(seconds / DAY, every), f64::from(number), "{every} from {first}");
+                    assert_eq!(intervals((seconds - 0.1) / DAY, every), f64::from(number - 1), "{every} from {first}");
                 }
             }
         }

@@ -133,5 +133,8 @@ mod tests {
         let shortest = [1, 3, 4].map(|k| ours[k].value).into_iter().fold(f64::INFINITY, f64::min);
         let lacking = format!("3 of ours are not in the file, the shortest {shortest:.3} t_c long");
         assert!(notes(&rows).contains(&lacking), "{lacking}: {:?}", notes(&rows));
+        let lacking = format!("1 of ours is not in the file, the shortest {:.3} t_c long", ours[1].value);
+        let found = notes(&[0, 2].map(|k| [ours[k].time, ours[k].value]));
+        assert!(found.contains(&lacking), "{lacking}: {found:?}");
     }
 }

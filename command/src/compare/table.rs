@@ -80,7 +80,7 @@ pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, 
             return fault(line, end, format!("{why}; found {} of {width} numbers", row.len()));
         }
         let time = row[0];
-        let start = words(content).next().map_or(1, |word| column_of(word, content));
+        let start = column_of(words(content).next().expect("a row of numbers"), content);
         if !(0.0..=LATEST_TIME).contains(&time) {
             return fault(line, start, format!("time {time:?}: must be from 0 to {LATEST_TIME} t_c"));
         }

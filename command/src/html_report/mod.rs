@@ -242,15 +242,31 @@ pub(crate) mod tests {
             }
         }
         assert!(named > 20, "{named}");
-        // Checks named in the text are links, and so are discrepancies.
+        // Names of checks, of golden tables and of discrepancies are links in a text.
         let text = part(page, "discrepancies", "</section>");
-        let linked = content.results.iter().filter(|(check, _)| {
-            let name = format!("<code>{}</code>", check.id);
-            text.contains(&format!("<a href=\"#{}\">{name}</a>", cross_reference::check(check.id)))
+        let in_text = |name: &str, id: String| text.contains(&format!("<a href=\"#{id}\"><code>{name}</code></a>"));
+        let checks = content.results.iter().filter(|(check, _)| in_text(check.id, cross_reference::check(check.id)));
+        let tables = content.golden.iter().filter(|table| in_text(table.name, cross_reference::golden(table.name)));
+        assert!(checks.count() > 50 && tables.count() > 2);
+        let (mut remarks, source) = (0, include_str!("../../data/equations.tex"));
+        for line in source.lines().filter_map(|line| line.strip_prefix("% (")) {
+            let (equation, rest) = line.split_once(')').expect("a number");
+            let Some((_, rest)) = rest.split_once("(discrepancy ") else { continue };
+            let (number, _) = rest.split_once(')').expect("a number");
+            let article = part(page, &cross_reference::equation(equation.parse().expect("a number")), "</article>");
+            let link = format!("(<a href=\"#discrepancy-{number}\">discrepancy {number}</a>)");
+            assert!(article.contains(&link), "({equation}) {link}");
+            remarks += 1;
+        }
+        assert!(remarks > 5, "{remarks}");
+        // The golden table of a figure links to it.
+        let drawn = content.figures.iter().filter(|figure| {
+            let table = cross_reference::golden(&format!("figure_{}", figure.name.replace('-', "_")));
+            page.contains(&format!(" id=\"{table}\""))
+                && part(page, &table, "</article>")
+                    .contains(&format!("href=\"#{}\"", cross_reference::figure(&figure.name)))
         });
-        assert!(linked.count() > 50);
-        let to_discrepancies = values(page, "href").into_iter().filter(|link| link.starts_with("#discrepancy-"));
-        assert!(to_discrepancies.count() > 5);
+        assert!(drawn.count() > 3);
         // Captions name equations too.
         let equation = part(page, "eq-57", "</article>");
         assert!(equation.contains("href=\"#figure-pulse-series\""), "{equation}");
