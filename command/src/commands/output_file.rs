@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_is_removed_for_nothing_only_with_leave() {
+    fn an_older_file_is_removed_only_if_it_may_be_replaced() {
         for replace in [false, true] {
             let folder = tempfile::tempdir().expect("folder");
             let path = folder.path().join("table.csv");

@@ -107,7 +107,7 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
     }
     left_out(epochs.len(), timing.pulses.len(), timing.dark).iter().for_each(|why| note(why));
     let distances = epochs.iter().map(|at| at.seconds_since(&pulsar.epoch)[0].abs());
-    let farthest = distances.max_by(f64::total_cmp).expect("at least two epochs");
+    let farthest = distances.max_by(f64::total_cmp).expect("an epoch: the fit needs two pulses");
     note(&format!(
         "estimated error of the residuals: {:.1e} s; an arrival time is rounded to 1e-16 d, 8.6e-12 s",
         pulsar.residual_error(farthest)

@@ -215,7 +215,7 @@ mod tests {
         assert!(pulsed > 100, "{pulsed}");
     }
 
-    /// Also at times at which the rate is negative.
+    /// At times at which the rate is negative.
     #[test]
     fn the_scale_of_a_rate_is_its_largest_size() {
         let [example, ..] = paper_examples();

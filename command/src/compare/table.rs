@@ -93,7 +93,7 @@ pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, 
         return Err(format!("{file}: is empty"));
     }
     if rows.len() < rows_wanted {
-        let end = text.lines().last().unwrap_or("").chars().count() + 1;
+        let end = text.lines().last().expect("there are rows").chars().count() + 1;
         let message = format!("the file is incomplete; expected {rows_wanted} rows, found {}", rows.len());
         return fault(last_line, end, message);
     }

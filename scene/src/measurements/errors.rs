@@ -54,7 +54,7 @@ mod tests {
     use crate::measurements::Measurement;
     use crate::scene_file::Scene;
 
-    /// A thousand million standard deviations of `beta` are some thousand turns, and an angle to Z is at most half a turn.
+    /// Draws some 1e4 rad wide: an angle to Z is at most half a turn.
     #[test]
     fn a_start_that_is_never_allowed_is_refused() {
         let measurement = Measurement::new(Scene::named("tp-2").unwrap(), "arrivals:1e-6", Some("beta")).unwrap();

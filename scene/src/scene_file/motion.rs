@@ -315,7 +315,7 @@ fn from_angles(section: &Section<'_>, star: &Star) -> Result<Initial, Fault> {
 }
 
 /// The direction perpendicular to a unit vector `l` at an azimuth about it, counted from the direction nearest to X (to Y if `l`
-/// is along X).
+/// is within 0.14 rad of X).
 pub(super) fn outwards(l: &Vector3<f64>, azimuth: f64) -> Vector3<f64> {
     let nearest = if l.x.abs() > 0.99 { Vector3::y() } else { Vector3::x() };
     let x = (nearest - l * l.dot(&nearest)).normalize();
@@ -323,7 +323,7 @@ pub(super) fn outwards(l: &Vector3<f64>, azimuth: f64) -> Vector3<f64> {
 }
 
 /// The state from the wobble angle. With `l` along `L` (along `-L` for a negative spin), `x` the direction perpendicular to it nearest to X (to Y if
-/// `l` is along X) and `phi` the azimuth, `n = l cos theta + (x cos phi + l x x sin phi) sin theta`. The projection of the magnetic axis (of `e_x`
+/// `l` is within 0.14 rad of X) and `phi` the azimuth, `n = l cos theta + (x cos phi + l x x sin phi) sin theta`. The projection of the magnetic axis (of `e_x`
 /// without a pulsar) onto the plane normal to `n` is rotated backwards about `n` by the phase, starting from the projection of `l`.
 fn from_wobble(section: &Section<'_>, star: &Star, beam: Option<&Pulsar>) -> Result<Initial, Fault> {
     let wobble = section.required("wobble", "angle of the symmetry axis to L [rad]")?;
@@ -433,7 +433,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn azimuths_are_counted_from_the_direction_nearest_to_x() {
+    fn azimuths_are_counted_from_the_direction_nearest_to_x_or_to_y() {
         let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];
         for (l, first) in [(x, y), (-x, y), (y, x), (-y, x), (z, x)] {
             assert_eq!(outwards(&l, 0.0), first, "{l}");

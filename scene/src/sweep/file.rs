@@ -195,7 +195,7 @@ fn parameters(
             return Err(parameter.refuse_because("the scene gives it in degrees; write a number there, in rad"));
         }
         found.keys.push(parameter_key(&parameter, known, &found.keys)?);
-        let Some((length, points)) = points(&section)? else {
+        let Some((length, points)) = listed_points(&section)? else {
             let random = section.table("random", "{ distribution = \"..\", .. }")?;
             let random = random.ok_or_else(|| section.missing("one of `values`, `grid` and `random`"))?;
             found.sources.push(Source::Random { stream: streams, law: law(&random)? });
@@ -254,7 +254,7 @@ fn parameter_key(entry: &Entry<'_>, known: &[String], taken: &[String]) -> Resul
 }
 
 /// The numbers of a list or a grid, and their count; `None` if there is neither.
-fn points(section: &Section<'_>) -> Result<Option<(u64, Points)>, Fault> {
+fn listed_points(section: &Section<'_>) -> Result<Option<(u64, Points)>, Fault> {
     const LISTS: &str = "a list of at least one number";
     if let Some(entry) = section.optional("values") {
         let values = entry.list(LISTS)?.iter().map(Entry::number).collect::<Result<Vec<_>, _>>()?;

@@ -405,9 +405,12 @@ mod tests {
         assert_eq!(files.complete(&identity("text")), None);
         let mut spool =
             Spool::open(files.clone(), &identity("text"), [b"head\n", b"errors\n"], 0..40).expect("a table");
-        spool.name_errors(&folder.join("a.csv"), false).expect("a name");
+        let (out, errors) = (folder.join("a.csv"), errors_beside(&folder.join("a.csv")));
+        fs::write(&errors, "theirs").expect("a file");
+        assert!(spool.name_errors(&out, false).is_err());
         assert_eq!(files.complete(&identity("text")), Some(1));
-        assert_eq!(fs::read(errors_beside(&folder.join("a.csv"))).expect("errors"), bytes(folder)[1]);
+        spool.name_errors(&out, true).expect("a name");
+        assert_eq!(fs::read(errors).expect("errors"), bytes(folder)[1]);
     }
 
     #[test]

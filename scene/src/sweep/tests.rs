@@ -112,8 +112,21 @@ fn what_goes_through_every_turn_has_a_longest_span() {
     assert_eq!(far("columns = ['e_z']"), None);
 }
 
+/// The largest number is 1.797e308: 64 deviations of 2.79e306 are below it, and of 2.82e306 above.
 #[test]
-fn a_part_with_half_a_last_row_is_not_merged() {
+fn a_normal_law_has_as_wide_a_range_as_its_draws() {
+    let with = |deviation: &str| {
+        refusal(&format!(
+            "seed = 1\ndraws = 2\n[[vary]]\nparameter = 'star.spin'\n\
+             random = {{ distribution = 'normal', mean = 0.0, deviation = {deviation} }}\n[time]\nend = 1.0\n"
+        ))
+    };
+    assert_eq!(with("2.79e306"), None);
+    assert!(with("2.82e306").is_some_and(|why| why.contains("so small that every draw is finite")));
+}
+
+#[test]
+fn a_part_with_another_first_or_last_row_is_not_merged() {
     let lines = format!("{VARIED}[time]\ntimes = [3.0]\n");
     let text = text(&lines);
     let sweep = Sweep::new(&text).expect("a sweep");
@@ -132,6 +145,14 @@ fn a_part_with_half_a_last_row_is_not_merged() {
     }
     let why = merged(&[&whole[..], b"\n"].concat()).unwrap_err();
     assert_eq!(why, "part has a line that is not a row where scene 9 is expected");
+    // Of other numbers only those of the first and the last row are noticed.
+    for row in 0..9 {
+        let mut lines: Vec<_> = whole.split_inclusive(|byte| *byte == b'\n').map(<[u8]>::to_vec).collect();
+        let line = &mut lines[row + 1];
+        let end = line.len() - 1;
+        line.splice(end..end, *b"1");
+        assert_eq!(merged(&lines.concat()).is_ok(), row != 0 && row != 8, "{row}");
+    }
 }
 
 /// The first scene that is not written is reported each time that it changes, and the table is that of a single thread.

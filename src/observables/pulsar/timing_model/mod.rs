@@ -340,7 +340,7 @@ mod tests {
         assert!((model.phase_rate([1e8, 0.0]).unwrap() / rate - 1.0).abs() > 1e-3);
     }
 
-    /// The rotation has 32 digits, however much it slows down. What remains has those of the time as one double.
+    /// The rotation has 32 digits, however much it slows down. The rest has only the digits of the time as one double.
     #[test]
     fn rounding_of_the_phase_is_that_of_the_geometry() {
         let (t, rounding) = (4e8, |model: &TimingModel, t| model.rounding_at([t, 0.0]).unwrap());
