@@ -192,7 +192,8 @@ pub fn main() -> ExitCode {
 /// The file named by `--out` if another argument is the same file: an output, even with `--force`, must not replace an input.
 fn out_that_is_read(arguments: impl Iterator<Item = OsString>) -> Option<PathBuf> {
     let (mut out, mut others, mut is_next) = (None, Vec::new(), false);
-    for argument in arguments.skip(1) {
+    // After the names of the program and of the command.
+    for argument in arguments.skip(2) {
         let text = argument.to_string_lossy().into_owned();
         match text.strip_prefix("--out=") {
             Some(path) => out = Some(PathBuf::from(path)),
