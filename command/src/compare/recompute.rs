@@ -167,9 +167,10 @@ pub(super) fn train(start: &Start, table: &Table) -> Result<(PulseTrain, f64), E
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::TAU;
+    use std::f64::consts::{PI, TAU};
 
     use twofold::dynamics::BodyState;
+    use twofold::solutions::perturbation::Constants;
 
     use super::*;
     use twofold_verify::paper_examples::paper_examples;
@@ -215,6 +216,37 @@ mod tests {
         assert!(pulsed > 100, "{pulsed}");
     }
 
+    #[test]
+    fn a_caption_has_three_decimals_of_the_start() {
+        for example in paper_examples() {
+            let [exact, caption] = [Start::of(&example).unwrap(), Start::of_caption(&example).unwrap()];
+            for (exact, caption) in [
+                (exact.angles.beta, caption.angles.beta),
+                (exact.rates.alpha, caption.rates.alpha),
+                (exact.rates.beta, caption.rates.beta),
+            ] {
+                assert!((exact - caption).abs() < 5.001e-4, "{}: {exact} {caption}", example.name);
+                assert!((1e3 * caption - (1e3 * caption).round()).abs() < 1e-9, "{}: {caption}", example.name);
+            }
+        }
+    }
+
+    /// South of the equator, and with an angle of the other sign.
+    #[test]
+    fn scales_do_not_depend_on_signs() {
+        let [example, ..] = paper_examples();
+        let table = Table { rows: (1..=30).map(|k| vec![f64::from(k)]).collect() };
+        let of = |alpha_0: f64, beta_0: f64| {
+            let constants = Constants { alpha_0, beta_0, ..example.constants };
+            angles(&PaperExample { constants, ..example }, &table).unwrap().1
+        };
+        let Constants { alpha_0, beta_0, .. } = example.constants;
+        let north = of(alpha_0, beta_0);
+        assert!(alpha_0 > 0.1 && north.cos_beta > 0.1 && of(alpha_0, PI - beta_0).cos_beta > 0.1);
+        let [more, less] = [north.phase, of(-alpha_0, beta_0).phase];
+        assert!((more / less - 1.0).abs() < 1e-12, "{more} {less}");
+    }
+
     /// At times at which the rate is negative.
     #[test]
     fn the_scale_of_a_rate_is_its_largest_size() {
@@ -234,6 +266,7 @@ mod tests {
         // At uneven times, 1 + 2 t has the mean of its ends.
         let series = [0.5, 1.0, 4.0].map(|t| (t, 1.0 + 2.0 * t));
         assert_eq!(mean_in_time(&series), 5.5);
+        assert_eq!(mean_in_time(&[(0.5, 7.0), (1.0, 9.0)]), 8.0);
         assert_eq!(mean_in_time(&[(3.0, 7.0)]), 7.0);
         assert!(mean_in_time(&[]).is_nan());
     }
