@@ -298,6 +298,18 @@ mod tests {
         }
     }
 
+    /// The error in the refusal is that at the start; the error of the phases grows with time.
+    #[test]
+    fn a_strong_torque_on_a_bulge_is_refused_with_the_error_at_the_start() {
+        let problem = problem([0.02, 0.01, -0.03]).with_bulge(0.2).unwrap();
+        let averaged = PhasedMotion::averaged(&problem).unwrap();
+        assert!(averaged.truncation(1.0) > 1.01 * averaged.truncation(0.0));
+        match PhasedMotion::exact(&problem, 1.0) {
+            Err(Error::Domain { value, .. }) => assert_eq!(value, averaged.truncation(0.0)),
+            other => panic!("{other:?}"),
+        }
+    }
+
     /// Without a torus and without an averaged motion the reason is that of the torus.
     #[test]
     fn the_torus_says_why_there_is_no_motion() {

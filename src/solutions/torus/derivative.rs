@@ -158,6 +158,7 @@ pub(crate) fn error_of_derivatives(solution: &TorusSolution, problem: &Problem<f
 
 #[cfg(test)]
 mod tests {
+    use approx::assert_relative_eq;
     use rand::rngs::ChaCha8Rng;
     use rand::{RngExt, SeedableRng};
 
@@ -224,6 +225,20 @@ mod tests {
             let found = TorusDerivative::new(&solution, &problem.map(Dual64::from_re)).map(|_| ());
             let Err(Error::Unsupported { why, .. }) = found else { panic!("{found:?}") };
             assert!(why.contains("too thin") && solution.width < 1e-8, "{beta}: {why}, {:e}", solution.width);
+        }
+    }
+
+    /// With `n` at a small angle to `L` the width of the torus is in proportion to the angle, here 0.0267 of it.
+    #[test]
+    fn a_torus_wider_than_the_thinnest_has_derivatives() {
+        for (width, is_there) in [(5e-6, true), (1.1e-8, true), (0.9e-8, false)] {
+            let angle: f64 = width / 0.0267;
+            let axis = Vector3::new(angle.sin(), 0.0, angle.cos());
+            let start = BodyState { axis, momentum: Vector3::z() * 1.7, equatorial_axis: Vector3::y() };
+            let problem = Problem::new(STAR, tensor([0.02, 0.01, -0.03]), start).unwrap();
+            let solution = TorusSolution::new(&problem, 1e-14, 10.0).unwrap();
+            assert_relative_eq!(solution.width, width, max_relative = 1e-2);
+            assert_eq!(error_of_derivatives(&solution, &problem).is_ok(), is_there, "{width:e}");
         }
     }
 
