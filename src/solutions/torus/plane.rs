@@ -1,6 +1,6 @@
 //! States in a principal plane, or with `n` on a principal axis, with given integrals.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix2, Vector2, Vector3};
 
 use super::polynomial::roots_and_touches;
 use crate::dynamics::first_integrals::FirstIntegrals;
@@ -21,6 +21,12 @@ const NEAREST: f64 = 1e-6;
 /// another candidate.
 const FARTHEST: f64 = 1e-3;
 
+/// Newton's method starts at a candidate and this far from it on both sides, since it has no step at an extremum of `K`.
+const ASIDE: f64 = 1e-5;
+
+/// Most steps of Newton's method: at a double root each halves the distance, of 1e-5, until rounding ends it at about 1e-8, after ten.
+const STEPS: usize = 20;
+
 /// The required integrals of a state.
 pub(super) struct Wanted {
     constant_c: f64,
@@ -34,7 +40,8 @@ pub(super) struct Wanted {
     size: f64,
 }
 
-/// `n` and `L` in a principal plane: `n = (cos b, sin b)`, `L = p n + u (-sin b, cos b)` in the axes `axes`.
+/// `n` and `L` in a principal plane: `n = (cos b, sin b)`, `L = p n + u (-sin b, cos b)` in the axes `axes`. The states with the integrals are the
+/// points `(b, u)` at which both equations below hold.
 pub(super) struct Plane {
     axes: [usize; 2],
     along: f64,
@@ -44,17 +51,12 @@ pub(super) struct Plane {
     square: [f64; 2],
     /// `K - K_0 = q(x) - 2 half p u sin 2b`.
     q: [f64; 3],
-    /// Upper limit on `L.L` and on the terms of which it is computed.
-    size: f64,
+    /// Rounding of both equations: of `L.L` and of `K`.
+    rounding: Vector2<f64>,
 }
 
 impl Plane {
-    /// Rounding of `u^2`, the difference of `L.L` and `p^2`.
-    fn rounding(&self) -> f64 {
-        ROUNDING * self.size
-    }
-
-    /// `u^2`; where it is below zero by more than its rounding, there is no state of this energy.
+    /// `L.L - p^2`, which is `u^2`; where it is below zero by more than its rounding, there is no state of this energy.
     fn square_across(&self, b: f64) -> f64 {
         self.square[0] + self.square[1] * (2.0 * b).cos() - self.along * self.along
     }
@@ -63,21 +65,36 @@ impl Plane {
         self.square_across(b).max(0.0).sqrt()
     }
 
-    /// `K - K_0`.
-    fn miss(&self, b: f64) -> f64 {
-        let ((y, x), u) = ((2.0 * b).sin_cos(), self.momentum_across(b));
-        (self.q[2] * x + self.q[1]) * x + self.q[0] - 2.0 * self.half * self.along * u * y
+    /// `u^2 - (L.L - p^2)`, if it is more than rounding, and `K - K_0`. Without a torque worth mentioning `L.L` hardly depends on `b`, and its rounding
+    /// would decide on `b`.
+    fn misses(&self, b: f64, u: f64) -> Vector2<f64> {
+        let (y, x) = (2.0 * b).sin_cos();
+        let third = (self.q[2] * x + self.q[1]) * x + self.q[0] - 2.0 * self.half * self.along * u * y;
+        let square = u * u - self.square_across(b);
+        Vector2::new(if square.abs() <= self.rounding.x { 0.0 } else { square }, third)
     }
 
-    /// `dK / db`.
+    /// Derivatives of [`misses`](Self::misses) with respect to `b` and `u`.
+    fn slopes(&self, b: f64, u: f64) -> Matrix2<f64> {
+        let (y, x) = (2.0 * b).sin_cos();
+        let pull = 2.0 * self.half * self.along;
+        let by_b = -2.0 * (y * (2.0 * self.q[2] * x + self.q[1]) + pull * u * x);
+        Matrix2::new(2.0 * self.square[1] * y, 2.0 * u, by_b, -pull * y)
+    }
+
+    /// `dK / db` at this energy.
     pub(super) fn slope(&self, b: f64) -> f64 {
-        let ((y, x), u) = ((2.0 * b).sin_cos(), self.momentum_across(b));
-        let turn = 2.0 * u * x - self.square[1] * y * y / u;
-        -2.0 * y * (2.0 * self.q[2] * x + self.q[1]) - 2.0 * self.half * self.along * turn
+        let u = self.momentum_across(b);
+        -self.slopes(b, u).determinant() / (2.0 * u)
     }
 
+    /// The state at a point with this energy.
     pub(super) fn state(&self, b: f64) -> BodyState<f64> {
-        let ([i, j], p, u) = (self.axes, self.along, self.momentum_across(b));
+        self.state_at([b, self.momentum_across(b)])
+    }
+
+    fn state_at(&self, [b, u]: [f64; 2]) -> BodyState<f64> {
+        let ([i, j], p) = (self.axes, self.along);
         let (sin, cos) = b.sin_cos();
         let (mut axis, mut momentum, mut equatorial_axis) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
         (axis[i], axis[j]) = (cos, sin);
@@ -86,33 +103,36 @@ impl Plane {
         BodyState { axis, momentum, equatorial_axis }
     }
 
-    /// `b` after Newton steps, as long as each removes at least half of the remainder of `K - K_0`: at a double root it removes
-    /// three quarters.
-    fn corrected(&self, start: f64) -> f64 {
-        let mut b = start;
-        loop {
-            let next = b - self.miss(b) / self.slope(b);
-            // NaN on the edge, where the slope has a pole.
-            let helps = self.miss(next).abs() < 0.5 * self.miss(b).abs()
-                && (next - start).abs() < FARTHEST
-                && self.square_across(next) >= -2.0 * self.rounding();
-            if !helps {
-                return b;
-            }
-            b = next;
-        }
+    /// The larger miss of both equations, in units of its rounding.
+    fn remainder(&self, [b, u]: [f64; 2]) -> f64 {
+        self.misses(b, u).component_div(&self.rounding).amax()
     }
 
-    /// Tolerance for `K` of the state at the angle `b`: the rounding of its terms, and that of `u`.
-    fn tolerance(&self, s: &Vector3<f64>, b: f64) -> f64 {
-        let rounding = self.rounding();
-        let of_u = rounding.sqrt().min(rounding / (2.0 * self.momentum_across(b)));
-        TOLERANCE * self.size * s.amax() + 4.0 * (self.half * self.along).abs() * of_u
+    /// The best point of Newton's method, from the point of this energy at the angle `start`. In `b` and `u` there is no pole where `L` is along `n`,
+    /// as there is in `b` alone; but both equations together need not get better with every step.
+    fn corrected(&self, start: f64) -> [f64; 2] {
+        let mut point = [start, self.momentum_across(start)];
+        let (mut best, mut least) = (point, f64::INFINITY);
+        for _ in 0..STEPS {
+            let remainder = self.remainder(point);
+            if remainder < least {
+                (best, least) = (point, remainder);
+            } else if least <= 1.0 {
+                break;
+            }
+            let [b, u] = point;
+            let Some(step) = self.slopes(b, u).lu().solve(&self.misses(b, u)) else { break };
+            point = [b - step.x, u - step.y];
+            if !((point[0] - start).abs() < FARTHEST) {
+                break;
+            }
+        }
+        best
     }
 
     /// `x` between -1 and 1 where `u^2 >= 0` to its rounding: the rounded energy of a motion may be slightly too small for any state.
     fn range(&self) -> Option<(f64, f64)> {
-        let ([m0, m1], square) = (self.square, self.along * self.along - self.rounding());
+        let ([m0, m1], square) = (self.square, self.along * self.along - self.rounding.x);
         let (mut low, mut high) = (-1.0_f64, 1.0_f64);
         if m1 == 0.0 {
             return (m0 >= square).then_some((low, high));
@@ -128,15 +148,12 @@ impl Plane {
 
     /// Angles at which `K = K_0` or at which the curve may touch it.
     fn candidates(&self) -> Vec<f64> {
-        let Some((low, high)) = self.range().filter(|_| self.half != 0.0) else { return Vec::new() };
+        let Some(range) = self.range() else { return Vec::new() };
         let ([q0, q1, q2], [m0, m1]) = (self.q, self.square);
         let f = 4.0 * self.half * self.half * self.along * self.along;
-        if f == 0.0 {
-            return roots_and_touches(&self.q, low, high);
-        }
         let (r0, r1) = (f * (m0 - self.along * self.along), f * m1);
         let quartic = [q0 * q0 - r0, 2.0 * q0 * q1 - r1, q1 * q1 + 2.0 * q0 * q2 + r0, 2.0 * q1 * q2 + r1, q2 * q2];
-        roots_and_touches(&quartic, low, high)
+        roots_and_touches(&quartic, range)
     }
 }
 
@@ -177,8 +194,13 @@ impl Wanted {
             middle * m1 + half * (2.0 * along * along - m0) + normal_pull * half,
             -half * m1,
         ];
-        let size = self.size + 2.0 * c.abs() * inertia * s.amax();
-        Plane { axes, along, half, square, q, size }
+        Plane { axes, along, half, square, q, rounding: self.rounding(s) }
+    }
+
+    /// Rounding of `L.L` and of `K`, from an upper limit on `L.L` and on the terms of which it is computed.
+    fn rounding(&self, s: &Vector3<f64>) -> Vector2<f64> {
+        let size = self.size + 2.0 * self.constant_c.abs() * self.inertia * s.amax();
+        Vector2::new(ROUNDING, TOLERANCE * s.amax()) * size
     }
 
     /// Range of the angle `b` in which `K` has an extremum in a plane: about the angle at which `L` is along the second axis, as far as the torque
@@ -194,26 +216,33 @@ impl Wanted {
     pub(super) fn in_plane(&self, s: &Vector3<f64>, normal: usize) -> Vec<BodyState<f64>> {
         let plane = self.plane(s, [(normal + 1) % 3, (normal + 2) % 3]);
         let mut states: Vec<BodyState<f64>> = Vec::new();
-        for x in plane.candidates() {
-            for side in [1.0, -1.0] {
-                let b = plane.corrected(0.5 * x.acos() * side);
-                let state = plane.state(b);
-                if plane.miss(b).abs() <= plane.tolerance(s, b) && !states.iter().any(|other| is_image(other, &state)) {
-                    states.push(state);
-                }
+        let angles = plane.candidates().into_iter().flat_map(|x| [0.5, -0.5].map(|side| side * x.acos()));
+        for start in angles.flat_map(|b| [b, b + ASIDE, b - ASIDE]) {
+            let point = plane.corrected(start);
+            let state = plane.state_at(point);
+            if plane.remainder(point) <= 1.0 && !states.iter().any(|other| is_image(other, &state)) {
+                states.push(state);
             }
         }
         states
     }
 
-    /// The state with `n` on the axis `on`, up to half turns about the axes.
+    /// The state with `n` on the axis `on`, up to half turns about the axes. If the other two eigenvalues are so close that `K` does not tell the
+    /// direction of `L`, one of those that `K` allows.
     pub(super) fn on_axis(&self, s: &Vector3<f64>, on: usize) -> Option<BodyState<f64>> {
         let (i, j) = ((on + 1) % 3, (on + 2) % 3);
         let Self { constant_c: c, inertia, hamiltonian, along: p, third, .. } = *self;
+        let rounding = self.rounding(s);
         let across = 2.0 * inertia * (hamiltonian - c * s[on]) - p * p;
+        if across < -rounding.x {
+            return None;
+        }
+        let across = across.max(0.0);
         let pulled = third - s[on] * p * p + 2.0 * c * inertia * s[i] * s[j];
-        let squares = [(pulled - s[j] * across) / (s[i] - s[j]), (pulled - s[i] * across) / (s[j] - s[i])];
-        if !(squares[0] >= 0.0 && squares[1] >= 0.0) {
+        // The sum of both squares is L.L - p^2. Not a number for equal eigenvalues, and zero then.
+        let square = ((pulled - s[j] * across) / (s[i] - s[j])).max(0.0).min(across);
+        let squares = [square, across - square];
+        if (s[i] * squares[0] + s[j] * squares[1] - pulled).abs() > rounding.y {
             return None;
         }
         let (mut axis, mut momentum, mut equatorial_axis) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
@@ -252,7 +281,7 @@ pub(super) mod tests {
     #[test]
     fn the_range_is_where_the_momentum_is_real() {
         let range = |along: f64, square: [f64; 2]| {
-            Plane { axes: [0, 1], along, half: 0.1, square, q: [0.0; 3], size: 0.0 }.range()
+            Plane { axes: [0, 1], along, half: 0.1, square, q: [0.0; 3], rounding: Vector2::zeros() }.range()
         };
         assert_eq!(range(2.0, [9.0, 0.0]), Some((-1.0, 1.0)));
         assert_eq!(range(3.0, [9.0, 0.0]), Some((-1.0, 1.0)));
@@ -265,7 +294,8 @@ pub(super) mod tests {
         assert_eq!(range(2.0, [9.0, -1.0]), Some((-1.0, 1.0)));
         assert_eq!(range(2.0, [2.5, 1.0]), None);
         assert_eq!(range(2.0, [2.5, -1.0]), None);
-        let square = Plane { axes: [0, 1], along: 2.0, half: 0.1, square: [3.5, 1.0], q: [0.0; 3], size: 0.0 };
+        let square =
+            Plane { axes: [0, 1], along: 2.0, half: 0.1, square: [3.5, 1.0], q: [0.0; 3], rounding: Vector2::zeros() };
         assert_eq!(square.momentum_across(1.2), 0.0);
     }
 
@@ -289,9 +319,9 @@ pub(super) mod tests {
                     let plane = wanted.plane(&s, [0, 1]);
                     let pull = 2.0 * body.constant_c.abs() * body.inertia_xx * s.amax();
                     let expected = (2.0 * body.inertia_xx * integrals.energy.abs() + pull) * s.amax();
-                    let found = plane.tolerance(&s, b);
-                    assert_relative_eq!(found, TOLERANCE * expected, max_relative = 1e-12);
-                    assert!(plane.miss(b).abs() < found);
+                    assert_relative_eq!(plane.rounding.y, TOLERANCE * expected, max_relative = 1e-12);
+                    assert_relative_eq!(plane.rounding.x, ROUNDING * expected / s.amax(), max_relative = 1e-12);
+                    assert!(plane.remainder([b, across]) < 1.0);
                 }
             }
         }
@@ -304,17 +334,19 @@ pub(super) mod tests {
         let integrals = first_integrals(&body, &S.tensor(), &state);
         let plane = Wanted::new(&body, &integrals).unwrap().plane(&Vector3::new(S.xx, S.yy, S.zz), [0, 1]);
         for off in [5e-4, -5e-4, 1e-7] {
-            assert_relative_eq!(plane.corrected(0.3 + off), 0.3, max_relative = 1e-13);
+            let [b, u] = plane.corrected(0.3 + off);
+            assert_relative_eq!(b, 0.3, max_relative = 1e-13);
+            assert_relative_eq!(u, 1.7, max_relative = 1e-13);
         }
         for off in [0.02, -0.02] {
-            assert_eq!(plane.corrected(0.3 + off), 0.3 + off);
+            assert_eq!(plane.corrected(0.3 + off)[0], 0.3 + off);
         }
         // With L.n at the rounding of zero, Newton steps do not reduce the remainder, and end at once.
         for along in [1e-13, 1e-18, 1e-300] {
             let integrals = FirstIntegrals { energy: 1.183_538_461_538_461_4, spin: along / 1.5, clebsch: -0.098_128 };
             let plane = Wanted::new(&body, &integrals).unwrap().plane(&Vector3::new(S.xx, S.yy, S.zz), [2, 0]);
             for start in [0.0, 1e-9, -1e-9, 1e-8] {
-                assert!((plane.corrected(start) - start).abs() < FARTHEST);
+                assert!((plane.corrected(start)[0] - start).abs() < FARTHEST);
             }
         }
     }
@@ -360,7 +392,14 @@ pub(super) mod tests {
     /// With `L.n` exactly zero the equation is quadratic, and its roots are candidates without correction.
     #[test]
     fn roots_of_the_quadratic_on_one_side_are_both_found() {
-        let plane = Plane { axes: [0, 1], along: 0.0, half: 0.3, square: [4.0, 0.1], q: [0.18, -0.9, 1.0], size: 0.0 };
+        let plane = Plane {
+            axes: [0, 1],
+            along: 0.0,
+            half: 0.3,
+            square: [4.0, 0.1],
+            q: [0.18, -0.9, 1.0],
+            rounding: Vector2::zeros(),
+        };
         let candidates = plane.candidates();
         for root in [0.3, 0.6] {
             assert!(candidates.iter().any(|x| (x - root).abs() < 1e-14), "{candidates:?}");
@@ -380,17 +419,17 @@ pub(super) mod tests {
             let wanted = |third: f64| Wanted::new(&BODY, &FirstIntegrals { clebsch: third, ..integrals }).unwrap();
             // The largest K of the plane, on a fine grid and then by bisection of its slope.
             let here = wanted(0.0).plane(&values, [0, 1]);
+            let third = |b: f64| here.misses(b, here.momentum_across(b)).y;
             let at = |k: i32| 1e-3 * f64::from(k);
             let real = |b: f64| here.square[0] + here.square[1] * (2.0 * b).cos() - along * along > 1e-6;
-            let best =
-                (1..3141).map(at).filter(|b| real(*b)).max_by(|a, b| here.miss(*a).total_cmp(&here.miss(*b))).unwrap();
+            let best = (1..3141).map(at).filter(|b| real(*b)).max_by(|a, b| third(*a).total_cmp(&third(*b))).unwrap();
             let (mut left, mut right) = (best - 1e-3, best + 1e-3);
             assert!(here.slope(left) * here.slope(right) < 0.0, "{strength} {along} {across}");
             for _ in 0..60 {
                 let middle = 0.5 * (left + right);
                 if (here.slope(middle) > 0.0) == (here.slope(left) > 0.0) { left = middle } else { right = middle }
             }
-            let top = here.miss(left);
+            let top = third(left);
             let pull = BODY.constant_c * BODY.inertia_xx * values.amax();
             let size = (2.0 * BODY.inertia_xx * integrals.energy).abs().max(pull) * values.amax();
             let found = |beyond: f64| {
