@@ -30,9 +30,10 @@ pub struct Sweep {
 
 impl Sweep {
     fn of_text(text: SweepText) -> PyResult<Self> {
-        let sweep = Checked::new(&text).map_err(raised)?;
-        let (scenes, header) = (sweep.scenes, sweep.header());
-        drop(sweep);
+        let (scenes, header) = {
+            let sweep = Checked::new(&text).map_err(raised)?;
+            (sweep.scenes, sweep.header())
+        };
         Ok(Self { text, scenes, header })
     }
 }
@@ -152,7 +153,7 @@ impl SweepFile {
         if named_before && !files.rows.exists() && out.exists() {
             // Only the removal of files was interrupted.
             files.remove().map_err(raised)?;
-            return Ok(Self { out, replaced: false, spool: None, scenes: scenes.end });
+            return Ok(Self { out, replaced: replace, spool: None, scenes: scenes.end });
         }
         // Whether errors come from an earlier attempt to name the table is checked when the table is named.
         for (path, replaced) in [(&out, replace), (&errors_beside(&out), replace || named_before)] {

@@ -112,7 +112,7 @@ class TestScene:
         assert np.ptp(series["m.n"] - total) < 10 * 1e-3 * table["amplitude"][0]
         with pytest.raises(twofold.Error, match="least = 1.1"):
             scene.lines("m.n", least=1.1)
-        assert len(scene.lines("m.n", least=1.0)) == 1
+        assert len(scene.lines("m.n", least=1.0)) == len(scene.lines("m.n", most=1)) == 1
         assert len(twofold.Scene("tp-2").lines("m.n")) == 50
         assert twofold.Scene("tp-2").lines("m.n", most=200)["amplitude"][-1] >= 1e-6 * twofold.Scene("tp-2").lines("m.n")["amplitude"][0]
 
@@ -807,6 +807,14 @@ class TestFits:
         assert limits["period"][0] == period
         with pytest.raises(twofold.Error, match="period"):
             twofold.wobble_limits(model, data, ["phase"], [-1.0])
+
+    def test_numbers_of_pulses_are_whole_doubles(self):
+        model, most = twofold.TimingModel(100.0), 2.0**53
+        times, _ = model.arrival([-most, most])
+        assert np.allclose(times, [-most / 100, most / 100], rtol=1e-15)
+        for number in (-most - 2, most + 2, 0.5, np.nan):
+            with pytest.raises(twofold.Error, match="a whole number, up to 2.53 in size"):
+                model.arrival(number)
 
     def test_the_posterior_of_a_wobble(self):
         found = twofold.wobble_posterior([1e6, 0.0], [0.0, 1e6], [-1e3, -2e3])
