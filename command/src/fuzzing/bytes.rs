@@ -3,7 +3,11 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Bytes read from the front; beyond their end there are zeros.
-pub(super) struct Bytes<'a>(&'a [u8]);
+pub(super) struct Bytes<'a> {
+    rest: &'a [u8],
+    /// Whether all numbers so far are finite, and neither so large nor so small that their powers overflow or vanish.
+    pub(super) moderate: bool,
+}
 
 /// Critical numbers of formulas: zeros, signs, ends of ranges, poles, NaN and infinities.
 const SPECIAL: [[f64; 8]; 4] = [
@@ -15,16 +19,16 @@ const SPECIAL: [[f64; 8]; 4] = [
 
 impl<'a> Bytes<'a> {
     pub(super) fn new(bytes: &'a [u8]) -> Self {
-        Self(bytes)
+        Self { rest: bytes, moderate: true }
     }
 
     pub(super) fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.rest.is_empty()
     }
 
     pub(super) fn byte(&mut self) -> u8 {
-        let (first, rest) = self.0.split_first().unwrap_or((&0, &[]));
-        self.0 = rest;
+        let (first, rest) = self.rest.split_first().unwrap_or((&0, &[]));
+        self.rest = rest;
         *first
     }
 
@@ -35,12 +39,14 @@ impl<'a> Bytes<'a> {
 
     /// A special number, a number with arbitrary bits, or one of ordinary size with its sign.
     pub(super) fn number(&mut self) -> f64 {
-        match self.byte() {
+        let number = match self.byte() {
             kind @ 0..64 => SPECIAL.as_flattened()[usize::from(kind) % 32],
             64..96 => f64::from_bits(u64::from_le_bytes(std::array::from_fn(|_| self.byte()))),
             96..128 => self.ordinary() * 10f64.powi(i32::from(self.byte() as i8)),
             _ => self.ordinary(),
-        }
+        };
+        self.moderate &= number == 0.0 || (1e-15..=1e15).contains(&number.abs());
+        number
     }
 
     /// A number from -4 to 4.

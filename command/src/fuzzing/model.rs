@@ -1,5 +1,6 @@
 //! The public functions of the model with numbers of every kind.
 
+use std::fmt::Debug;
 use std::hint::black_box;
 
 use nalgebra::{Matrix3, Vector3};
@@ -59,6 +60,7 @@ struct Case {
     tolerance: f64,
     beam: Beam<f64>,
     observer: Observer<f64>,
+    moderate: bool,
 }
 
 impl Case {
@@ -78,7 +80,14 @@ impl Case {
         let span = (next() * 10.0, next() * 10.0);
         let (beam, observer) = (Beam::new(next(), next(), next()), Observer::at(next(), next()));
         let exponent = f64::from(bytes.byte() % 20);
-        Self { body, s, tensor, angles, rates, state, span, tolerance: 10f64.powf(-exponent), beam, observer }
+        let (tolerance, moderate) = (10f64.powf(-exponent), bytes.moderate);
+        Self { body, s, tensor, angles, rates, state, span, tolerance, beam, observer, moderate }
+    }
+
+    /// See [`finite`].
+    #[track_caller]
+    fn finite<T: Debug>(&self, result: Result<T, twofold::Error>) {
+        finite(self.moderate, result);
     }
 
     fn problem(&self) -> Option<Problem<f64>> {
@@ -107,11 +116,21 @@ impl Case {
     }
 }
 
+/// Panics if a result for moderate numbers has one that is not finite.
+#[track_caller]
+fn finite<T: Debug>(moderate: bool, result: Result<T, twofold::Error>) {
+    if let (true, Ok(value)) = (moderate, black_box(result)) {
+        let text = format!("{value:?}");
+        let is_finite = |word: &str| !["inf", "NaN"].contains(&word);
+        assert!(text.split(|c: char| !c.is_alphanumeric()).all(is_finite), "a number is not finite: {text}");
+    }
+}
+
 fn is_little_or_refused(rotation: f64) -> bool {
     rotation.is_nan() || rotation <= LITTLE || rotation >= REFUSED
 }
 
-/// A case by the first byte, with numbers from the others. Each ends with a result or an error.
+/// A case by the first byte, with numbers from the others. Each ends with a result or an error, and results for moderate numbers are finite.
 pub fn model(bytes: &[u8]) {
     let mut bytes = Bytes::new(bytes);
     match bytes.byte() % 16 {
@@ -120,8 +139,8 @@ pub fn model(bytes: &[u8]) {
         2 => closed(&Case::new(&mut bytes)),
         3 => planned(&Case::new(&mut bytes), &mut bytes),
         4 => pulses(&Case::new(&mut bytes)),
-        5 => clock(&Case::new(&mut bytes), bytes.number()),
-        6 => solutions(&Case::new(&mut bytes), bytes.number()),
+        5 => clock(&Case::new(&mut bytes), &mut bytes),
+        6 => solutions(&Case::new(&mut bytes), &mut bytes),
         7 => torus(&Case::new(&mut bytes), &mut bytes),
         8 => stars(&mut bytes),
         9 => elliptic(&mut bytes),
@@ -135,26 +154,27 @@ pub fn model(bytes: &[u8]) {
 
 fn numerical(case: &Case) {
     let (Some(problem), Case { span, tolerance, .. }) = (case.problem(), case) else { return };
-    let _ = black_box(problem.taylor_forecast(span.1 - span.0, *tolerance));
+    case.finite(problem.taylor_forecast(span.1 - span.0, *tolerance));
     if !case.is_moderate() {
         return;
     }
     if let Ok(motion) = problem.taylor(*span, *tolerance) {
         look_within(&motion, case);
     }
-    let _ = black_box(problem.taylor_states(span.0, &case.times(), *tolerance));
+    case.finite(problem.taylor_states(span.0, &case.times(), *tolerance));
 }
 
 fn look_within<M: Motion<f64, State = BodyState<f64>>>(motion: &M, case: &Case) {
     for time in case.times() {
-        let _ = black_box((motion.state(time), motion.error_estimate(time)));
+        case.finite(motion.state(time));
+        let _ = black_box(motion.error_estimate(time));
     }
     let _ = black_box(motion.state(f64::NAN));
     if !case.is_moderate() {
         return;
     }
     if let Ok(mut angles) = ContinuousAngles::new(motion, case.span.0, &case.angles) {
-        let _ = black_box(angles.at(case.span.1));
+        case.finite(angles.at(case.span.1));
     }
 }
 
@@ -169,7 +189,8 @@ fn by_splitting(case: &Case, scheme: u8) {
     if forecast.map_or(true, |forecast| forecast.steps < MANY)
         && let Ok(motion) = reduced.splitting(*span, *tolerance)
     {
-        let _ = black_box((motion.state(span.1), motion.error_estimate(span.1)));
+        case.finite(motion.state(span.1));
+        let _ = black_box(motion.error_estimate(span.1));
     }
     let scheme = SCHEMES[usize::from(scheme) % SCHEMES.len()];
     let step = (span.1 - span.0).abs() / 50.0;
@@ -190,7 +211,7 @@ fn closed(case: &Case) {
         look_within(&motion, case);
     }
     if let Ok(solution) = AveragedSolution::new(&problem, AveragingOrder::First) {
-        let _ = black_box((solution.state(span.1), solution.error_estimate(span.1)));
+        case.finite(Ok((solution.state(span.1), solution.error_estimate(span.1))));
     }
 }
 
@@ -208,10 +229,12 @@ fn planned(case: &Case, bytes: &mut Bytes<'_>) {
         return;
     }
     if let Ok(motion) = plan.motion(&problem.reduced()) {
-        let _ = black_box((motion.state(span.1), motion.error_estimate(span.1)));
+        case.finite(motion.state(span.1));
+        let _ = black_box(motion.error_estimate(span.1));
     }
     if let Ok(motion) = plan.motion(&problem) {
-        let _ = black_box((motion.state(span.1), motion.error_estimate(span.1)));
+        case.finite(motion.state(span.1));
+        let _ = black_box(motion.error_estimate(span.1));
     }
 }
 
@@ -228,45 +251,49 @@ fn pulses(case: &Case) {
     }
 }
 
-fn clock(case: &Case, time: f64) {
+fn clock(case: &Case, bytes: &mut Bytes<'_>) {
+    let (time, moderate) = (bytes.number(), bytes.moderate);
     let (Some(problem), Case { beam, observer, .. }) = (case.problem(), case) else { return };
     if let Ok(clock) = PhasedMotion::averaged(&problem).and_then(|motion| PulsarClock::new(motion, beam, observer)) {
-        let _ = black_box((clock.period(), clock.truncation(time)));
+        case.finite(Ok(clock.period()));
+        let _ = black_box(clock.truncation(time));
         for time in [[0.0, 0.0], [time, 0.0], [time, time * 1e-17]] {
-            let _ = black_box(clock.pulse_near(time));
+            finite(moderate, clock.pulse_near(time));
         }
     }
 }
 
-fn solutions(case: &Case, time: f64) {
+fn solutions(case: &Case, bytes: &mut Bytes<'_>) {
+    let (time, moderate) = (bytes.number(), bytes.moderate);
     let Case { body, s, angles, rates, state, .. } = case;
     let spin = rates.gamma;
     let _ = black_box((free_precession_rates(body, spin, angles.beta), shifted_rates(body, s, spin, angles.beta)));
     let constants = Constants { alpha_0: angles.alpha, beta_0: angles.beta, amplitude: rates.alpha, phase: rates.beta };
     for kind in [Precession::Twofold, Precession::Single] {
-        let _ = black_box(steady_precession_rate(kind, body, s, spin, angles.beta));
+        finite(moderate, steady_precession_rate(kind, body, s, spin, angles.beta));
         for form in [Form::Printed, Form::Corrected] {
             if let Ok(solution) = Perturbation::new(form, kind, body, s, spin, &constants) {
-                let _ = black_box(solution.at(time));
-                let _ = black_box(constants_from_initial_values(form, kind, body, s, spin, &solution.at(0.0)));
+                finite(moderate, Ok(solution.at(time)));
+                finite(moderate, constants_from_initial_values(form, kind, body, s, spin, &solution.at(0.0)));
             }
         }
     }
     let symmetric = PrincipalCoefficients { yy: s.xx, ..*s };
     if let Ok(solution) = SymmetricSolution::new(body, &symmetric, angles, rates) {
-        let _ = black_box((solution.angles(time), solution.rates(time), solution.period(), solution.mean_rates()));
+        finite(moderate, Ok((solution.angles(time), solution.rates(time), solution.period(), solution.mean_rates())));
     }
-    let _ = black_box(slow_precession(body, s, &state.momentum, &state.axis));
-    let _ = black_box(middle_axis_growth(body, s, spin, angles.alpha, AveragingOrder::Second));
+    case.finite(slow_precession(body, s, &state.momentum, &state.axis));
+    case.finite(middle_axis_growth(body, s, spin, angles.alpha, AveragingOrder::Second));
 }
 
 fn torus(case: &Case, bytes: &mut Bytes<'_>) {
     let Case { body, s, state, .. } = case;
     let mut integrals = first_integrals(body, &s.tensor(), state);
-    let _ = black_box(states_with_integrals(body, s, &integrals));
+    case.finite(states_with_integrals(body, s, &integrals));
     integrals.energy = bytes.number();
-    let _ = black_box(states_with_integrals(body, s, &integrals));
-    let _ = black_box(separatrix_motion(body, s, bytes.number(), bytes.number()));
+    finite(bytes.moderate, states_with_integrals(body, s, &integrals));
+    let (energy, spin) = (bytes.number(), bytes.number());
+    finite(bytes.moderate, separatrix_motion(body, s, energy, spin));
 }
 
 fn stars(bytes: &mut Bytes<'_>) {
@@ -324,8 +351,8 @@ fn timing(bytes: &mut Bytes<'_>) {
         points.push((number, time));
         in_parts.push((number, [time, bytes.usual() * 1e-17]));
     }
-    let _ = black_box(ConstantPeriod::fit(&points, None));
-    let _ = black_box(SpinFit::new(&in_parts, derivatives));
+    finite(bytes.moderate, ConstantPeriod::fit(&points, None));
+    finite(bytes.moderate, SpinFit::new(&in_parts, derivatives));
 }
 
 fn many(bytes: &mut Bytes<'_>) {
@@ -342,14 +369,14 @@ fn many(bytes: &mut Bytes<'_>) {
 fn lines(case: &Case) {
     let Some(problem) = case.problem() else { return };
     if let Ok(motion) = QuasiPeriodicMotion::new(&problem) {
-        let _ = black_box(motion.lines(1e-3, |state| Ok::<_, twofold::Error>([state.equatorial_axis.x, 1.0])));
+        case.finite(motion.lines(1e-3, |state| Ok::<_, twofold::Error>([state.equatorial_axis.x, 1.0])));
     }
 }
 
 fn tensors(bytes: &mut Bytes<'_>) {
     let entries: [f64; 9] = std::array::from_fn(|_| bytes.number());
     let mut tensor = Matrix3::from_row_slice(&entries);
-    let _ = black_box(principal_frame(&tensor));
+    finite(bytes.moderate, principal_frame(&tensor));
     for (i, j) in [(0, 1), (0, 2), (1, 2)] {
         tensor[(j, i)] = tensor[(i, j)];
     }

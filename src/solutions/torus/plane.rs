@@ -123,7 +123,9 @@ impl Plane {
             let [b, u] = point;
             let Some(step) = self.slopes(b, u).lu().solve(&self.misses(b, u)) else { break };
             point = [b - step.x, u - step.y];
-            if !((point[0] - start).abs() < FARTHEST) {
+            // Not a number, too, ends it.
+            let is_near = (point[0] - start).abs() < FARTHEST;
+            if !is_near {
                 break;
             }
         }
@@ -430,14 +432,31 @@ pub(super) mod tests {
                 if (here.slope(middle) > 0.0) == (here.slope(left) > 0.0) { left = middle } else { right = middle }
             }
             let top = third(left);
-            let pull = BODY.constant_c * BODY.inertia_xx * values.amax();
-            let size = (2.0 * BODY.inertia_xx * integrals.energy).abs().max(pull) * values.amax();
             let found = |beyond: f64| {
-                let states = wanted(top + beyond * size).in_plane(&values, 2);
+                let states = wanted(top + beyond * here.rounding.y).in_plane(&values, 2);
                 // For images under half turns the angle differs by a half turn.
                 states.iter().any(|state| ((state.axis.y.atan2(state.axis.x) - left).sin()).abs() < 1e-4)
             };
-            assert!(found(-1e-10) && found(3e-14) && !found(1e-12), "{strength} {along} {across}");
+            assert!(found(-1e3) && found(0.9) && !found(1.1), "{strength} {along} {across}");
+        }
+    }
+
+    /// `n` on an axis and `L` along it: a state even if the energy is too small for one by its rounding, or `K` beside that of one.
+    #[test]
+    fn a_spin_along_an_axis_is_found_to_rounding() {
+        for strength in [1.0, 1e-3] {
+            let values = Vector3::new(S.xx, S.yy, S.zz) * strength;
+            let state = BodyState { axis: Vector3::z(), momentum: Vector3::z() * 1.7, equatorial_axis: Vector3::x() };
+            let integrals = first_integrals(&BODY, &Matrix3::from_diagonal(&values), &state);
+            let rounding = Wanted::new(&BODY, &integrals).unwrap().rounding(&values);
+            let found = |less: f64, beside: f64| {
+                let energy = integrals.energy - less * rounding.x / (2.0 * BODY.inertia_xx);
+                let clebsch = integrals.clebsch + beside * rounding.y;
+                let wanted = Wanted::new(&BODY, &FirstIntegrals { energy, clebsch, ..integrals }).unwrap();
+                wanted.on_axis(&values, 2).is_some()
+            };
+            assert!(found(0.0, 0.0) && found(0.8, 0.0) && found(0.0, 0.8) && found(0.0, -0.8));
+            assert!(!found(1.2, 0.0) && !found(0.0, 1.2) && !found(0.0, -1.2));
         }
     }
 }
