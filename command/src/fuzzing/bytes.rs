@@ -1,6 +1,8 @@
 //! Bytes read as a choice of cases and as numbers of every kind.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::fmt::Debug;
+use std::hint::black_box;
 
 /// Bytes read from the front; beyond their end there are zeros.
 pub(super) struct Bytes<'a> {
@@ -57,5 +59,15 @@ impl<'a> Bytes<'a> {
     /// A number as in scenes, mostly from -4 to 4.
     pub(super) fn usual(&mut self) -> f64 {
         if self.byte() < 32 { self.number() } else { self.ordinary() }
+    }
+}
+
+/// Panics if a result for moderate numbers has one that is not finite.
+#[track_caller]
+pub(super) fn finite<T: Debug>(moderate: bool, result: Result<T, twofold::Error>) {
+    if let (true, Ok(value)) = (moderate, black_box(result)) {
+        let text = format!("{value:?}");
+        let is_finite = |word: &str| !["inf", "NaN"].contains(&word);
+        assert!(text.split(|c: char| !c.is_alphanumeric()).all(is_finite), "a number is not finite: {text}");
     }
 }

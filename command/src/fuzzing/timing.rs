@@ -14,7 +14,7 @@ use twofold_scene::pulsar_timing::PulsarScene;
 use twofold_scene::read_table::{Values, columns_of};
 use twofold_scene::scene_file::{Scene, built_in};
 
-use super::bytes::Bytes;
+use super::bytes::{Bytes, finite};
 
 /// Largest number of fitted data, and the period of the wobble (s) whose limit is computed.
 const MOST_FITTED: usize = 40;
@@ -108,7 +108,7 @@ fn fitted(model: &TimingModel, data: &TimingData, unknowns: &[TimingParameter]) 
     }
 }
 
-/// A timing model and data with arbitrary numbers, as from Python: a result or an error, in bounded time.
+/// A timing model and data with arbitrary numbers, as from Python: a result or an error, in bounded time, and finite results for moderate numbers.
 pub fn timing_model(bytes: &[u8]) {
     let mut bytes = Bytes::new(bytes);
     let frequency = [bytes.number(), bytes.usual() * 1e-17];
@@ -130,13 +130,17 @@ pub fn timing_model(bytes: &[u8]) {
     let is_scaled = bytes.byte() < 192;
     let given: Vec<_> = given.into_iter().map(|one| if is_scaled { scaled(one) } else { one }).collect();
     let Ok(model) = TimingModel::new(frequency, &given) else { return };
-    let _ = black_box(model.moved(&[(TimingParameter::F0, bytes.number()), (TimingParameter::Chi, bytes.usual())]));
+    let changes = [(TimingParameter::F0, bytes.number()), (TimingParameter::Chi, bytes.usual())];
+    finite(bytes.moderate, model.moved(&changes));
     let long = |bytes: &mut Bytes<'_>| bytes.number() * 1e8;
     for _ in 0..4 {
         let time = [long(&mut bytes), bytes.usual() * 1e-9];
-        let _ = black_box((model.phase(time), model.phase_and_derivatives(time), model.width(time[0])));
-        let _ = black_box(model.arrival(bytes.number() as i64));
-        let _ = black_box(model.arrival((bytes.usual() * 1e12) as i64));
+        finite(bytes.moderate, model.phase(time));
+        finite(bytes.moderate, model.phase_and_derivatives(time));
+        finite(bytes.moderate, model.width(time[0]));
+        for number in [bytes.number(), bytes.usual() * 1e12] {
+            finite(bytes.moderate, model.arrival(number as i64));
+        }
     }
     let unknowns = chosen(bytes.below(1 << TimingParameter::ALL.len()));
     let rate = bytes.usual() * 1e-6;
