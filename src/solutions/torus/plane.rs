@@ -41,7 +41,7 @@ pub(super) struct Wanted {
 }
 
 /// `n` and `L` in a principal plane: `n = (cos b, sin b)`, `L = p n + u (-sin b, cos b)` in the axes `axes`. The states with the integrals are the
-/// points `(b, u)` at which both equations below hold.
+/// points `[b, u]` at which both equations below hold.
 pub(super) struct Plane {
     axes: [usize; 2],
     along: f64,
@@ -65,9 +65,9 @@ impl Plane {
         self.square_across(b).max(0.0).sqrt()
     }
 
-    /// `u^2 - (L.L - p^2)`, if it is more than rounding, and `K - K_0`. Without a torque worth mentioning `L.L` hardly depends on `b`, and its rounding
-    /// would decide on `b`.
-    fn misses(&self, b: f64, u: f64) -> Vector2<f64> {
+    /// `u^2 - (L.L - p^2)`, if it is more than rounding, and `K - K_0`. Under a weak torque `L.L` hardly depends on `b`, and correcting its rounding
+    /// would change `b` by a large angle.
+    fn misses(&self, [b, u]: [f64; 2]) -> Vector2<f64> {
         let (y, x) = (2.0 * b).sin_cos();
         let third = (self.q[2] * x + self.q[1]) * x + self.q[0] - 2.0 * self.half * self.along * u * y;
         let square = u * u - self.square_across(b);
@@ -75,7 +75,7 @@ impl Plane {
     }
 
     /// Derivatives of [`misses`](Self::misses) with respect to `b` and `u`.
-    fn slopes(&self, b: f64, u: f64) -> Matrix2<f64> {
+    fn slopes(&self, [b, u]: [f64; 2]) -> Matrix2<f64> {
         let (y, x) = (2.0 * b).sin_cos();
         let pull = 2.0 * self.half * self.along;
         let by_b = -2.0 * (y * (2.0 * self.q[2] * x + self.q[1]) + pull * u * x);
@@ -85,7 +85,7 @@ impl Plane {
     /// `dK / db` at this energy.
     pub(super) fn slope(&self, b: f64) -> f64 {
         let u = self.momentum_across(b);
-        -self.slopes(b, u).determinant() / (2.0 * u)
+        -self.slopes([b, u]).determinant() / (2.0 * u)
     }
 
     /// The state at a point with this energy.
@@ -104,8 +104,8 @@ impl Plane {
     }
 
     /// The larger miss of both equations, in units of its rounding.
-    fn remainder(&self, [b, u]: [f64; 2]) -> f64 {
-        self.misses(b, u).component_div(&self.rounding).amax()
+    fn remainder(&self, point: [f64; 2]) -> f64 {
+        self.misses(point).component_div(&self.rounding).amax()
     }
 
     /// The best point of Newton's method, from the point of this energy at the angle `start`. In `b` and `u` there is no pole where `L` is along `n`,
@@ -120,9 +120,8 @@ impl Plane {
             } else if least <= 1.0 {
                 break;
             }
-            let [b, u] = point;
-            let Some(step) = self.slopes(b, u).lu().solve(&self.misses(b, u)) else { break };
-            point = [b - step.x, u - step.y];
+            let Some(step) = self.slopes(point).lu().solve(&self.misses(point)) else { break };
+            point = [point[0] - step.x, point[1] - step.y];
             // Not a number, too, ends it.
             let is_near = (point[0] - start).abs() < FARTHEST;
             if !is_near {
@@ -421,7 +420,7 @@ pub(super) mod tests {
             let wanted = |third: f64| Wanted::new(&BODY, &FirstIntegrals { clebsch: third, ..integrals }).unwrap();
             // The largest K of the plane, on a fine grid and then by bisection of its slope.
             let here = wanted(0.0).plane(&values, [0, 1]);
-            let third = |b: f64| here.misses(b, here.momentum_across(b)).y;
+            let third = |b: f64| here.misses([b, here.momentum_across(b)]).y;
             let at = |k: i32| 1e-3 * f64::from(k);
             let real = |b: f64| here.square[0] + here.square[1] * (2.0 * b).cos() - along * along > 1e-6;
             let best = (1..3141).map(at).filter(|b| real(*b)).max_by(|a, b| third(*a).total_cmp(&third(*b))).unwrap();
