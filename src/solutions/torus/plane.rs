@@ -151,13 +151,13 @@ impl Plane {
         best
     }
 
-    /// Whether two points, up to half turns about the axes, are one to rounding: those between them have the integrals, too, if put back on the
+    /// Whether two points, up to half turns about the axes, are one to rounding: the point between them has the integrals, too, if put back on the
     /// curve of this energy.
     fn are_one(&self, one: Vector2<f64>, other: Vector2<f64>) -> bool {
         [other, -other].into_iter().any(|image| {
             let turn = PI * ((one.x - image.x) / PI).round();
-            let way = image + Vector2::new(turn, 0.0) - one;
-            [0.25, 0.5, 0.75].into_iter().all(|part| self.remainder(self.on_energy(one + way * part)) <= 1.0)
+            let between = (one + image + Vector2::new(turn, 0.0)) / 2.0;
+            self.remainder(self.on_energy(between)) <= 1.0
         })
     }
 
@@ -180,8 +180,8 @@ impl Plane {
     /// Angles at which `K = K_0` or at which the curve may touch it.
     fn candidates(&self) -> Vec<f64> {
         let Some(range) = self.range() else { return Vec::new() };
-        // In units of K, so that no power of it vanishes.
-        let unit = self.rounding.y / TOLERANCE;
+        // In units of the rounding of K, so that no power of it vanishes.
+        let unit = self.rounding.y;
         let ([q0, q1, q2], [m0, m1]) = (self.q.map(|q| q / unit), self.square);
         let f = (2.0 * self.half / unit * self.along).powi(2);
         let (r0, r1) = (f * (m0 - self.along * self.along), f * m1);
@@ -190,16 +190,13 @@ impl Plane {
     }
 }
 
-/// Whether two states with the same integrals, at least one of them in a principal plane, are identical or images under half turns about the
-/// principal axes. These change the signs of the components of both vectors, two at a time.
+/// Whether two states are identical or images under half turns about the principal axes, which change the signs of two components of both vectors.
 pub(super) fn is_image(one: &BodyState<f64>, other: &BodyState<f64>, unit: f64) -> bool {
-    let apart = |a: &Vector3<f64>, b: &Vector3<f64>| (a.abs() - b.abs()).norm();
-    // For n and L that cross in the plane, K has another value for (n_x, n_z) than for (n_x, -n_z) with the same L: the products
-    // distinguish them.
-    let turned = one.axis.component_mul(&one.momentum) - other.axis.component_mul(&other.momentum);
-    apart(&one.axis, &other.axis) < NEAREST
-        && apart(&one.momentum, &other.momentum) < NEAREST * unit
-        && turned.norm() < NEAREST * unit
+    [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]].into_iter().any(|signs| {
+        let apart =
+            |one: &Vector3<f64>, other: &Vector3<f64>| (other.component_mul(&Vector3::from(signs)) - one).norm();
+        apart(&one.axis, &other.axis) < NEAREST && apart(&one.momentum, &other.momentum) < NEAREST * unit
+    })
 }
 
 impl Wanted {
@@ -396,7 +393,8 @@ pub(super) mod tests {
 
     #[test]
     fn images_are_those_by_half_turns() {
-        let state = in_plane([0, 2], 0.7, 0.9, 1.7);
+        let mut state = in_plane([0, 2], 0.7, 0.9, 1.7);
+        (state.axis.y, state.momentum.y) = (0.3, -0.4);
         let size = state.momentum.norm();
         let turned = |state: &BodyState<f64>, signs: [f64; 3]| BodyState {
             axis: state.axis.component_mul(&Vector3::from(signs)),
@@ -412,7 +410,7 @@ pub(super) mod tests {
                 ..image
             };
             assert!(is_image(&moved(3e-7, 0.0), &state, size) && !is_image(&moved(3e-6, 0.0), &state, size));
-            // In units of |L| = 1.92.
+            // In units of |L| = 1.96.
             assert!(is_image(&moved(0.0, 1.7e-6), &state, size) && !is_image(&moved(0.0, 3e-6), &state, size));
             let aside = BodyState { momentum: image.momentum + Vector3::y() * 3e-6, ..image };
             assert!(!is_image(&aside, &state, size));
@@ -442,7 +440,7 @@ pub(super) mod tests {
             half: 0.3,
             square: [4.0, 0.1],
             q: [0.18, -0.9, 1.0],
-            rounding: Vector2::repeat(TOLERANCE),
+            rounding: Vector2::repeat(1e-13),
             unit: 1.0,
         };
         let candidates = plane.candidates();
@@ -481,6 +479,15 @@ pub(super) mod tests {
                 states.iter().any(|state| ((state.axis.y.atan2(state.axis.x) - left).sin()).abs() < 1e-4)
             };
             assert!(found(-1e3) && found(0.9) && !found(1.1), "{strength} {along} {across}");
+            // Below the extremum there are two points, which are one as long as K there is the same to rounding.
+            for (below, is_one) in [(0.9, true), (1.1, false)] {
+                let plane = wanted(top - below * here.rounding.y).plane(&values, [0, 1]);
+                let [one, other] = [left - 1e-5, left + 1e-5].map(|b| plane.corrected(b));
+                assert!(plane.remainder(one) < 0.5 && plane.remainder(other) < 0.5 && one.x < left && other.x > left);
+                for image in [other, -other, other + Vector2::new(PI, 0.0), -other - Vector2::new(PI, 0.0)] {
+                    assert_eq!(plane.are_one(one, image), is_one, "{strength} {along} {across} {below}");
+                }
+            }
         }
     }
 
