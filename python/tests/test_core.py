@@ -402,6 +402,12 @@ class TestInterrupts:
         motion = scene.motion(end=2e5)
         interrupted(lambda: motion.angles(np.linspace(0.0, 2e5, 8000)))
 
+    def test_costly_values_are_computed_one_by_one(self, scene):
+        """Turns are followed for longer from one to the next than what is computed between two looks at the clock."""
+        motion = scene.motion(end=9e4)
+        times = [3e4, 6e4, 9e4]
+        assert np.allclose(np.cos(motion.angles(times)[:, 1]), motion.axis(times)[:, 2], atol=1e-9)
+
     def test_signals_are_handled_in_tables_of_few_rows(self, interrupted):
         """Pulses of a beam that never meets the line of sight."""
         dark = twofold.Scene("tp-2", time={"span": 2e5}, pulsar={"rho": 1e-3}, output={"method": "taylor"})
