@@ -151,13 +151,13 @@ impl Plane {
         best
     }
 
-    /// Whether two points, up to half turns about the axes, are one to rounding: the point between them has the integrals, too, if put back on the
-    /// curve of this energy.
+    /// Whether two points, up to half turns about the axes, are one to rounding: a point between them has the integrals, too, if put back on the
+    /// curve of this energy. It is not that in the middle, which by symmetry may be a third state.
     fn are_one(&self, one: Vector2<f64>, other: Vector2<f64>) -> bool {
         [other, -other].into_iter().any(|image| {
             let turn = PI * ((one.x - image.x) / PI).round();
-            let between = (one + image + Vector2::new(turn, 0.0)) / 2.0;
-            self.remainder(self.on_energy(between)) <= 1.0
+            let way = image + Vector2::new(turn, 0.0) - one;
+            self.remainder(self.on_energy(one + way * 0.4)) <= 1.0
         })
     }
 
@@ -487,6 +487,27 @@ pub(super) mod tests {
                 for image in [other, -other, other + Vector2::new(PI, 0.0), -other - Vector2::new(PI, 0.0)] {
                     assert_eq!(plane.are_one(one, image), is_one, "{strength} {along} {across} {below}");
                 }
+            }
+        }
+    }
+
+    /// `K = K_0` at the angles 0, where it has an extremum, and 0.4 on both sides of it.
+    #[test]
+    fn states_on_both_sides_of_a_third_are_two() {
+        let plane = Plane {
+            axes: [0, 1],
+            along: 0.0,
+            half: 0.3,
+            square: [4.0, 0.1],
+            q: [0.8_f64.cos(), -1.0 - 0.8_f64.cos(), 1.0],
+            rounding: Vector2::repeat(1e-13),
+            unit: 2.0,
+        };
+        let points = [-0.4, 0.0, 0.4].map(|b| plane.at(b));
+        assert!(points.iter().all(|point| plane.remainder(*point) <= 1.0));
+        for (i, one) in points.iter().enumerate() {
+            for (j, other) in points.iter().enumerate() {
+                assert_eq!(plane.are_one(*one, *other), i == j, "{one} {other}");
             }
         }
     }
