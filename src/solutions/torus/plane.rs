@@ -302,6 +302,17 @@ pub(super) mod tests {
     pub(in crate::solutions::torus) const S: PrincipalCoefficients<f64> =
         PrincipalCoefficients { xx: 0.21, yy: -0.04, zz: 0.09 };
 
+    /// A plane for tests of some of its numbers.
+    const PLANE: Plane = Plane {
+        axes: [0, 1],
+        along: 0.0,
+        half: 0.3,
+        square: [4.0, 0.1],
+        q: [0.0; 3],
+        rounding: Vector2::new(1e-13, 1e-13),
+        unit: 2.0,
+    };
+
     /// The state in a plane with `n` at the angle `b`, and with the components `along` of `L` along `n` and `across` perpendicular to it.
     fn in_plane(axes: [usize; 2], b: f64, along: f64, across: f64) -> BodyState<f64> {
         let (mut axis, mut momentum, mut equatorial_axis) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
@@ -314,9 +325,8 @@ pub(super) mod tests {
 
     #[test]
     fn the_range_is_where_the_momentum_is_real() {
-        let range = |along: f64, square: [f64; 2]| {
-            Plane { axes: [0, 1], along, half: 0.1, square, q: [0.0; 3], rounding: Vector2::zeros(), unit: 1.0 }.range()
-        };
+        let exact = |along: f64, square: [f64; 2]| Plane { along, square, rounding: Vector2::zeros(), ..PLANE };
+        let range = |along: f64, square: [f64; 2]| exact(along, square).range();
         assert_eq!(range(2.0, [9.0, 0.0]), Some((-1.0, 1.0)));
         assert_eq!(range(3.0, [9.0, 0.0]), Some((-1.0, 1.0)));
         assert_eq!(range(3.1, [9.0, 0.0]), None);
@@ -328,16 +338,7 @@ pub(super) mod tests {
         assert_eq!(range(2.0, [9.0, -1.0]), Some((-1.0, 1.0)));
         assert_eq!(range(2.0, [2.5, 1.0]), None);
         assert_eq!(range(2.0, [2.5, -1.0]), None);
-        let square = Plane {
-            axes: [0, 1],
-            along: 2.0,
-            half: 0.1,
-            square: [3.5, 1.0],
-            q: [0.0; 3],
-            rounding: Vector2::zeros(),
-            unit: 1.0,
-        };
-        assert_eq!(square.at(1.2).y, 0.0);
+        assert_eq!(exact(2.0, [3.5, 1.0]).at(1.2).y, 0.0);
     }
 
     /// By the magnitudes of the terms of `K` for an `L` normal to `n`, for slow and fast rotation and eigenvalues of any size; in the last two cases
@@ -434,15 +435,7 @@ pub(super) mod tests {
     /// With `L.n` exactly zero the equation is quadratic, and its roots are candidates without correction.
     #[test]
     fn roots_of_the_quadratic_on_one_side_are_both_found() {
-        let plane = Plane {
-            axes: [0, 1],
-            along: 0.0,
-            half: 0.3,
-            square: [4.0, 0.1],
-            q: [0.18, -0.9, 1.0],
-            rounding: Vector2::repeat(1e-13),
-            unit: 1.0,
-        };
+        let plane = Plane { q: [0.18, -0.9, 1.0], ..PLANE };
         let candidates = plane.candidates();
         for root in [0.3, 0.6] {
             assert!(candidates.iter().any(|x| (x - root).abs() < 1e-14), "{candidates:?}");
@@ -494,15 +487,7 @@ pub(super) mod tests {
     /// `K = K_0` at the angles 0, where it has an extremum, and 0.4 on both sides of it.
     #[test]
     fn states_on_both_sides_of_a_third_are_two() {
-        let plane = Plane {
-            axes: [0, 1],
-            along: 0.0,
-            half: 0.3,
-            square: [4.0, 0.1],
-            q: [0.8_f64.cos(), -1.0 - 0.8_f64.cos(), 1.0],
-            rounding: Vector2::repeat(1e-13),
-            unit: 2.0,
-        };
+        let plane = Plane { q: [0.8_f64.cos(), -1.0 - 0.8_f64.cos(), 1.0], ..PLANE };
         let points = [-0.4, 0.0, 0.4].map(|b| plane.at(b));
         assert!(points.iter().all(|point| plane.remainder(*point) <= 1.0));
         for (i, one) in points.iter().enumerate() {
